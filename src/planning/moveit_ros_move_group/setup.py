@@ -1,5 +1,4 @@
-from setuptools import setup
 from catkin_pkg.python_setup import generate_distutils_setup
+from setuptools import setup
 
-setup(**generate_distutils_setup(
-    packages=["moveit_ros_move_group", "moveit_ros_move_group.capabilities"], package_dir={"": "src"}))
+setup(**generate_distutils_setup(packages=["moveit_ros_move_group", "moveit_ros_move_group.capabilities"], package_dir={"": "src"}))

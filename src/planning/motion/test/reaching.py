@@ -1,8 +1,8 @@
 """An arm in a scene, a request to it, and what is measured of the path of its tool."""
-import numpy as np
-import pytest
 
 import motion
+import numpy as np
+import pytest
 import robots
 
 HOME = [0.3, -1.2, 1.4, -0.9, 1.1, 0.5]

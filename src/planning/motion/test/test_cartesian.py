@@ -1,10 +1,9 @@
 """Straight lines of a link, the request adapters, industrial motions."""
-import numpy as np
-import pytest
 
 import motion
+import numpy as np
+import pytest
 import robots
-
 from reaching import HOME, model, moved, off_line, places, request, scene
 
 
@@ -61,8 +60,11 @@ def test_a_turn_in_place_is_made_in_steps(scene, angle):
     result = motion.cartesian_path(scene, "arm", [goal], max_step=0.01, avoid_collisions=False)
     assert result, result.message
     assert len(result.trajectory) == int(angle / 0.035) + 2
-    between = [a.interpolate(b, share) for a, b in zip(*[[result.trajectory.state(i) for i in range(k, len(result.trajectory) - 1 + k)]
-                                                         for k in (0, 1)]) for share in (0.25, 0.5, 0.75)]
+    between = [
+        a.interpolate(b, share)
+        for a, b in zip(*[[result.trajectory.state(i) for i in range(k, len(result.trajectory) - 1 + k)] for k in (0, 1)])
+        for share in (0.25, 0.5, 0.75)
+    ]
     assert max(np.linalg.norm(state.pose("tool").position - start.position) for state in between) < 1e-3
     alone = motion.cartesian_path(scene, "arm", [goal], max_step=0.01, avoid_collisions=False, position_only=True)
     assert len(alone.trajectory) == 2  # arms whose orientation is free have no turn to make
@@ -74,8 +76,11 @@ def test_a_turn_in_place_meets_what_is_in_its_way():
     scene = motion.PlanningScene(model)
     state = scene.state
     state.set_group("arm", HOME)
-    state.attach(motion.AttachedBody("stick", "tool", [motion.Box(0.4, 0.02, 0.02)], pose=((0.25, 0, 0.05), (0, 0, 0, 1)),
-                                     touch_links=["link_6", "link_5", "tool"]))
+    state.attach(
+        motion.AttachedBody(
+            "stick", "tool", [motion.Box(0.4, 0.02, 0.02)], pose=((0.25, 0, 0.05), (0, 0, 0, 1)), touch_links=["link_6", "link_5", "tool"]
+        )
+    )
     scene.set_state(state)
     tool = state.pose("tool")
     aside = tool * motion.Pose.from_rpy((0, 0, 0), (0, 0, 0.8)) * motion.Pose((0.4, 0, 0.05), (0, 0, 0, 1))
@@ -102,12 +107,15 @@ def test_a_line_ends_at_a_joints_limit_and_no_joint_spins_back(scene):
         steps = np.abs(np.diff(result.trajectory.positions, axis=0)).max()
         assert steps < 0.1
         wrist = result.trajectory.positions[-1][5]
-        assert (0.2 < result.fraction < 0.4 and "'wrist_3_joint'" in result.message and wrist > 6.2) or \
-            (result.fraction == 1.0 and wrist == pytest.approx(5.5, abs=1e-3))
-    lin = [motion.pilz_plan(scene, moved(scene, (0, 0, 0), "LIN", goals=[motion.pose_goal("tool", state.pose("tool") * way)]))
-           for way in (axis_turn, axis_turn.inverse())]
+        assert (0.2 < result.fraction < 0.4 and "'wrist_3_joint'" in result.message and wrist > 6.2) or (
+            result.fraction == 1.0 and wrist == pytest.approx(5.5, abs=1e-3)
+        )
+    lin = [
+        motion.pilz_plan(scene, moved(scene, (0, 0, 0), "LIN", goals=[motion.pose_goal("tool", state.pose("tool") * way)]))
+        for way in (axis_turn, axis_turn.inverse())
+    ]
     assert sorted(result.status for result in lin) == ["no_ik_solution", "solved"]
-    good, = (result for result in lin if result)
+    (good,) = (result for result in lin if result)
     assert np.abs(np.diff(good.trajectory.positions, axis=0)).max() < 0.5
 
 
@@ -119,8 +127,9 @@ def test_a_joint_without_a_limit_goes_on_past_half_a_turn():
     scene.set_state(state)
     goal = state.pose("tool") * motion.Pose.from_rpy((0, 0, 0), (0.6, 0, 0))
     line = motion.time_parameterize(model, motion.cartesian_path(scene, "arm", [goal], avoid_collisions=False).trajectory)
-    asked = motion.MotionRequest("arm", goals=[motion.pose_goal("tool", goal)], planner="LIN", velocity_scaling=0.1,
-                                 acceleration_scaling=0.1)
+    asked = motion.MotionRequest(
+        "arm", goals=[motion.pose_goal("tool", goal)], planner="LIN", velocity_scaling=0.1, acceleration_scaling=0.1
+    )
     for trajectory in (line, motion.pilz_plan(scene, asked).trajectory):
         assert trajectory.positions[-1][6] > 3.3  # a redundant arm does some of it with other joints
         assert np.abs(np.diff(trajectory.positions, axis=0)).max() < 0.2
@@ -149,6 +158,7 @@ def test_bad_cartesian_requests(scene, change, error):
 
 # ---------------------------------------------------------------- pipeline
 
+
 def test_pipeline_times_what_it_plans(scene):
     pipeline = motion.Pipeline()
     assert pipeline.warnings == []
@@ -172,9 +182,9 @@ def test_a_start_slightly_outside_is_brought_in(scene):
     state.set("wrist_1_joint", -2 * np.pi - 0.04)
     result = motion.Pipeline().generate(scene, request(scene, start=state))
     assert result and result.added_prefix == [0]
-    assert result.trajectory.positions[0][3] == pytest.approx(-2 * np.pi - 0.04) and result.trajectory.positions[1][
-        3
-    ] == pytest.approx(-2 * np.pi)
+    assert result.trajectory.positions[0][3] == pytest.approx(-2 * np.pi - 0.04) and result.trajectory.positions[1][3] == pytest.approx(
+        -2 * np.pi
+    )
     state.set("wrist_1_joint", -2 * np.pi - 0.2)
     assert motion.Pipeline().generate(scene, request(scene, start=state)).code == -26
 
@@ -193,7 +203,7 @@ def test_a_start_off_the_path_constraints_is_led_to_them(scene):
     keep = motion.Constraints(joint=[motion.JointConstraint("elbow_joint", 1.1, 0.2, 0.2)])
     result = motion.Pipeline().generate(scene, request(scene, path_constraints=keep))
     assert result and result.added_prefix
-    kept = result.trajectory.positions[len(result.added_prefix):, 2]
+    kept = result.trajectory.positions[len(result.added_prefix) :, 2]
     assert (np.abs(kept - 1.1) <= 0.2 + 1e-6).all()
 
 
@@ -206,6 +216,7 @@ def test_what_a_planner_gets_wrong_is_found_by_the_last_check(scene):
     def blind(scene, request, cancel):
         line = motion.Trajectory(scene.model, "arm", scene.state, np.linspace(HOME, goal, 30))
         return motion.PlanResult("solved", trajectory=line)
+
     result = motion.Pipeline().generate(scene, request(scene), planner=blind)
     assert not result and result.code == -2 and result.invalid and "'ball'" in result.message and result.contacts
 

@@ -1,8 +1,8 @@
 """Constraints on joints, positions, orientations and sight."""
-import numpy as np
-import pytest
 
 import motion
+import numpy as np
+import pytest
 import robots
 
 
@@ -25,7 +25,7 @@ def turned(scene, rpy):
 def test_joint(scene, value, satisfied):
     state = scene.state
     state.set("elbow_joint", value)
-    result, = motion.evaluate(scene, state, motion.Constraints(joint=[motion.JointConstraint("elbow_joint", 0.5, above=0.2, below=0.1)]))
+    (result,) = motion.evaluate(scene, state, motion.Constraints(joint=[motion.JointConstraint("elbow_joint", 0.5, above=0.2, below=0.1)]))
     assert result.satisfied is satisfied and result.distance == pytest.approx(abs(value - 0.5))
     assert ("'elbow_joint'" in result.description) is not satisfied
 
@@ -44,13 +44,14 @@ def test_position_of_a_point_of_the_link_in_a_moving_frame(scene):
     for region, inside in ((motion.Sphere(0.01), True), (motion.Box(0.02, 0.02, 0.02), True)):
         for shift, expected in ((0.0, inside), (0.02, False)):
             c = motion.PositionConstraint("tool", [(region, (point + (shift, 0, 0), (0, 0, 0, 1)))], offset=(0, 0, 0.1), frame="link_2")
-            result, = motion.evaluate(scene, state, motion.Constraints(position=[c]))
+            (result,) = motion.evaluate(scene, state, motion.Constraints(position=[c]))
             assert result.satisfied is expected and result.distance == pytest.approx(shift, abs=1e-9)
 
 
 @pytest.mark.parametrize("parameterization", ["euler", "rotation_vector"])
-@pytest.mark.parametrize("rpy, satisfied", [((0.09, 0, 0), True), ((0.11, 0, 0), False), ((0, 0.19, 0), True), ((0, 0.21, 0), False),
-                                            ((0, 0, 3.0), True)])
+@pytest.mark.parametrize(
+    "rpy, satisfied", [((0.09, 0, 0), True), ((0.11, 0, 0), False), ((0, 0.19, 0), True), ((0, 0.21, 0), False), ((0, 0, 3.0), True)]
+)
 def test_orientation_tolerances_per_axis(scene, parameterization, rpy, satisfied):
     start, state = turned(scene, rpy)
     c = motion.OrientationConstraint("tool", start.quaternion, (0.1, 0.2, 3.1), parameterization=parameterization)
@@ -67,7 +68,8 @@ def test_projection_reaches_tight_constraints_and_keeps_limits(scene):
     start, state = turned(scene, (0, 0, 0))
     constraints = motion.Constraints(
         orientation=[motion.OrientationConstraint("tool", start.quaternion, (0.02, 0.02, 3.2))],
-        position=[motion.PositionConstraint("tool", [(motion.Box(2, 2, 0.02), start)])])
+        position=[motion.PositionConstraint("tool", [(motion.Box(2, 2, 0.02), start)])],
+    )
     reached = 0
     for seed in range(50):
         state.randomize("arm", seed=seed)
@@ -83,7 +85,7 @@ def test_sight(scene):
     sensor = motion.Pose.from_rpy((-1, 0, 0.5), (0, np.pi / 2, 0))
     target = motion.Pose.from_rpy((1, 0, 0.5), (0, -np.pi / 2, 0))
     sight = motion.VisibilityConstraint(target, "base_link", 0.05, sensor, "base_link")
-    hidden, = motion.evaluate(scene, state, motion.Constraints(visibility=[sight]))
+    (hidden,) = motion.evaluate(scene, state, motion.Constraints(visibility=[sight]))
     assert not hidden and "between the sensor and the target" in hidden.description
     state.set_group("arm", [np.pi / 2, 0, 0, 0, 0, 0])
     assert motion.evaluate(scene, state, motion.Constraints(visibility=[sight]))[0]
@@ -107,11 +109,7 @@ def test_sight(scene):
             motion.UnknownNameError,
             "no frame 'moon'",
         ),
-        (
-            motion.Constraints(joint=[motion.JointConstraint("elbow_joint", float("nan"))]),
-            motion.InvalidInputError,
-            "must be finite",
-        ),
+        (motion.Constraints(joint=[motion.JointConstraint("elbow_joint", float("nan"))]), motion.InvalidInputError, "must be finite"),
     ],
 )
 def test_bad_constraints_are_named(scene, constraints, error, said):

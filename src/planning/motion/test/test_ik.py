@@ -1,8 +1,8 @@
 """Inverse kinematics on the published protocol: random reachable poses, 1e-5, 5 ms."""
-import numpy as np
-import pytest
 
 import motion
+import numpy as np
+import pytest
 import robots
 
 POSES = 2000
@@ -23,7 +23,7 @@ def test_random_poses_from_random_seeds(name):
         restarts.append(found.restarts)
         if not found:
             continue
-        solution, = found.solutions
+        (solution,) = found.solutions
         seed.set_group("arm", solution)
         reached = seed.pose("tool")
         error = np.linalg.norm(reached.position - goal.position) + np.linalg.norm((reached.inverse() * goal).rpy())
@@ -94,8 +94,10 @@ def test_several_tips_at_once():
                 f'<limit lower="{lower}" upper="{upper}" velocity="1" effort="1"/></joint>'
             )
             parent = f"{side}{i}"
-    urdf = ('<robot name="two"><link name="base"/><link name="torso"/><joint name="torso_joint" type="revolute"><parent link="base"/>'
-            '<child link="torso"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" velocity="1" effort="1"/></joint>' + body + "</robot>")
+    urdf = (
+        '<robot name="two"><link name="base"/><link name="torso"/><joint name="torso_joint" type="revolute"><parent link="base"/>'
+        '<child link="torso"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" velocity="1" effort="1"/></joint>' + body + "</robot>"
+    )
     srdf = (
         '<robot name="two"><group name="left"><chain base_link="torso" tip_link="l5"/></group>'
         '<group name="right"><chain base_link="torso" tip_link="r5"/></group>'
@@ -123,17 +125,25 @@ def test_links_bolted_to_the_tip_and_attached_bodies_can_be_asked_for():
     )
     state = model.state()
     state.set_group("arm", [0.3, -1.2, 1.4, -0.9, 1.1, 0.5])
-    state.attach(motion.AttachedBody("cup", "tool", [motion.Sphere(0.02)], pose=((0, 0, 0.2), (0, 0, 0, 1)),
-                                     subframes={"rim": ((0, 0, 0.03), (0, 0, 0, 1))}))
+    state.attach(
+        motion.AttachedBody(
+            "cup", "tool", [motion.Sphere(0.02)], pose=((0, 0, 0.2), (0, 0, 0, 1)), subframes={"rim": ((0, 0, 0.03), (0, 0, 0, 1))}
+        )
+    )
     for frame in ("pen", "cup", "cup/rim"):
         goal = state.pose(frame)
         found = motion.ik(model, "arm", goal, link=frame, seed=state, timeout=1.0, random_seed=1)
         np.testing.assert_allclose(found.solutions[0], state.get_group("arm"), atol=1e-9)
 
 
-@pytest.mark.parametrize("pose, said", [
-    (((0, 0, 0), (0, 0, 0, 0)), "quaternion of a pose is zero"), (((0, np.nan, 0), (0, 0, 0, 1)), "not finite"),
-    (((0, 0), (0, 0, 0, 1)), "3 numbers are needed")])
+@pytest.mark.parametrize(
+    "pose, said",
+    [
+        (((0, 0, 0), (0, 0, 0, 0)), "quaternion of a pose is zero"),
+        (((0, np.nan, 0), (0, 0, 0, 1)), "not finite"),
+        (((0, 0), (0, 0, 0, 1)), "3 numbers are needed"),
+    ],
+)
 def test_bad_poses_are_refused(pose, said):
     with pytest.raises(motion.InvalidInputError, match=said):
         motion.ik(motion.load_model(*robots.arm("ur5")), "arm", pose)

@@ -1,10 +1,10 @@
 """Robots of URDF and SRDF: joints, groups, limits, states, kinematics."""
+
 import os
 
+import motion
 import numpy as np
 import pytest
-
-import motion
 import robots
 from motion.files import find_package, resolve
 
@@ -64,10 +64,14 @@ def test_planar_virtual_joint_makes_its_parent_the_planning_frame(hand):
 
 
 def test_fixed_virtual_joint_below_an_empty_world_link_names_the_root_joint():
-    urdf = ('<robot name="r"><link name="world"/><link name="a"/><joint name="j" type="fixed"><parent link="world"/>'
-            '<child link="a"/></joint></robot>')
-    srdf = ('<robot name="r"><virtual_joint name="one" type="fixed" parent_frame="world" child_link="a"/>'
-            '<virtual_joint name="two" type="fixed" parent_frame="a" child_link="b"/></robot>')
+    urdf = (
+        '<robot name="r"><link name="world"/><link name="a"/><joint name="j" type="fixed"><parent link="world"/>'
+        '<child link="a"/></joint></robot>'
+    )
+    srdf = (
+        '<robot name="r"><virtual_joint name="one" type="fixed" parent_frame="world" child_link="a"/>'
+        '<virtual_joint name="two" type="fixed" parent_frame="a" child_link="b"/></robot>'
+    )
     model = motion.load_model(urdf, srdf)
     assert (model.frame, model.root_joint, model.warnings) == ("world", "two", [])
 
@@ -112,7 +116,7 @@ def test_chain_between_branches_goes_over_the_common_ancestor():
 
 
 def test_end_effectors_find_the_smallest_parent_group(hand):
-    effector, = hand.end_effectors
+    (effector,) = hand.end_effectors
     assert (effector.name, effector.group, effector.parent_link, effector.parent_group) == ("hand", "fingers", "palm", "arm")
     assert hand.group("arm").attached_end_effectors == ["hand"] and hand.group("fingers").end_effector == "hand"
 
@@ -169,8 +173,11 @@ def test_joint_limits_yaml_wins_over_the_urdf():
 
 def test_a_limit_counts_without_its_flag_and_the_flag_takes_it_back():
     """As upstream's loader has it: a max_... sets has_..., then a has_... that is given wins."""
-    limits = {"lift": {"max_velocity": 0.1, "max_acceleration": 0.3, "max_jerk": 9}, "b_left": {"has_acceleration_limits": False,
-              "max_acceleration": 2}, "turn": {"has_velocity_limits": False}}
+    limits = {
+        "lift": {"max_velocity": 0.1, "max_acceleration": 0.3, "max_jerk": 9},
+        "b_left": {"has_acceleration_limits": False, "max_acceleration": 2},
+        "turn": {"has_velocity_limits": False},
+    }
     model = motion.load_model(GRIPPER, HAND_SRDF, joint_limits=limits)
     lift, left, turn = (model.variable_limits(name) for name in ("lift", "b_left", "turn"))
     assert (lift.has_velocity, lift.max_velocity, lift.has_acceleration, lift.max_acceleration) == (True, 0.1, True, 0.3)
@@ -186,13 +193,15 @@ def test_a_flag_without_a_number_makes_no_limit():
     assert (lift.has_acceleration, x.has_velocity, lift.has_velocity) == (False, False, True)  # the URDF has a velocity
     assert [line for line in model.warnings if "joint_limits" in line] == [
         f"joint_limits: joint '{name}' has has_{what}_limits: true, but no max_{what}: it counts as not limited"
-        for name, what in (("drive/x", "velocity"), ("lift", "acceleration"))]
+        for name, what in (("drive/x", "velocity"), ("lift", "acceleration"))
+    ]
 
 
 def test_the_variables_of_a_planar_joint_have_limits_of_their_own():
-    limits = {"drive": {"x": {"max_velocity": 0.2, "min_position": -1, "max_position": 2},
-                        "theta": {"max_acceleration": 3, "max_position": 1}},
-              "drive/y": {"max_velocity": 0.4}}
+    limits = {
+        "drive": {"x": {"max_velocity": 0.2, "min_position": -1, "max_position": 2}, "theta": {"max_acceleration": 3, "max_position": 1}},
+        "drive/y": {"max_velocity": 0.4},
+    }
     model = motion.load_model(GRIPPER, HAND_SRDF, joint_limits=limits)
     x, y, theta = model.joint("drive").limits
     assert (x.has_velocity, x.max_velocity, x.has_position, x.min_position, x.max_position) == (True, 0.2, True, -1, 2)
@@ -208,16 +217,22 @@ def test_the_variables_of_a_planar_joint_have_limits_of_their_own():
 
 def test_the_variables_of_a_floating_joint_have_limits_of_their_own():
     srdf = HAND_SRDF.replace('type="planar"', 'type="floating"')
-    model = motion.load_model(GRIPPER, srdf, joint_limits={"drive": {"trans_z": {"min_position": 0.5, "max_position": 3, "max_velocity": 1},
-                                                                     "rot_w": {"max_position": 0.5}}})
+    model = motion.load_model(
+        GRIPPER,
+        srdf,
+        joint_limits={"drive": {"trans_z": {"min_position": 0.5, "max_position": 3, "max_velocity": 1}, "rot_w": {"max_position": 0.5}}},
+    )
     height = model.variable_limits("drive/trans_z")
     assert (height.has_position, height.min_position, height.max_velocity) == (True, 0.5, 1)
     assert model.variable_limits("drive/rot_w").max_position == 1.0 and any("'drive/rot_w'" in line for line in model.warnings)
 
 
 def test_soft_limits_narrow_the_range():
-    urdf = GRIPPER.replace('upper="0.5" velocity="0.2" effort="1"/>', 'upper="0.5" velocity="0.2" effort="1"/>'
-                           '<safety_controller soft_lower_limit="0.2" soft_upper_limit="9" k_position="1" k_velocity="1"/>')
+    urdf = GRIPPER.replace(
+        'upper="0.5" velocity="0.2" effort="1"/>',
+        'upper="0.5" velocity="0.2" effort="1"/>'
+        '<safety_controller soft_lower_limit="0.2" soft_upper_limit="9" k_position="1" k_velocity="1"/>',
+    )
     limits = motion.load_model(urdf).variable_limits("lift")
     assert (limits.min_position, limits.max_position) == (0.2, 0.5)
 
@@ -275,23 +290,34 @@ def test_copies_are_apart(hand):
     assert state.get("lift") == pytest.approx(0.3)
 
 
-@pytest.mark.parametrize("urdf, srdf, said", [
-    ("<robot", None, "URDF cannot be read"), ("", None, "URDF cannot be read"), ("<robot name='r'/>", None, "URDF"),
-    (GRIPPER, "<robot", "SRDF is not well-formed XML near line 1"), (GRIPPER, "<nothing/>", "no <robot>"),
-    (GRIPPER.replace('effort="1"', 'effort="x"', 1), None, "URDF cannot be read: effort value")])
+@pytest.mark.parametrize(
+    "urdf, srdf, said",
+    [
+        ("<robot", None, "URDF cannot be read"),
+        ("", None, "URDF cannot be read"),
+        ("<robot name='r'/>", None, "URDF"),
+        (GRIPPER, "<robot", "SRDF is not well-formed XML near line 1"),
+        (GRIPPER, "<nothing/>", "no <robot>"),
+        (GRIPPER.replace('effort="1"', 'effort="x"', 1), None, "URDF cannot be read: effort value"),
+    ],
+)
 def test_bad_descriptions_are_refused_in_one_line(urdf, srdf, said):
     with pytest.raises(motion.ModelError, match=said) as error:
         motion.load_model(urdf, srdf)
     assert "\n" not in str(error.value)
 
 
-@pytest.mark.parametrize("change, said", [
-    (('lower="0.1"', 'lower="0.9"'), "joint 'lift': its lower limit 0.900000 is above its upper limit"),
-    (('xyz="0 0 2"', 'xyz="0 0 0"'), "joint 'lift': <axis xyz> is zero")])
+@pytest.mark.parametrize(
+    "change, said",
+    [
+        (('lower="0.1"', 'lower="0.9"'), "joint 'lift': its lower limit 0.900000 is above its upper limit"),
+        (('xyz="0 0 2"', 'xyz="0 0 0"'), "joint 'lift': <axis xyz> is zero"),
+    ],
+)
 def test_what_moveit_loads_is_loaded_with_one_error(change, said):
     """MoveIt checks neither (RobotModel::jointBoundsFromURDF): the robot is there, and what moves that joint cannot be planned."""
     model = motion.load_model(GRIPPER.replace(*change), HAND_SRDF)
-    line, = (warning for warning in model.warnings if warning.startswith("error: "))
+    (line,) = (warning for warning in model.warnings if warning.startswith("error: "))
     assert said in line and "lift" in model.joints
     if "limit" in said:
         assert not model.state().in_bounds("arm")
@@ -299,16 +325,23 @@ def test_what_moveit_loads_is_loaded_with_one_error(change, said):
 
 def test_a_fault_that_urdfdom_forgives_is_told():
     model = motion.load_model(GRIPPER.replace('size="0.1 0.1 0.4"', 'size="0.1 0.4"'))
-    line, = (warning for warning in model.warnings if "collision" in warning)
+    (line,) = (warning for warning in model.warnings if "collision" in warning)
     assert "its <collision> is at fault (Parser found 2 elements but 3 expected" in line
 
 
-@pytest.mark.parametrize("call, said", [
-    (lambda s: s.set_group("arm", [1.0]), "2 numbers are needed, not 1"),
-    (lambda s: s.set_group("arm", [1.0, np.nan]), "number 2 is not finite"),
-    (lambda s: s.set("turn", np.inf), "'turn'.*not finite"),
-    (lambda s: motion.load_model(GRIPPER, joint_limits={"lift": {"max_velocity": "fast"}}), "max_velocity of joint 'lift' is no number"),
-    (lambda s: s.attach(motion.AttachedBody("x", "palm", [])), "no shapes")])
+@pytest.mark.parametrize(
+    "call, said",
+    [
+        (lambda s: s.set_group("arm", [1.0]), "2 numbers are needed, not 1"),
+        (lambda s: s.set_group("arm", [1.0, np.nan]), "number 2 is not finite"),
+        (lambda s: s.set("turn", np.inf), "'turn'.*not finite"),
+        (
+            lambda s: motion.load_model(GRIPPER, joint_limits={"lift": {"max_velocity": "fast"}}),
+            "max_velocity of joint 'lift' is no number",
+        ),
+        (lambda s: s.attach(motion.AttachedBody("x", "palm", [])), "no shapes"),
+    ],
+)
 def test_bad_values_are_refused_and_change_nothing(hand, call, said):
     state = hand.state()
     before = state.positions
@@ -333,7 +366,7 @@ def test_meshes_are_found_by_package_and_scaled(tmp_path):
         '<collision><geometry><mesh filename="package://shop/none.stl"/></geometry></collision></link></robot>'
     )
     model = motion.load_model(urdf, find_package=lambda name: str(tmp_path) if name == "shop" else None)
-    shape, = model.link("a").shapes
+    (shape,) = model.link("a").shapes
     np.testing.assert_allclose(shape.bounds(), [[0, 0, 0], [2, 3, 0]])
     assert len(shape.vertices) == 3 and "none.stl" in model.warnings[0]
 
@@ -365,7 +398,8 @@ def test_a_chain_that_begins_with_a_fixed_joint_does_not_move_its_base():
         '<joint name="foot" type="fixed"><parent link="base_footprint"/><child link="base"/></joint>'
         '<joint name="turn" type="revolute"><parent link="base"/><child link="arm"/><origin xyz="0 0 1"/><axis xyz="0 0 1"/>'
         '<limit lower="-1" upper="1" velocity="1" effort="1"/></joint></robot>',
-        '<robot name="r"><group name="chain"><chain base_link="base_footprint" tip_link="arm"/></group></robot>')
+        '<robot name="r"><group name="chain"><chain base_link="base_footprint" tip_link="arm"/></group></robot>',
+    )
     assert model.group("chain").updated_links == ["arm"]
     scene = motion.PlanningScene(model)
     scene.add_object("floor", [motion.Box(6, 6, 0.05)])

@@ -1,8 +1,8 @@
 """Octomaps from what sensors see, and telling the robot from the rest of it."""
-import numpy as np
-import pytest
 
 import motion
+import numpy as np
+import pytest
 
 ORIGIN = (0.0, 0.0, 1.0)
 NONE = np.zeros((0, 3))
@@ -16,9 +16,11 @@ def wall(x, count=21):
 
 def touches(tree, point, radius=0.02):
     """Whether a ball at ``point`` touches the tree."""
-    model = motion.load_model('<robot name="r"><link name="a"/><link name="b"><collision><geometry><sphere radius="%g"/></geometry>'
-                              '</collision></link><joint name="j" type="fixed"><parent link="a"/><child link="b"/>'
-                              '<origin xyz="%g %g %g"/></joint></robot>' % (radius, *point))
+    model = motion.load_model(
+        '<robot name="r"><link name="a"/><link name="b"><collision><geometry><sphere radius="%g"/></geometry>'
+        '</collision></link><joint name="j" type="fixed"><parent link="a"/><child link="b"/>'
+        '<origin xyz="%g %g %g"/></joint></robot>' % (radius, *point)
+    )
     scene = motion.PlanningScene(model)
     scene.set_octomap(tree, motion.Pose.identity())
     return bool(scene.check())

@@ -1,8 +1,8 @@
 """Industrial motions, one and several: their shapes, speeds and limits."""
-import numpy as np
-import pytest
 
 import motion
+import numpy as np
+import pytest
 import robots
 from reaching import HOME, model, moved, off_line, places, request, scene
 
@@ -51,8 +51,9 @@ def auxiliary(kind, position, **fields):
 def test_circs_auxiliary_point_is_no_constraint(scene):
     """A small region about the point that it is given by is not where the path has to stay; other constraints of it hold."""
     start = scene.state.pose("tool").position
-    extra = motion.Constraints(position=[motion.PositionConstraint("tool", [(motion.Sphere(0.01), (start + (0, 0.1, 0.1), (0, 0, 0, 1)))])],
-                               name="interim")
+    extra = motion.Constraints(
+        position=[motion.PositionConstraint("tool", [(motion.Sphere(0.01), (start + (0, 0.1, 0.1), (0, 0, 0, 1)))])], name="interim"
+    )
     asked = moved(scene, (0, 0.2, 0), "CIRC", path_constraints=extra)
     result = motion.Pipeline([]).generate(scene, asked, planner=motion.pilz_plan)
     assert result, result.message
@@ -67,8 +68,14 @@ def test_circ_to_joint_values_moves_the_link_of_the_auxiliary_point(scene):
     links = {link: (scene.state.pose(link).position, state.pose(link).position) for link in ("tool", "link_6")}
     for link, (first, last) in links.items():
         point = (first + last) / 2 + (0, 0, 0.1)
-        asked = motion.MotionRequest("arm", goals=[motion.joint_goal(scene.model, "arm", state.get_group("arm"))], planner="CIRC",
-                                     velocity_scaling=0.1, acceleration_scaling=0.1, auxiliary=auxiliary("interim", point, link=link))
+        asked = motion.MotionRequest(
+            "arm",
+            goals=[motion.joint_goal(scene.model, "arm", state.get_group("arm"))],
+            planner="CIRC",
+            velocity_scaling=0.1,
+            acceleration_scaling=0.1,
+            auxiliary=auxiliary("interim", point, link=link),
+        )
         result = motion.pilz_plan(scene, asked)
         assert result, result.message
         path = places(result.trajectory, link)
@@ -87,8 +94,10 @@ def test_the_point_that_is_moved_may_be_beside_its_link(scene):
     turn = motion.Pose.from_rpy((0, 0, 0), (0, 0.5, 0.3))
     there = start * turn
     point = start * offset + np.array((0.0, 0.1, -0.05))
-    goal = motion.Constraints(position=[motion.PositionConstraint("tool", [(motion.Sphere(1e-4), (point, (0, 0, 0, 1)))], offset=offset)],
-                              orientation=[motion.OrientationConstraint("tool", there.quaternion, (1e-3,) * 3)])
+    goal = motion.Constraints(
+        position=[motion.PositionConstraint("tool", [(motion.Sphere(1e-4), (point, (0, 0, 0, 1)))], offset=offset)],
+        orientation=[motion.OrientationConstraint("tool", there.quaternion, (1e-3,) * 3)],
+    )
     result = motion.pilz_plan(scene, moved(scene, (0, 0, 0), "LIN", goals=[goal], velocity_scaling=0.05, acceleration_scaling=0.05))
     assert result, result.message
     path = np.array([result.trajectory.state(i).pose("tool") * offset for i in range(len(result.trajectory))])
@@ -118,16 +127,24 @@ def test_lin_and_circ_keep_the_joints_accelerations():
 
 def test_last_intervals_are_not_so_short_that_rounding_speeds_a_joint_up():
     from motion.pilz import _Trapeze
+
     for length in np.linspace(0.05, 0.5, 400):
         times = _Trapeze(length, 0.2, 0.45, 1.0).times()
         assert times[0] == 0 and (np.diff(times) >= 0.02 - 1e-9).all() and np.diff(times).max() < 0.12 + 1e-9
 
 
-@pytest.mark.parametrize("planner, offset, change, status", [
-    ("LIN", (2, 0, 0), {}, "no_ik_solution"), ("CIRC", (0, 0.2, 0), {}, "invalid_plan"), ("SPIN", (0, 0, 0), {}, "unknown_planner"),
-    ("CIRC", (0, 0.2, 0), {"auxiliary": auxiliary("center", (9, 9, 9))}, "invalid_plan"),
-    ("CIRC", (0, 0.2, 0), {"auxiliary": auxiliary("interim", (0, 0, 0), frame="nowhere")}, "unknown_frame"),
-    ("LIN", (0.1, 0, 0), {"velocity_scaling": 0.0}, "invalid_plan"), ("LIN", (0.1, 0, 0), {"goals": []}, "no_goal")])
+@pytest.mark.parametrize(
+    "planner, offset, change, status",
+    [
+        ("LIN", (2, 0, 0), {}, "no_ik_solution"),
+        ("CIRC", (0, 0.2, 0), {}, "invalid_plan"),
+        ("SPIN", (0, 0, 0), {}, "unknown_planner"),
+        ("CIRC", (0, 0.2, 0), {"auxiliary": auxiliary("center", (9, 9, 9))}, "invalid_plan"),
+        ("CIRC", (0, 0.2, 0), {"auxiliary": auxiliary("interim", (0, 0, 0), frame="nowhere")}, "unknown_frame"),
+        ("LIN", (0.1, 0, 0), {"velocity_scaling": 0.0}, "invalid_plan"),
+        ("LIN", (0.1, 0, 0), {"goals": []}, "no_goal"),
+    ],
+)
 def test_industrial_motions_that_cannot_be(scene, planner, offset, change, status):
     wanted = moved(scene, offset, planner)
     for key, value in change.items():
@@ -146,7 +163,7 @@ def test_sequence_stops_between_motions_or_blends_them(scene):
     assert np.linalg.norm(places(stopping.trajectories[0]) - corner, axis=1).min() < 1e-4
     blended = motion.pilz_sequence(scene, [(requests[0], 0.05), (requests[1], 0.0)])
     assert blended, blended.message
-    trajectory, = blended.trajectories
+    (trajectory,) = blended.trajectories
     nearest = np.linalg.norm(places(trajectory) - corner, axis=1).min()
     assert 0.005 < nearest < 0.05 and trajectory.duration < stopping.trajectories[0].duration
     np.testing.assert_allclose(places(trajectory)[-1], start.position + (0, 0.15, -0.15), atol=1e-4)
@@ -158,8 +175,16 @@ def test_sequence_stops_between_motions_or_blends_them(scene):
 
 def sequence_requests(scene, *offsets):
     start = scene.state.pose("tool")
-    return [motion.MotionRequest("arm", goals=[motion.pose_goal("tool", (start.position + offset, start.quaternion))], planner="LIN",
-                                 velocity_scaling=0.1, acceleration_scaling=0.1) for offset in offsets]
+    return [
+        motion.MotionRequest(
+            "arm",
+            goals=[motion.pose_goal("tool", (start.position + offset, start.quaternion))],
+            planner="LIN",
+            velocity_scaling=0.1,
+            acceleration_scaling=0.1,
+        )
+        for offset in offsets
+    ]
 
 
 def test_what_upstream_refuses_in_a_sequence(scene):
@@ -225,8 +250,9 @@ def test_an_arm_that_is_quite_straight_can_be_drawn_in(name, way):
     model = motion.load_model(*robots.arm(name))
     state = model.state()
     here = state.pose("tool")
-    line = motion.cartesian_path(motion.PlanningScene(model), "arm", [(here.position + way, here.quaternion)], start=state,
-                                 avoid_collisions=False)
+    line = motion.cartesian_path(
+        motion.PlanningScene(model), "arm", [(here.position + way, here.quaternion)], start=state, avoid_collisions=False
+    )
     assert line, line.message
     assert np.abs(np.diff(line.trajectory.positions, axis=0)).max() < 0.5
 
@@ -239,9 +265,11 @@ def test_an_arm_of_four_joints_follows_positions():
         f'<axis xyz="{axis}"/><limit lower="-2.5" upper="2.5" velocity="1" effort="1"/></joint>'
         for i, axis in enumerate(("0 0 1", "0 1 0", "0 1 0", "0 1 0"))
     )
-    model = motion.load_model(f'<robot name="small">{links}{joints}<joint name="end" type="fixed"><parent link="l4"/><child link="l5"/>'
-                              '<origin xyz="0 0 0.2"/></joint></robot>',
-                              '<robot name="small"><group name="arm"><chain base_link="l0" tip_link="l5"/></group></robot>')
+    model = motion.load_model(
+        f'<robot name="small">{links}{joints}<joint name="end" type="fixed"><parent link="l4"/><child link="l5"/>'
+        '<origin xyz="0 0 0.2"/></joint></robot>',
+        '<robot name="small"><group name="arm"><chain base_link="l0" tip_link="l5"/></group></robot>',
+    )
     scene = motion.PlanningScene(model)
     state = scene.state
     state.set_group("arm", [0.3, 0.5, 1.0, 0.4])

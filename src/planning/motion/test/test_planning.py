@@ -1,11 +1,11 @@
 """Planning: goals of every kind, path constraints, every planner, and what is said when it cannot be done."""
+
 import threading
 import time
 
+import motion
 import numpy as np
 import pytest
-
-import motion
 import robots
 
 HOME = [0.3, -1.2, 1.4, -0.9, 1.1, 0.5]
@@ -184,10 +184,41 @@ def test_position_kept_in_a_slab_and_a_joint_in_its_range(scene, model):
     sound(scene, result, slab)
 
 
-FAST = ["RRTConnect", "RRT", "KPIECE", "BKPIECE", "LBKPIECE", "EST", "BiEST", "ProjEST", "SBL", "PRM", "LazyPRM", "TRRT", "BiTRRT",
-        "STRIDE", "PDST", "FMT", "BFMT", "LazyRRT"]
-OPTIMISING = ["RRTstar", "PRMstar", "LazyPRMstar", "BITstar", "ABITstar", "AITstar", "InformedRRTstar", "SORRTstar", "RRTsharp", "LBTRRT",
-              "SPARS", "SPARStwo", "AnytimePathShortening"]
+FAST = [
+    "RRTConnect",
+    "RRT",
+    "KPIECE",
+    "BKPIECE",
+    "LBKPIECE",
+    "EST",
+    "BiEST",
+    "ProjEST",
+    "SBL",
+    "PRM",
+    "LazyPRM",
+    "TRRT",
+    "BiTRRT",
+    "STRIDE",
+    "PDST",
+    "FMT",
+    "BFMT",
+    "LazyRRT",
+]
+OPTIMISING = [
+    "RRTstar",
+    "PRMstar",
+    "LazyPRMstar",
+    "BITstar",
+    "ABITstar",
+    "AITstar",
+    "InformedRRTstar",
+    "SORRTstar",
+    "RRTsharp",
+    "LBTRRT",
+    "SPARS",
+    "SPARStwo",
+    "AnytimePathShortening",
+]
 
 
 @pytest.mark.slow
@@ -222,9 +253,7 @@ def test_parameters_reach_the_planner(scene, model):
     result = motion.plan(
         scene,
         request(
-            model,
-            planner="RRTConnectkConfigDefault",
-            planner_params={"range": 0.3, "type": "geometric::RRTConnect", "goal_bias": 0.1},
+            model, planner="RRTConnectkConfigDefault", planner_params={"range": 0.3, "type": "geometric::RRTConnect", "goal_bias": 0.1}
         ),
     )
     sound(scene, result)
@@ -236,8 +265,7 @@ def test_parameters_reach_the_planner(scene, model):
 @pytest.mark.parametrize("condition, ends", (("Iteration[40]", True), ("", False)))
 def test_a_planner_ends_when_its_condition_says(scene, model, condition, ends):
     """RRTstar uses all its time but for this."""
-    result = motion.plan(scene, request(model, planner="RRTstar", planning_time=3.0,
-                                        planner_params={"termination_condition": condition}))
+    result = motion.plan(scene, request(model, planner="RRTstar", planning_time=3.0, planner_params={"termination_condition": condition}))
     assert (result.planning_time < 2.0) is ends, (result.status, result.planning_time)
 
 
@@ -275,22 +303,32 @@ def test_timeout(scene, model):
     assert (result.status, result.code) == ("timeout", -6) and "RRTConnect" in result.message and result.planning_time < 30
 
 
-@pytest.mark.parametrize("change, status, code, said", [
-    (dict(goal=AWAY[:5] + [9.0]), "solved", 1, ""),  # clamped to the limit, as upstream
-    (dict(goal=[0.3, -1.2, 3.1, -0.9, 1.1, 0.5]), "goal_in_collision", -27, "'link_1' and 'link_4' touch"),
-    (dict(planner="Teleport"), "unknown_planner", -1, "no planner 'Teleport'"),
-    (dict(planner="stomp::STOMP"), "unknown_planner", -1, "RRTConnect"),
-    (dict(planning_time=0.0), "invalid_request", -16, "planning time"),
-    (dict(longest_valid_segment_fraction=2.0), "invalid_request", -16, "longest_valid_segment_fraction")])
+@pytest.mark.parametrize(
+    "change, status, code, said",
+    [
+        (dict(goal=AWAY[:5] + [9.0]), "solved", 1, ""),  # clamped to the limit, as upstream
+        (dict(goal=[0.3, -1.2, 3.1, -0.9, 1.1, 0.5]), "goal_in_collision", -27, "'link_1' and 'link_4' touch"),
+        (dict(planner="Teleport"), "unknown_planner", -1, "no planner 'Teleport'"),
+        (dict(planner="stomp::STOMP"), "unknown_planner", -1, "RRTConnect"),
+        (dict(planning_time=0.0), "invalid_request", -16, "planning time"),
+        (dict(longest_valid_segment_fraction=2.0), "invalid_request", -16, "longest_valid_segment_fraction"),
+    ],
+)
 def test_joint_requests_that_are_odd(scene, model, change, status, code, said):
     result = motion.plan(scene, request(model, **change))
     assert (result.status, result.code) == (status, code), result.message
     assert said in result.message and "\n" not in result.message
 
 
-@pytest.mark.parametrize("projection, said", [
-    ("joints({0},nobody)", "'nobody', which is no joint of group 'arm'"), ("link(nobody)", "no link of robot"),
-    ("joints(", "neither joints(a,b) nor link(l)"), ("7", "neither joints(a,b) nor link(l)")])
+@pytest.mark.parametrize(
+    "projection, said",
+    [
+        ("joints({0},nobody)", "'nobody', which is no joint of group 'arm'"),
+        ("link(nobody)", "no link of robot"),
+        ("joints(", "neither joints(a,b) nor link(l)"),
+        ("7", "neither joints(a,b) nor link(l)"),
+    ],
+)
 def test_a_wrong_projection_is_told_and_left_out(scene, model, projection, said):
     names = model.group("arm").variables
     result = motion.plan(scene, request(model, projection=projection.format(*names), planner="KPIECE"))
@@ -298,12 +336,16 @@ def test_a_wrong_projection_is_told_and_left_out(scene, model, projection, said)
     assert not motion.plan(scene, request(model, projection="joints({0}, {1})".format(*names), planner="KPIECE")).warnings
 
 
-@pytest.mark.parametrize("goal, status, said", [
-    (motion.pose_goal("tool", ((2, 2, 2), (0, 0, 0, 1))), "no_ik", "out of reach"),
-    (motion.pose_goal("link_6", ((0.4, 0.2, -0.05), (0, 1, 0, 0))), "goal_in_collision", "'floor'"),
-    (motion.pose_goal("nobody", ((0.4, 0.2, 0.4), (0, 1, 0, 0))), "unknown_link", "no link 'nobody'"),
-    (motion.pose_goal("tool", ((0.4, 0.2, 0.4), (0, 1, 0, 0)), frame="moon"), "unknown_frame", "no frame 'moon'"),
-    (motion.Constraints(), "no_goal", "no goal")])
+@pytest.mark.parametrize(
+    "goal, status, said",
+    [
+        (motion.pose_goal("tool", ((2, 2, 2), (0, 0, 0, 1))), "no_ik", "out of reach"),
+        (motion.pose_goal("link_6", ((0.4, 0.2, -0.05), (0, 1, 0, 0))), "goal_in_collision", "'floor'"),
+        (motion.pose_goal("nobody", ((0.4, 0.2, 0.4), (0, 1, 0, 0))), "unknown_link", "no link 'nobody'"),
+        (motion.pose_goal("tool", ((0.4, 0.2, 0.4), (0, 1, 0, 0)), frame="moon"), "unknown_frame", "no frame 'moon'"),
+        (motion.Constraints(), "no_goal", "no goal"),
+    ],
+)
 def test_goals_that_cannot_be(scene, goal, status, said):
     spent = time.thread_time()
     result = motion.plan(scene, motion.MotionRequest("arm", goals=[goal], seed=1, planning_time=120.0))
@@ -328,11 +370,7 @@ def test_starts_that_cannot_be(scene, model):
 def test_attached_bodies_are_carried_round(scene, model):
     scene.attach(
         motion.AttachedBody(
-            "pole",
-            "tool",
-            [motion.Cylinder(0.02, 0.3)],
-            pose=((0, 0, 0.15), (0, 0, 0, 1)),
-            touch_links=["tool", "link_6", "link_5"],
+            "pole", "tool", [motion.Cylinder(0.02, 0.3)], pose=((0, 0, 0.15), (0, 0, 0, 1)), touch_links=["tool", "link_6", "link_5"]
         )
     )
     result = motion.plan(scene, request(model))
@@ -375,6 +413,7 @@ def test_planning_lets_other_threads_run(scene, model):
     def tick():
         while not stop.wait(0.005):
             ticks.append(1)
+
     thread = threading.Thread(target=tick)
     thread.start()
     motion.plan(scene, request(model, planner="RRTstar", seed=None, planning_time=1.0))

@@ -1,4 +1,5 @@
 """The example of the README runs as it stands."""
+
 import contextlib
 import io
 import re
@@ -8,7 +9,7 @@ from pathlib import Path
 
 def test_example_runs_and_plans():
     text = (Path(__file__).resolve().parent.parent / "README.md").read_text(encoding="utf-8")
-    example, = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    (example,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
         exec(compile(example, "README.md", "exec"), {"__name__": "readme"})

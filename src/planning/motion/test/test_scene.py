@@ -1,8 +1,8 @@
 """Scenes: objects, attached bodies, what may touch what, padding, frames, copies."""
-import numpy as np
-import pytest
 
 import motion
+import numpy as np
+import pytest
 import robots
 
 HERE = ((0, 0, 0), (0, 0, 0, 1))
@@ -47,10 +47,20 @@ def pairs(result):
     return {frozenset((c.body_1, c.body_2)) for c in result.contacts}
 
 
-@pytest.mark.parametrize("shape, edge", [
-    (motion.Box(0.2, 0.2, 0.2), 0.2), (motion.Sphere(0.1), 0.2), (motion.Cylinder(0.1, 0.2), 0.2),
-    (motion.Mesh([[-.1, -.1, -.1], [.1, -.1, -.1], [0, .2, -.1], [0, 0, .2]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]), None),
-    (motion.Plane(1, 0, 0, 0), 0.1), (motion.OcTree.from_points([[0.05, 0.05, 0.05], [-0.05, -0.05, -0.05]], 0.1), 0.2)])
+@pytest.mark.parametrize(
+    "shape, edge",
+    [
+        (motion.Box(0.2, 0.2, 0.2), 0.2),
+        (motion.Sphere(0.1), 0.2),
+        (motion.Cylinder(0.1, 0.2), 0.2),
+        (
+            motion.Mesh([[-0.1, -0.1, -0.1], [0.1, -0.1, -0.1], [0, 0.2, -0.1], [0, 0, 0.2]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]),
+            None,
+        ),
+        (motion.Plane(1, 0, 0, 0), 0.1),
+        (motion.OcTree.from_points([[0.05, 0.05, 0.05], [-0.05, -0.05, -0.05]], 0.1), 0.2),
+    ],
+)
 def test_every_shape_is_hit_where_it_is(scene, shape, edge):
     scene.add_object("thing", [shape], pose=at(3.0)) if not isinstance(shape, motion.OcTree) else scene.set_octomap(shape, at(3.0))
     assert scene.check(moved(scene, 3.0))
@@ -74,7 +84,7 @@ def test_plane_lies_where_its_equation_says(scene):
 def test_contacts_have_names_types_and_geometry(scene):
     scene.add_object("box", [motion.Box(0.2, 1, 1)], pose=at(3.0))
     result = scene.check(moved(scene, 2.85), contacts=5)
-    contact, = result.contacts
+    (contact,) = result.contacts
     assert result.collision and (contact.body_1, contact.type_1, contact.body_2, contact.type_2) == ("car", "robot_link", "box", "world")
     np.testing.assert_allclose(contact.normal, [1, 0, 0], atol=1e-6)
     assert contact.depth == pytest.approx(0.05, abs=1e-6) and 2.85 < contact.position[0] < 3.0
@@ -106,8 +116,10 @@ def test_defaults_both_must_allow(one, two, allowed):
 
 
 def test_matrix_from_the_srdf_and_back():
-    srdf = ('<robot name="panda"><disable_default_collisions link="link_1"/><enable_collisions link1="link_1" link2="link_3"/>'
-            '<disable_collisions link1="link_2" link2="link_5" reason="Never"/></robot>')
+    srdf = (
+        '<robot name="panda"><disable_default_collisions link="link_1"/><enable_collisions link1="link_1" link2="link_3"/>'
+        '<disable_collisions link1="link_2" link2="link_5" reason="Never"/></robot>'
+    )
     acm = motion.AllowedCollisionMatrix.from_model(motion.load_model(robots.arm("panda")[0], srdf))
     assert acm.allowed("link_1", "link_7") and not acm.allowed("link_1", "link_3") and acm.allowed("link_5", "link_2")
     names, cells = acm.matrix()
@@ -170,7 +182,7 @@ def test_attached_bodies_move_touch_and_return(scene):
     np.testing.assert_allclose(there.pose("cup/rim").position, [4, 0, 0.35])
     np.testing.assert_allclose(scene.frame_pose("cup/rim", there).position, [4, 0, 0.35])
     scene.add_object("lamp", [motion.Sphere(0.05)], pose=at(4.0, 0, 0.35))
-    contact, = scene.check(there, contacts=9).contacts
+    (contact,) = scene.check(there, contacts=9).contacts
     assert (contact.body_1, contact.type_1, contact.body_2) == ("cup", "attached", "lamp")
     scene.set_state(there)
     assert scene.detach_object("cup") and not scene.detach_object("cup")
@@ -273,12 +285,20 @@ def test_many_states_at_once(scene):
     assert scene.check_states("car", [[2.0], [2.9], [0.1], [4.0]]).tolist() == [False, True, True, False]
 
 
-@pytest.mark.parametrize("call, said", [
-    (lambda s: s.add_object("o", []), "object 'o' has no shapes"), (lambda s: s.add_object("", [motion.Sphere(1)]), "needs an id"),
-    (lambda s: s.add_object("o", [motion.Sphere(1)], shape_poses=[HERE, HERE]), "2 shape poses for 1 shapes"),
-    (lambda s: motion.Sphere(-1), "radius is -1"), (lambda s: motion.Box(1, float("nan"), 1), "an edge is nan"),
-    (lambda s: motion.Mesh([[0, 0, 0]], [[0, 1, 2]]), "vertex 2 of 1"), (lambda s: motion.Plane(0, 0, 0, 1), "not all zero"),
-    (lambda s: s.set_padding({"car": -0.5}), "negative"), (lambda s: s.move_object("o", ((0, 0, np.inf), (0, 0, 0, 1))), "not finite")])
+@pytest.mark.parametrize(
+    "call, said",
+    [
+        (lambda s: s.add_object("o", []), "object 'o' has no shapes"),
+        (lambda s: s.add_object("", [motion.Sphere(1)]), "needs an id"),
+        (lambda s: s.add_object("o", [motion.Sphere(1)], shape_poses=[HERE, HERE]), "2 shape poses for 1 shapes"),
+        (lambda s: motion.Sphere(-1), "radius is -1"),
+        (lambda s: motion.Box(1, float("nan"), 1), "an edge is nan"),
+        (lambda s: motion.Mesh([[0, 0, 0]], [[0, 1, 2]]), "vertex 2 of 1"),
+        (lambda s: motion.Plane(0, 0, 0, 1), "not all zero"),
+        (lambda s: s.set_padding({"car": -0.5}), "negative"),
+        (lambda s: s.move_object("o", ((0, 0, np.inf), (0, 0, 0, 1))), "not finite"),
+    ],
+)
 def test_bad_input_is_refused_and_changes_nothing(scene, call, said):
     before = scene.objects, scene.padding
     with pytest.raises(motion.InvalidInputError, match=said):
@@ -291,5 +311,5 @@ def test_a_thousand_objects(scene):
         scene.add_object(f"o{i}", [motion.Sphere(0.01)], pose=at(-4 + i * 0.002, 1.0))
     assert not scene.check(moved(scene, -3))
     scene.add_object("last", [motion.Sphere(0.01)], pose=at(-3))
-    contact, = scene.check(moved(scene, -3), contacts=1).contacts
+    (contact,) = scene.check(moved(scene, -3), contacts=1).contacts
     assert contact.body_2 == "last"

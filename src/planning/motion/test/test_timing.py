@@ -1,12 +1,14 @@
 """Times for paths: limits kept, ends at rest, way points passed."""
-import numpy as np
-import pytest
 
 import motion
+import numpy as np
+import pytest
 import robots
 
-LIMITS = {f"{name}": {"has_velocity_limits": True, "max_velocity": v, "has_acceleration_limits": True, "max_acceleration": a}
-          for (name, *_), v, a in zip(robots.UR5, (3.15, 3.15, 3.15, 3.2, 3.2, 3.2), (2.0, 1.5, 2.0, 3.0, 3.0, 4.0))}
+LIMITS = {
+    f"{name}": {"has_velocity_limits": True, "max_velocity": v, "has_acceleration_limits": True, "max_acceleration": a}
+    for (name, *_), v, a in zip(robots.UR5, (3.15, 3.15, 3.15, 3.2, 3.2, 3.2), (2.0, 1.5, 2.0, 3.0, 3.0, 4.0))
+}
 
 
 @pytest.fixture(scope="module")
@@ -71,11 +73,7 @@ def test_time_optimal_beats_parabolic_and_rounds_corners_within_tolerance(model)
     corner[2, :2] = 1.0, 1.0
     for tolerance in (0.1, 0.02):
         timed = motion.time_parameterize(
-            model,
-            motion.Trajectory(model, "arm", model.state(), corner),
-            "time_optimal",
-            path_tolerance=tolerance,
-            resample_dt=0.005,
+            model, motion.Trajectory(model, "arm", model.state(), corner), "time_optimal", path_tolerance=tolerance, resample_dt=0.005
         )
         nearest = np.linalg.norm(timed.positions - corner[1], axis=1).min()
         assert tolerance * 0.9 <= nearest <= tolerance * 1.1
@@ -122,8 +120,10 @@ def test_unset_limits_are_one(model):
 
 @pytest.mark.parametrize("scaling", [0.0, -1.0, 2.0])
 def test_scalings_outside_mean_one(model, scaling):
-    assert motion.time_parameterize(model, path(model), velocity_scaling=scaling, acceleration_scaling=scaling).duration == \
-        motion.time_parameterize(model, path(model)).duration
+    assert (
+        motion.time_parameterize(model, path(model), velocity_scaling=scaling, acceleration_scaling=scaling).duration
+        == motion.time_parameterize(model, path(model)).duration
+    )
 
 
 def test_many_random_paths_with_corners(model):
@@ -229,7 +229,8 @@ def test_no_two_points_come_at_one_time(model, method):
     assert all(b > a for a, b in zip(nanoseconds, nanoseconds[1:]))
     np.testing.assert_allclose(timed.positions[[0, -1]], way[[0, -1]], atol=1e-9)
     assert timed.duration == pytest.approx(
-        motion.time_parameterize(model, motion.Trajectory(model, "arm", model.state(), way), method).duration, rel=0.02)
+        motion.time_parameterize(model, motion.Trajectory(model, "arm", model.state(), way), method).duration, rel=0.02
+    )
     still = motion.time_parameterize(model, motion.Trajectory(model, "arm", model.state(), way[[0, 0, 0]]), method)
     assert len(still) == 1 and still.duration == 0
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A command line for move_group; see moveit_commander.command_line."""
+
 import node_signals
 
 with node_signals.silent():

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The Python clients, against a running move_group."""
+
 import copy
 import io
 import math
@@ -15,14 +16,20 @@ import rospy
 import rostest
 from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion
 from moveit_commander import MoveGroupCommander, MoveItCommanderException, PlanningSceneInterface, RobotCommander
-from moveit_msgs.msg import (AttachedCollisionObject, CollisionObject, Constraints, DisplayTrajectory,
-                             MoveItErrorCodes, OrientationConstraint, PlanningScene,
-                             PlanningSceneComponents,
-                             RobotState)
+from moveit_msgs.msg import (
+    AttachedCollisionObject,
+    CollisionObject,
+    Constraints,
+    DisplayTrajectory,
+    MoveItErrorCodes,
+    OrientationConstraint,
+    PlanningScene,
+    PlanningSceneComponents,
+    RobotState,
+)
+from moveit_ros_warehouse.storage import Warehouse
 from sensor_msgs.msg import JointState
 from shape_msgs.msg import SolidPrimitive
-
-from moveit_ros_warehouse.storage import Warehouse
 
 JOINTS = [f"joint_{number}" for number in range(1, 7)]
 HOME = [0.0, -0.6, 1.6, 0.0, 1.0, 0.0]
@@ -80,20 +87,33 @@ class Targets(Commander):
 
     def test_bad_targets_say_what_is_wrong(self):
         cases = [
-            (([0.0] * 5,), "length 5"), (([9.0] * 6,), "within bounds"), (("joint_1",), "value expected"),
-            (("knee", 1.0), "'knee'"), (({"knee": 1.0},), "'knee'"), (([math.nan] * 6,), "Not a number"),
-            (([0.0] * 6, 1), "Too many"), ((5,), "Unsupported"), ((stamped(9.0).pose,), "IK"),
-            ((JointState(name=["joint_1"]),), "1 names and 0 positions")]
+            (([0.0] * 5,), "length 5"),
+            (([9.0] * 6,), "within bounds"),
+            (("joint_1",), "value expected"),
+            (("knee", 1.0), "'knee'"),
+            (({"knee": 1.0},), "'knee'"),
+            (([math.nan] * 6,), "Not a number"),
+            (([0.0] * 6, 1), "Too many"),
+            ((5,), "Unsupported"),
+            ((stamped(9.0).pose,), "IK"),
+            ((JointState(name=["joint_1"]),), "1 names and 0 positions"),
+        ]
         for arguments, words in cases:
             with self.assertRaises(MoveItCommanderException, msg=str(arguments)) as caught:
                 self.arm.set_joint_value_target(*arguments)
             self.assertIn(words, str(caught.exception))
             self.assertNotIn("\n", str(caught.exception))
         np.testing.assert_array_equal(self.arm.get_joint_value_target(), [9.0] * 6)  # out of bounds, and yet taken
-        for call in (lambda: self.arm.set_named_target("nowhere"), lambda: self.arm.go("nowhere"),
-                     lambda: self.arm.set_max_velocity_scaling_factor(0.0), lambda: self.arm.set_workspace([1, 2]),
-                     lambda: self.arm.set_pose_target([1, 2, 3]), lambda: self.arm.set_pose_target(Pose(), "claw"),
-                     lambda: self.arm.execute((True, None, 0, 0)), lambda: self.arm.set_end_effector_link("claw")):
+        for call in (
+            lambda: self.arm.set_named_target("nowhere"),
+            lambda: self.arm.go("nowhere"),
+            lambda: self.arm.set_max_velocity_scaling_factor(0.0),
+            lambda: self.arm.set_workspace([1, 2]),
+            lambda: self.arm.set_pose_target([1, 2, 3]),
+            lambda: self.arm.set_pose_target(Pose(), "claw"),
+            lambda: self.arm.execute((True, None, 0, 0)),
+            lambda: self.arm.set_end_effector_link("claw"),
+        ):
             with self.assertRaises(MoveItCommanderException):
                 call()
         with self.assertRaises(RuntimeError) as caught:
@@ -135,19 +155,18 @@ class Targets(Commander):
         self.arm.limit_max_cartesian_link_speed(0.2)
         self.arm.set_pose_targets([stamped(0.3, 0, 0.5), stamped(0.3, 0.1, 0.5)])
         request = self.arm.construct_motion_plan_request()
-        self.assertEqual((request.planner_id, request.num_planning_attempts, request.max_velocity_scaling_factor),
-                         ("RRT", 3, 0.3))
+        self.assertEqual((request.planner_id, request.num_planning_attempts, request.max_velocity_scaling_factor), ("RRT", 3, 0.3))
         self.assertEqual((request.workspace_parameters.max_corner.y, request.max_cartesian_speed), (2, 0.2))
         self.assertEqual((request.cartesian_speed_limited_link, request.start_state.is_diff), ("hand", True))
         self.assertEqual(len(request.goal_constraints), 2)
-        position, = request.goal_constraints[1].position_constraints
+        (position,) = request.goal_constraints[1].position_constraints
         self.assertEqual((position.link_name, position.constraint_region.primitive_poses[0].position.y), ("hand", 0.1))
         self.assertEqual(position.constraint_region.primitives[0].dimensions, [1e-4])
         self.arm.set_position_target([0.3, 0, 0.5])
-        goal, = self.arm.construct_motion_plan_request().goal_constraints
+        (goal,) = self.arm.construct_motion_plan_request().goal_constraints
         self.assertEqual((len(goal.position_constraints), len(goal.orientation_constraints)), (1, 0))
         self.arm.set_rpy_target([0, 0, 1])
-        goal, = self.arm.construct_motion_plan_request().goal_constraints
+        (goal,) = self.arm.construct_motion_plan_request().goal_constraints
         self.assertEqual((len(goal.position_constraints), len(goal.orientation_constraints)), (0, 1))
         self.arm.set_planning_pipeline_id("pilz_industrial_motion_planner")
         self.assertEqual(self.arm.get_planner_id(), "")
@@ -193,10 +212,8 @@ class Motions(Commander):
             self.assertEqual(fraction, 1.0, arguments)
         self.assertTrue(self.arm.execute(line))
         slower = self.arm.retime_trajectory(self.arm.get_current_state(), line, 0.1)
-        self.assertGreater(slower.joint_trajectory.points[-1].time_from_start,
-                           line.joint_trajectory.points[-1].time_from_start)
-        self.assertFalse(self.arm.retime_trajectory(self.arm.get_current_state(), line,
-                                                    algorithm="magic").joint_trajectory.points)
+        self.assertGreater(slower.joint_trajectory.points[-1].time_from_start, line.joint_trajectory.points[-1].time_from_start)
+        self.assertFalse(self.arm.retime_trajectory(self.arm.get_current_state(), line, algorithm="magic").joint_trajectory.points)
 
     def test_inverse_kinematics_on_the_client(self):
         target = self.arm.get_current_pose()
@@ -219,8 +236,12 @@ class Motions(Commander):
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "w.sqlite")
             stored = Warehouse(file).constraints
-            stored.save("upright", Constraints(orientation_constraints=[OrientationConstraint(link_name="hand")]), robot="arm",
-                        planning_group="manipulator")
+            stored.save(
+                "upright",
+                Constraints(orientation_constraints=[OrientationConstraint(link_name="hand")]),
+                robot="arm",
+                planning_group="manipulator",
+            )
             stored.save("of another", Constraints(), robot="other", planning_group="manipulator")
             self.arm.set_constraints_database(file, 33829)
             self.assertEqual(self.arm.get_known_constraints(), ["upright"])
@@ -232,8 +253,7 @@ class Motions(Commander):
         self.assertFalse(self.arm.get_path_constraints().orientation_constraints)
 
     def test_path_constraints_are_sent(self):
-        keep = OrientationConstraint(link_name="hand", weight=1.0,
-                                     orientation=self.arm.get_current_pose().pose.orientation)
+        keep = OrientationConstraint(link_name="hand", weight=1.0, orientation=self.arm.get_current_pose().pose.orientation)
         keep.header.frame_id = "world"
         keep.absolute_x_axis_tolerance = keep.absolute_y_axis_tolerance = keep.absolute_z_axis_tolerance = 3.2
         self.arm.set_path_constraints(Constraints(name="c", orientation_constraints=[keep]))
@@ -267,9 +287,12 @@ class Robot(Commander):
         self.assertEqual(self.robot.get_default_owner_group("finger_joint"), "hand")
         self.assertEqual(len(self.robot.get_robot_markers("hand").markers), 2)
         self.assertTrue(self.robot.has_group("hand") and not self.robot.has_group("legs"))
-        for call in (lambda: self.robot.get_group("legs"), lambda: self.robot.get_joint("knee"),
-                     lambda: self.robot.get_link("claw"),
-                     lambda: self.robot.get_link_names("legs")):
+        for call in (
+            lambda: self.robot.get_group("legs"),
+            lambda: self.robot.get_joint("knee"),
+            lambda: self.robot.get_link("claw"),
+            lambda: self.robot.get_link_names("legs"),
+        ):
             self.assertRaises(MoveItCommanderException, call)
         self.assertRaises(AttributeError, lambda: self.robot.knee)
         self.assertTrue(self.robot.joint_1.move(0.2))
@@ -287,8 +310,7 @@ class Scene(Commander):
             file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
             file.flush()
             self.scene.add_mesh("mesh", stamped(2, 4, 0), file.name, (0.5, 0.5, 0.5))
-        self.assertEqual(sorted(self.scene.get_known_object_names()), ["box", "cone", "cylinder", "mesh", "plane",
-                                                                       "sphere"])
+        self.assertEqual(sorted(self.scene.get_known_object_names()), ["box", "cone", "cylinder", "mesh", "plane", "sphere"])
         self.assertEqual(self.scene.get_known_object_names_in_roi(1.5, -0.5, -1, 2.5, 1.5, 1), ["box", "sphere"])
         self.assertEqual(self.scene.get_object_poses(["sphere"])["sphere"].position.y, 1)
         self.assertEqual(self.scene.get_objects(["box"])["box"].primitives[0].dimensions, (0.1, 0.2, 0.3))
@@ -378,19 +400,28 @@ class CommandLine(Commander):
         self.assertIn("'use'", interpreter.execute("current")[1])
         self.assertEqual(interpreter.execute("use legs")[0], levels.FAIL)
         for line, level, words in [
-                ("use manipulator", levels.DEBUG, "OK"), ("id", levels.INFO, "manipulator"),
-                ("record start", levels.SUCCESS, "start"),
-                ("x = [0.1 -0.6 1.6 0 1 0]", levels.SUCCESS, "under the name x"),
-                ("x[0] = 0.3", levels.SUCCESS, "Updated x[0]"), ("y = x", levels.SUCCESS, "same as x"),
-                ("go y", levels.SUCCESS, "Moved to y"), ("go up 0.02", levels.SUCCESS, "0.02 m"),
-                ("plan start", levels.SUCCESS, "Planned to start"), ("execute", levels.SUCCESS, "submitted"),
-                ("go nowhere", levels.WARN, "Unable to set target nowhere"), ("tolerance 0.01", levels.SUCCESS, "OK"),
-                ("tolerance", levels.INFO, "Joint = 0.01"), ("time 3", levels.SUCCESS, "OK"),
-                ("time", levels.INFO, "3.0"),
-                ("dance", levels.WARN, "Unknown command"), ("joints", levels.INFO, "0 = joint_1"),
-                ("help", levels.INFO, "rotate"), ("delete y", levels.SUCCESS, "Forgot"),
-                ("show y", levels.WARN, "not known"),
-                ("go up far", levels.WARN, "Unable to parse")]:
+            ("use manipulator", levels.DEBUG, "OK"),
+            ("id", levels.INFO, "manipulator"),
+            ("record start", levels.SUCCESS, "start"),
+            ("x = [0.1 -0.6 1.6 0 1 0]", levels.SUCCESS, "under the name x"),
+            ("x[0] = 0.3", levels.SUCCESS, "Updated x[0]"),
+            ("y = x", levels.SUCCESS, "same as x"),
+            ("go y", levels.SUCCESS, "Moved to y"),
+            ("go up 0.02", levels.SUCCESS, "0.02 m"),
+            ("plan start", levels.SUCCESS, "Planned to start"),
+            ("execute", levels.SUCCESS, "submitted"),
+            ("go nowhere", levels.WARN, "Unable to set target nowhere"),
+            ("tolerance 0.01", levels.SUCCESS, "OK"),
+            ("tolerance", levels.INFO, "Joint = 0.01"),
+            ("time 3", levels.SUCCESS, "OK"),
+            ("time", levels.INFO, "3.0"),
+            ("dance", levels.WARN, "Unknown command"),
+            ("joints", levels.INFO, "0 = joint_1"),
+            ("help", levels.INFO, "rotate"),
+            ("delete y", levels.SUCCESS, "Forgot"),
+            ("show y", levels.WARN, "not known"),
+            ("go up far", levels.WARN, "Unable to parse"),
+        ]:
             answer = interpreter.execute(line)
             self.assertEqual(answer[0], level, (line, answer))
             self.assertIn(words, answer[1], line)
@@ -403,9 +434,13 @@ class CommandLine(Commander):
             self.assertEqual(sorted(again.get_active_group().get_remembered_joint_values()), ["start", "x"])
 
     def test_the_program_reads_its_input(self):
-        ended = subprocess.run(["rosrun", "moveit_commander", "moveit_commander_cmdline.py", "manipulator"],
-                               input="id\nquit\n",
-                               capture_output=True, text=True, timeout=60)
+        ended = subprocess.run(
+            ["rosrun", "moveit_commander", "moveit_commander_cmdline.py", "manipulator"],
+            input="id\nquit\n",
+            capture_output=True,
+            text=True,
+            timeout=60,
+        )
         self.assertEqual(ended.returncode, 0, ended.stderr)
         self.assertIn("Bye bye!", ended.stdout)
         self.assertNotIn("Traceback", ended.stderr)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A robot on a base that drives, and a joint that turns without end, as MoveGroupCommander and RobotCommander see them."""
+
 import unittest
 
 import moveit_commander
@@ -47,8 +48,12 @@ class Mobile(unittest.TestCase):
         state = RobotState(is_diff=True)
         state.multi_dof_joint_state.joint_names = ["base"]
         state.multi_dof_joint_state.transforms = [Transform(Vector3(0.5, 0.0, 0.0), Quaternion(0.0, 0.0, 0.0, 1.0))]
-        for frame, there in (("world", [1.0 + 0.5 * np.cos(0.3), -0.5 + 0.5 * np.sin(0.3), 0.3]), ("odom", [0.5, 0.0, 0.0]),
-                             ("", [0.5, 0.0, 0.0]), ("nowhere", [0.5, 0.0, 0.0])):
+        for frame, there in (
+            ("world", [1.0 + 0.5 * np.cos(0.3), -0.5 + 0.5 * np.sin(0.3), 0.3]),
+            ("odom", [0.5, 0.0, 0.0]),
+            ("", [0.5, 0.0, 0.0]),
+            ("nowhere", [0.5, 0.0, 0.0]),
+        ):
             state.multi_dof_joint_state.header.frame_id = frame
             pose = rospy.ServiceProxy("compute_fk", GetPositionFK)(Header(frame_id="odom"), ["world"], state).pose_stamped[0].pose
             found = [pose.position.x, pose.position.y, 2 * np.arctan2(pose.orientation.z, pose.orientation.w)]

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Clients of a move_group in a namespace."""
+
 import unittest
 
 import rospy
@@ -10,8 +11,7 @@ from moveit_commander import MoveGroupCommander, PlanningSceneInterface, RobotCo
 
 class Namespace(unittest.TestCase):
     def test_everything_is_found_below_the_namespace(self):
-        arm = MoveGroupCommander("manipulator", robot_description="/left/robot_description", ns="/left",
-                                 wait_for_servers=60.0)
+        arm = MoveGroupCommander("manipulator", robot_description="/left/robot_description", ns="/left", wait_for_servers=60.0)
         arm.set_named_target("left")
         self.assertTrue(arm.go(wait=True))
         self.assertAlmostEqual(arm.get_current_joint_values()[0], 1.2, delta=0.01)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A group with two tips: a pose for each of them in one goal."""
+
 import unittest
 
 import moveit_commander
@@ -40,8 +41,9 @@ class TwoArms(unittest.TestCase):
         for link, pose in wanted.items():
             there = self.both.get_current_pose(link)
             np.testing.assert_allclose(vector(there), vector(pose), atol=2e-3)
-            turned = abs(np.dot(*([p.pose.orientation.x, p.pose.orientation.y, p.pose.orientation.z, p.pose.orientation.w]
-                                  for p in (there, pose))))
+            turned = abs(
+                np.dot(*([p.pose.orientation.x, p.pose.orientation.y, p.pose.orientation.z, p.pose.orientation.w] for p in (there, pose)))
+            )
             self.assertGreater(turned, 0.99999)
 
     def test_one_tip_alone(self):
@@ -71,8 +73,9 @@ class TwoArms(unittest.TestCase):
         there = rospy.ServiceProxy("compute_fk", GetPositionFK)(wanted[0].header, [LEFT, RIGHT], answer.solution)
         for found, pose in zip(there.pose_stamped, wanted):
             np.testing.assert_allclose(vector(found), vector(pose), atol=1e-3)
-        self.assertEqual(self.solve(pose_stamped_vector=[wanted[0], self.moved(RIGHT, x=5.0)]).error_code.val,
-                         MoveItErrorCodes.NO_IK_SOLUTION)
+        self.assertEqual(
+            self.solve(pose_stamped_vector=[wanted[0], self.moved(RIGHT, x=5.0)]).error_code.val, MoveItErrorCodes.NO_IK_SOLUTION
+        )
         self.assertEqual(self.solve(pose_stamped=wanted[0]).error_code.val, MoveItErrorCodes.NO_IK_SOLUTION)  # no solver for one alone
 
     def test_what_one_tip_cannot_reach_fails_the_goal(self):

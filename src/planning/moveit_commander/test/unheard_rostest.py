@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A robot of whose joints some are published by nobody, as those of a gripper that is not simulated."""
+
 import unittest
 
 import rospy

@@ -1,4 +1,5 @@
 """A small robot and its scene."""
+
 import motion
 import pytest
 
@@ -27,4 +28,5 @@ def said():
 @pytest.fixture
 def editor(scene, said):
     from moveit_core.scene_messages import SceneEditor
+
     return SceneEditor(scene, said.append)

@@ -1,18 +1,25 @@
 """Messages that change a planning scene, and the scene as a message."""
+
 import math
 
 import motion
 import numpy as np
 import pytest
 from geometry_msgs.msg import Point, Pose, Quaternion
-from moveit_msgs.msg import (AllowedCollisionEntry, AllowedCollisionMatrix, AttachedCollisionObject, CollisionObject,
-                              Constraints, OrientationConstraint,
-                             LinkPadding,
-                             PlanningScene, PlanningSceneComponents)
-from shape_msgs.msg import Mesh, MeshTriangle, Plane, SolidPrimitive
-
 from moveit_core import convert
 from moveit_core.scene_messages import SceneEditor, acm_from_message, acm_message, octomap_message, scene_message
+from moveit_msgs.msg import (
+    AllowedCollisionEntry,
+    AllowedCollisionMatrix,
+    AttachedCollisionObject,
+    CollisionObject,
+    Constraints,
+    LinkPadding,
+    OrientationConstraint,
+    PlanningScene,
+    PlanningSceneComponents,
+)
+from shape_msgs.msg import Mesh, MeshTriangle, Plane, SolidPrimitive
 
 
 def at(x=0.0, y=0.0, z=0.0, yaw=0.0):
@@ -20,8 +27,7 @@ def at(x=0.0, y=0.0, z=0.0, yaw=0.0):
 
 
 def box(name="box", x=0.0, **more):
-    return CollisionObject(id=name, primitives=[SolidPrimitive(SolidPrimitive.BOX, [0.1, 0.2, 0.3])], pose=at(x),
-                           **more)
+    return CollisionObject(id=name, primitives=[SolidPrimitive(SolidPrimitive.BOX, [0.1, 0.2, 0.3])], pose=at(x), **more)
 
 
 def attached(name, link, operation=CollisionObject.ADD, touch=()):
@@ -32,8 +38,10 @@ def attached(name, link, operation=CollisionObject.ADD, touch=()):
 
 def test_every_shape_goes_in_and_comes_out(editor, scene):
     message = box("all", 1.0)
-    message.primitives += [SolidPrimitive(kind, size) for kind, size in (
-        (SolidPrimitive.SPHERE, [0.5]), (SolidPrimitive.CYLINDER, [2.0, 0.25]), (SolidPrimitive.CONE, [1.0, 0.5]))]
+    message.primitives += [
+        SolidPrimitive(kind, size)
+        for kind, size in ((SolidPrimitive.SPHERE, [0.5]), (SolidPrimitive.CYLINDER, [2.0, 0.25]), (SolidPrimitive.CONE, [1.0, 0.5]))
+    ]
     message.primitive_poses = [at(0, 1), at(0, 2)]
     message.meshes = [Mesh([MeshTriangle((0, 1, 2))], [Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0)])]
     message.mesh_poses = [at(z=3)]
@@ -94,8 +102,7 @@ def test_an_object_with_the_name_of_a_link_takes_nothing_of_the_links_with_it(ed
 
 
 def test_the_pose_of_a_single_shape_becomes_that_of_its_object(editor, scene):
-    message = CollisionObject(id="old", primitives=[SolidPrimitive(SolidPrimitive.SPHERE, [0.1])],
-                              primitive_poses=[at(2, 3)])
+    message = CollisionObject(id="old", primitives=[SolidPrimitive(SolidPrimitive.SPHERE, [0.1])], primitive_poses=[at(2, 3)])
     assert editor.collision_object(message)
     assert scene.object("old").pose.position == pytest.approx([2, 3, 0])
     assert scene.object("old").shape_poses[0].position == pytest.approx([0, 0, 0])
@@ -104,8 +111,7 @@ def test_the_pose_of_a_single_shape_becomes_that_of_its_object(editor, scene):
 def test_add_replaces_append_adds_move_moves_remove_removes(editor, scene):
     assert editor.collision_object(box())
     assert editor.collision_object(box(x=0.5)) and len(scene.object("box").shapes) == 1
-    assert editor.collision_object(box(x=1.0,
-                                       operation=CollisionObject.APPEND)) and len(scene.object("box").shapes) == 2
+    assert editor.collision_object(box(x=1.0, operation=CollisionObject.APPEND)) and len(scene.object("box").shapes) == 2
     assert scene.object("box").shape_poses[1].position == pytest.approx([0.5, 0, 0])
     assert editor.collision_object(CollisionObject(id="box", operation=CollisionObject.MOVE, pose=at(3)))
     assert scene.object("box").pose.position == pytest.approx([3, 0, 0]) and len(scene.object("box").shapes) == 2
@@ -124,18 +130,25 @@ def test_objects_are_placed_in_any_known_frame(editor, scene):
     assert scene.object("box").pose.position == pytest.approx([0.5, 0, 1.25])
 
 
-@pytest.mark.parametrize("change, words", [
-    (dict(primitives=[]), "no shape"), (dict(id=""), "needs a name"), (dict(id="<octomap>"), "kept for the octomap"),
-    (dict(primitives=[SolidPrimitive(SolidPrimitive.BOX, [1, 1])]), "3 dimensions, not 2"),
-    (dict(primitives=[SolidPrimitive(9, [1, 1])]), "primitive type 9"),
-    (dict(primitives=[SolidPrimitive(SolidPrimitive.SPHERE, [float("nan")])]), "not finite"),
-    (dict(primitives=[SolidPrimitive(SolidPrimitive.SPHERE, [-1.0])]), "negative"),
-    (dict(primitives=[], meshes=[Mesh([MeshTriangle((0, 1, 5))], [Point()] * 3)]), "vertex 5"),
-    (dict(primitives=[], planes=[Plane([0, 0, 0, 1])]), "normal 0 0 0"),
-    (dict(pose=at(float("inf"))), "not finite"), (dict(operation=7), "operation 7"),
-    (dict(operation=CollisionObject.MOVE), "cannot be moved"), (dict(operation=CollisionObject.REMOVE), "cannot be "
-                                                                "removed"),
-    (dict(subframe_names=["a"]), "1 subframe_names and 0 subframe_poses")])
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        (dict(primitives=[]), "no shape"),
+        (dict(id=""), "needs a name"),
+        (dict(id="<octomap>"), "kept for the octomap"),
+        (dict(primitives=[SolidPrimitive(SolidPrimitive.BOX, [1, 1])]), "3 dimensions, not 2"),
+        (dict(primitives=[SolidPrimitive(9, [1, 1])]), "primitive type 9"),
+        (dict(primitives=[SolidPrimitive(SolidPrimitive.SPHERE, [float("nan")])]), "not finite"),
+        (dict(primitives=[SolidPrimitive(SolidPrimitive.SPHERE, [-1.0])]), "negative"),
+        (dict(primitives=[], meshes=[Mesh([MeshTriangle((0, 1, 5))], [Point()] * 3)]), "vertex 5"),
+        (dict(primitives=[], planes=[Plane([0, 0, 0, 1])]), "normal 0 0 0"),
+        (dict(pose=at(float("inf"))), "not finite"),
+        (dict(operation=7), "operation 7"),
+        (dict(operation=CollisionObject.MOVE), "cannot be moved"),
+        (dict(operation=CollisionObject.REMOVE), "cannot be removed"),
+        (dict(subframe_names=["a"]), "1 subframe_names and 0 subframe_poses"),
+    ],
+)
 def test_bad_objects_are_refused_in_one_line_and_change_nothing(editor, scene, said, change, words):
     message = box("bad")
     for name, value in change.items():
@@ -172,10 +185,16 @@ def test_attach_with_shapes_places_them_in_the_frame_of_the_message(editor, scen
     assert back.link_name == "tip" and sorted(back.touch_links) == ["arm", "tip"] and back.object.pose.position.x == 0.5
 
 
-@pytest.mark.parametrize("message, words", [
-    (attached("box", "claw"), "no link 'claw'"), (attached("ghost", "tip"), "no such object; there are: box"),
-    (attached("box", "tip", CollisionObject.REMOVE), "it is not attached"), (attached("box", "tip", 5), "operation 5"),
-    (attached("held", "arm", CollisionObject.REMOVE), "attached to link 'tip', not to 'arm'")])
+@pytest.mark.parametrize(
+    "message, words",
+    [
+        (attached("box", "claw"), "no link 'claw'"),
+        (attached("ghost", "tip"), "no such object; there are: box"),
+        (attached("box", "tip", CollisionObject.REMOVE), "it is not attached"),
+        (attached("box", "tip", 5), "operation 5"),
+        (attached("held", "arm", CollisionObject.REMOVE), "attached to link 'tip', not to 'arm'"),
+    ],
+)
 def test_bad_attachments_are_refused(editor, scene, said, message, words):
     editor.collision_object(box())
     editor.collision_object(box("held"))
@@ -222,8 +241,7 @@ def test_a_scene_survives_being_sent(editor, scene):
 def test_components_choose_what_is_sent(editor, scene):
     editor.collision_object(box())
     names = scene_message(scene, PlanningSceneComponents.WORLD_OBJECT_NAMES)
-    assert [item.id
-            for item in names.world.collision_objects] == ["box"] and not names.world.collision_objects[0].primitives
+    assert [item.id for item in names.world.collision_objects] == ["box"] and not names.world.collision_objects[0].primitives
     assert not names.robot_state.joint_state.name and not names.link_padding
     state = scene_message(scene, PlanningSceneComponents.ROBOT_STATE)
     assert state.robot_state.joint_state.name == ["turn", "slide"] and not state.world.collision_objects
@@ -231,9 +249,12 @@ def test_components_choose_what_is_sent(editor, scene):
 
 
 def test_the_upper_half_of_a_matrix_counts():
-    message = AllowedCollisionMatrix(entry_names=["a", "b"], entry_values=[AllowedCollisionEntry([False, True]),
-                                                                          AllowedCollisionEntry([False, False])],
-                                     default_entry_names=["c"], default_entry_values=[True])
+    message = AllowedCollisionMatrix(
+        entry_names=["a", "b"],
+        entry_values=[AllowedCollisionEntry([False, True]), AllowedCollisionEntry([False, False])],
+        default_entry_names=["c"],
+        default_entry_values=[True],
+    )
     matrix = acm_from_message(message)
     assert matrix.get("a", "b") is True and matrix.get_default("c") is True
     back = acm_message(matrix)

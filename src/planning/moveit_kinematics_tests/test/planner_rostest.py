@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """move_group plans with a compiled planner and a compiled request adapter of another package."""
+
 import time
 
 import actionlib
@@ -7,18 +8,15 @@ import rospy
 import rostest
 import test_support
 from actionlib_msgs.msg import GoalStatus
-from moveit_msgs.msg import (Constraints, JointConstraint, MotionPlanRequest, MoveGroupAction, MoveGroupGoal,
-                             MoveItErrorCodes)
+from moveit_msgs.msg import Constraints, JointConstraint, MotionPlanRequest, MoveGroupAction, MoveGroupGoal, MoveItErrorCodes
 from moveit_msgs.srv import GetMotionPlan, QueryPlannerInterfaces
 
 JOINTS, GOAL = ("shoulder", "elbow", "lift", "wrist"), (0.5, 0.8, -0.1, 0.4)
 
 
 def request(pipeline="straight", planner="", group="one", joints=JOINTS):
-    goal = Constraints(joint_constraints=[JointConstraint(name, value, 1e-3, 1e-3, 1.0)
-                                          for name, value in zip(joints, GOAL)])
-    return MotionPlanRequest(group_name=group, pipeline_id=pipeline, planner_id=planner, goal_constraints=[goal],
-                             allowed_planning_time=5.0)
+    goal = Constraints(joint_constraints=[JointConstraint(name, value, 1e-3, 1e-3, 1.0) for name, value in zip(joints, GOAL)])
+    return MotionPlanRequest(group_name=group, pipeline_id=pipeline, planner_id=planner, goal_constraints=[goal], allowed_planning_time=5.0)
 
 
 class Planner(test_support.TestCase):
@@ -49,8 +47,13 @@ class Planner(test_support.TestCase):
         self.assertEqual(times, [float(i) for i in range(len(times))])
 
     def test_what_goes_wrong_in_the_planner_stays_there(self):
-        for kwargs in (dict(planner="throw"), dict(joints=("no_such_joint",)), dict(pipeline="absent"),
-                       dict(pipeline="unready"), dict(group="legs")):
+        for kwargs in (
+            dict(planner="throw"),
+            dict(joints=("no_such_joint",)),
+            dict(pipeline="absent"),
+            dict(pipeline="unready"),
+            dict(group="legs"),
+        ):
             with self.subTest(**kwargs):
                 self.assertEqual(self.plan(**kwargs).error_code.val, MoveItErrorCodes.FAILURE)
         self.assertEqual(self.plan().error_code.val, MoveItErrorCodes.SUCCESS)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """move_group solves with a compiled kinematics plugin, and with its own solver where one cannot be used."""
+
 import math
 import unittest
 
@@ -67,8 +68,14 @@ class Plugin(unittest.TestCase):
         position.header.frame_id = "base"
         position.constraint_region.primitives = [SolidPrimitive(SolidPrimitive.SPHERE, [1e-4])]
         position.constraint_region.primitive_poses = [target.pose]
-        turn = OrientationConstraint(link_name="tool", orientation=target.pose.orientation, absolute_x_axis_tolerance=1e-3,
-                                     absolute_y_axis_tolerance=1e-3, absolute_z_axis_tolerance=1e-3, weight=1.0)
+        turn = OrientationConstraint(
+            link_name="tool",
+            orientation=target.pose.orientation,
+            absolute_x_axis_tolerance=1e-3,
+            absolute_y_axis_tolerance=1e-3,
+            absolute_z_axis_tolerance=1e-3,
+            weight=1.0,
+        )
         turn.header.frame_id = "base"
         request = GetMotionPlanRequest()
         request.motion_plan_request.group_name = "one"

@@ -1,4 +1,5 @@
 """The types must be those that compiled tools of Noetic speak: same MD5 sums."""
+
 from moveit_msgs import msg, srv
 
 MESSAGES = {
@@ -156,5 +157,6 @@ def test_error_codes():
 def test_every_type_is_in_the_table():
     def kinds(module):
         return {name for name in dir(module) if hasattr(getattr(module, name), "_md5sum")}
+
     services = {name for name in kinds(srv) if not name.endswith(("Request", "Response"))}
     assert kinds(msg) == set(MESSAGES) and services == set(SERVICES)

@@ -1,4 +1,5 @@
 """The pipeline as packages of MoveIt's assistant of 2021 include it."""
+
 import subprocess
 
 import yaml
@@ -16,5 +17,7 @@ def test_the_pipeline_is_included(tmp_path):
     pipeline = "/move_group/planning_pipelines/pilz_industrial_motion_planner/"
     assert parameters[pipeline + "planning_plugin"] == "pilz_industrial_motion_planner::CommandPlanner"
     assert parameters[pipeline + "capabilities"].split() == [
-        "pilz_industrial_motion_planner/MoveGroupSequenceAction", "pilz_industrial_motion_planner/MoveGroupSequenceService"]
+        "pilz_industrial_motion_planner/MoveGroupSequenceAction",
+        "pilz_industrial_motion_planner/MoveGroupSequenceService",
+    ]
     assert parameters[pipeline + "request_adapters"] == "default_planner_request_adapters/ResolveConstraintFrames"

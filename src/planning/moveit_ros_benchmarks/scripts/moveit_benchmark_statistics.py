@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Logs of benchmarks into a database for Planner Arena; see moveit_ros_benchmarks.statistics."""
+
 import signal
 
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while the imports take their second

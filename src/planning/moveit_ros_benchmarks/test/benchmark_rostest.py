@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Stored queries are solved by every planner, and the logs say how."""
+
 import os
 import sqlite3
 import subprocess
@@ -10,12 +11,11 @@ import rospy
 import rostest
 import yaml
 from moveit_msgs.msg import CollisionObject, Constraints, JointConstraint, MotionPlanRequest, PlanningScene, RobotState
-from shape_msgs.msg import SolidPrimitive
-
 from moveit_ros_benchmarks import log
 from moveit_ros_benchmarks.executor import Executor
 from moveit_ros_benchmarks.options import OptionsError, load, read
 from moveit_ros_warehouse.storage import Warehouse
+from shape_msgs.msg import SolidPrimitive
 
 JOINTS = [f"joint_{number}" for number in range(1, 7)]
 HOME = [0.0, -0.6, 1.6, 0.0, 1.0, 0.0]
@@ -48,17 +48,38 @@ class Benchmark(unittest.TestCase):
             fill(Warehouse(os.path.join(folder, "warehouse.sqlite")))
             rospy.set_param("~database_path", folder)
             file = os.path.join(folder, "bench.yaml")
-            config = {"warehouse": {"scene_name": "kitchen"}, "planning_pipelines": PIPELINES,
-                      "parameters": {"name": "test", "runs": 2, "group": "manipulator", "timeout": 5.0, "start_states": "home",
-                                     "output_directory": os.path.join(folder, "out")}}
+            config = {
+                "warehouse": {"scene_name": "kitchen"},
+                "planning_pipelines": PIPELINES,
+                "parameters": {
+                    "name": "test",
+                    "runs": 2,
+                    "group": "manipulator",
+                    "timeout": 5.0,
+                    "start_states": "home",
+                    "output_directory": os.path.join(folder, "out"),
+                },
+            }
             with open(file, "w", encoding="utf-8") as out:
                 yaml.safe_dump({"benchmark_config": config}, out)
             # under this node's name, so that it finds this test's parameters
-            done = subprocess.run(["rosrun", "moveit_ros_benchmarks", "moveit_run_benchmark", file, "--benchmark-planners",
-                                   f"__name:={rospy.get_name().lstrip('/')}_copy"], capture_output=True, text=True, timeout=PATIENCE)
+            done = subprocess.run(
+                [
+                    "rosrun",
+                    "moveit_ros_benchmarks",
+                    "moveit_run_benchmark",
+                    file,
+                    "--benchmark-planners",
+                    f"__name:={rospy.get_name().lstrip('/')}_copy",
+                ],
+                capture_output=True,
+                text=True,
+                timeout=PATIENCE,
+            )
             self.assertEqual((done.returncode, "Traceback" in done.stderr), (1, False))
             self.assertIn("Planning pipeline 'ompl' does NOT exist", done.stdout + done.stderr)
             from moveit_ros_benchmarks.executor import open_warehouse
+
             options = load(file)
             executor = Executor(options)
             problems = executor.load(open_warehouse(options))
@@ -76,34 +97,50 @@ class Benchmark(unittest.TestCase):
 
     def statistics(self, folder, logs):
         base = os.path.join(folder, "b.db")
-        done = subprocess.run(["rosrun", "moveit_ros_benchmarks", "moveit_benchmark_statistics.py", "-d", base, *logs],
-                              capture_output=True, text=True, timeout=PATIENCE)
+        done = subprocess.run(
+            ["rosrun", "moveit_ros_benchmarks", "moveit_benchmark_statistics.py", "-d", base, *logs],
+            capture_output=True,
+            text=True,
+            timeout=PATIENCE,
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
-        rows = sqlite3.connect(base).execute("SELECT name, solved, final_path_length FROM runs JOIN plannerConfigs ON plannerid = "
-                                             "plannerConfigs.id").fetchall()
+        rows = (
+            sqlite3.connect(base)
+            .execute("SELECT name, solved, final_path_length FROM runs JOIN plannerConfigs ON plannerid = plannerConfigs.id")
+            .fetchall()
+        )
         self.assertEqual(sorted({row[0] for row in rows}), ["Connect (ompl)", "Tree (ompl)"])
         self.assertEqual(len(rows), 4)
 
     def test_poses_of_the_robot(self):
-        options = read({"parameters": {"group": "manipulator", "runs": 1, "predefined_poses": ["home", "left", "ghost"]},
-                        "planning_pipelines": PIPELINES[:1]}, "here")
+        options = read(
+            {
+                "parameters": {"group": "manipulator", "runs": 1, "predefined_poses": ["home", "left", "ghost"]},
+                "planning_pipelines": PIPELINES[:1],
+            },
+            "here",
+        )
         self.assertEqual([problem.name for problem in Executor(options).combine_poses()], ["home_left", "left_home"])
 
     def test_what_is_wrong_is_said(self):
         good = {"parameters": {"group": "manipulator"}, "planning_pipelines": PIPELINES}
-        for change, message in (({"parameters": {}}, "here/parameters/group is missing"),
-                                ({"parameters": {"group": "manipulator", "runs": "many"}}, "runs is 'many'"),
-                                ({"planning_pipelines": []}, "names no planner"),
-                                ({"planning_pipelines": [{"name": "ompl", "planners": ["STAR"]}]}, "there are: Connect, Tree"),
-                                ({"parameters": {"group": "tail"}}, "it has: manipulator, hand"),
-                                ({}, "there is nothing to solve")):
+        for change, message in (
+            ({"parameters": {}}, "here/parameters/group is missing"),
+            ({"parameters": {"group": "manipulator", "runs": "many"}}, "runs is 'many'"),
+            ({"planning_pipelines": []}, "names no planner"),
+            ({"planning_pipelines": [{"name": "ompl", "planners": ["STAR"]}]}, "there are: Connect, Tree"),
+            ({"parameters": {"group": "tail"}}, "it has: manipulator, hand"),
+            ({}, "there is nothing to solve"),
+        ):
             with self.assertRaisesRegex(OptionsError, message):
                 Executor(read({**good, **change}, "here")).load(None)
 
     def test_files_of_old_configurations(self):
         with tempfile.NamedTemporaryFile("w", suffix=".cfg") as file:
-            file.write("[scene]\nname=kitchen\ngroup=manipulator\nruns=3\ntimeout=2.5\nquery=.*pick\n[plugin]\n"
-                       "name=ompl_interface_ros/OMPLPlanner\nplanners=Connect Tree\n")
+            file.write(
+                "[scene]\nname=kitchen\ngroup=manipulator\nruns=3\ntimeout=2.5\nquery=.*pick\n[plugin]\n"
+                "name=ompl_interface_ros/OMPLPlanner\nplanners=Connect Tree\n"
+            )
             file.flush()
             options = load(file.name)
         self.assertEqual((options.scene, options.runs, options.timeout, options.queries), ("kitchen", 3, 2.5, ".*pick"))

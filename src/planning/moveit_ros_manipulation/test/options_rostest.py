@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Each option of the goals of pickup and place, sent as the clients send them. Lengths in m."""
+
 import copy
 import math
 import unittest
@@ -9,8 +10,18 @@ import moveit_commander
 import rospy
 import rostest
 from geometry_msgs.msg import PoseStamped
-from moveit_msgs.msg import (Constraints, DisplayTrajectory, JointConstraint, MoveItErrorCodes,
-                             PickupAction, PickupGoal, PlaceAction, PlaceGoal, PlaceLocation, RobotState)
+from moveit_msgs.msg import (
+    Constraints,
+    DisplayTrajectory,
+    JointConstraint,
+    MoveItErrorCodes,
+    PickupAction,
+    PickupGoal,
+    PlaceAction,
+    PlaceGoal,
+    PlaceLocation,
+    RobotState,
+)
 from moveit_msgs.srv import GetPositionFK
 from pick_place_rostest import HOME, REACH, along_z, fingers, grasp, stamped
 
@@ -44,13 +55,26 @@ class Options(unittest.TestCase):
         self.scene.add_box("block", stamped(0.45, 0.0, 0.25), (0.03, 0.03, 0.08))
 
     def pick(self, *grasps, only_plan=True, **fields):
-        goal = PickupGoal(target_name="block", group_name="manipulator", end_effector="gripper", support_surface_name="table",
-                          allow_gripper_support_collision=True, allowed_planning_time=20.0, possible_grasps=list(grasps))
+        goal = PickupGoal(
+            target_name="block",
+            group_name="manipulator",
+            end_effector="gripper",
+            support_surface_name="table",
+            allow_gripper_support_collision=True,
+            allowed_planning_time=20.0,
+            possible_grasps=list(grasps),
+        )
         return self._send(self.picks, goal, only_plan, fields)
 
     def place(self, *locations, only_plan=True, **fields):
-        goal = PlaceGoal(attached_object_name="block", group_name="manipulator", support_surface_name="table",
-                         allow_gripper_support_collision=True, allowed_planning_time=20.0, place_locations=list(locations))
+        goal = PlaceGoal(
+            attached_object_name="block",
+            group_name="manipulator",
+            support_surface_name="table",
+            allow_gripper_support_collision=True,
+            allowed_planning_time=20.0,
+            place_locations=list(locations),
+        )
         return self._send(self.places, goal, only_plan, fields)
 
     @staticmethod
@@ -251,8 +275,13 @@ class Options(unittest.TestCase):
     # --- placing ---
 
     def spot(self, name="left", y=0.2):
-        return PlaceLocation(id=name, place_pose=stamped(0.45, y, 0.251), pre_place_approach=along_z(-1.0),
-                             post_place_retreat=along_z(1.0), post_place_posture=fingers(0.04))
+        return PlaceLocation(
+            id=name,
+            place_pose=stamped(0.45, y, 0.251),
+            pre_place_approach=along_z(-1.0),
+            post_place_retreat=along_z(1.0),
+            post_place_posture=fingers(0.04),
+        )
 
     def test_places(self):
         self.hold()
@@ -267,8 +296,13 @@ class Options(unittest.TestCase):
             self.assert_code(result, Codes.SUCCESS)
             self.assertAlmostEqual(math.dist(self.hand(result, "approach"), (0.45, 0.1, 0.251 + REACH)), 0.0, delta=3e-3)
         with self.subTest("names left out"):
-            for fields in ({"attached_object_name": ""}, {"group_name": ""}, {"group_name": "gripper"},
-                           {"group_name": "hand"}, {"group_name": "hand", "attached_object_name": ""}):
+            for fields in (
+                {"attached_object_name": ""},
+                {"group_name": ""},
+                {"group_name": "gripper"},
+                {"group_name": "hand"},
+                {"group_name": "hand", "attached_object_name": ""},
+            ):
                 self.assert_code(self.place(self.spot(), **fields), Codes.SUCCESS)
             self.assert_code(self.place(self.spot(), attached_object_name="table"), Codes.INVALID_OBJECT_NAME)
         with self.subTest("one of several"):

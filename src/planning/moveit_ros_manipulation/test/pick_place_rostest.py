@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A block is picked from a table and put down elsewhere."""
+
 import unittest
 
 import moveit_commander
@@ -34,13 +35,20 @@ def along_z(sign, desired=0.1, least=0.05):
 
 
 def fingers(position):
-    return JointTrajectory(joint_names=["finger_joint"], points=[JointTrajectoryPoint(
-        positions=[position], time_from_start=rospy.Duration(0.5))])
+    return JointTrajectory(
+        joint_names=["finger_joint"], points=[JointTrajectoryPoint(positions=[position], time_from_start=rospy.Duration(0.5))]
+    )
 
 
 def grasp(x, y, z, name="from above"):
-    return Grasp(id=name, grasp_pose=stamped(x, y, z + REACH, (0, 3.14159, 0)), pre_grasp_approach=along_z(-1.0),
-                 post_grasp_retreat=along_z(1.0), pre_grasp_posture=fingers(0.04), grasp_posture=fingers(0.015))
+    return Grasp(
+        id=name,
+        grasp_pose=stamped(x, y, z + REACH, (0, 3.14159, 0)),
+        pre_grasp_approach=along_z(-1.0),
+        post_grasp_retreat=along_z(1.0),
+        pre_grasp_posture=fingers(0.04),
+        grasp_posture=fingers(0.015),
+    )
 
 
 class PickPlace(unittest.TestCase):
@@ -68,8 +76,13 @@ class PickPlace(unittest.TestCase):
         self.assertEqual(self.scene.get_attached_objects()["block"].link_name, "hand")
         self.assertNotIn("block", self.scene.get_known_object_names())
         self.assertAlmostEqual(self.finger(), 0.015, delta=1e-3)
-        place = PlaceLocation(id="left", place_pose=stamped(0.45, 0.2, 0.251), pre_place_approach=along_z(-1.0),
-                              post_place_retreat=along_z(1.0), post_place_posture=fingers(0.04))
+        place = PlaceLocation(
+            id="left",
+            place_pose=stamped(0.45, 0.2, 0.251),
+            pre_place_approach=along_z(-1.0),
+            post_place_retreat=along_z(1.0),
+            post_place_posture=fingers(0.04),
+        )
         self.assertTrue(self.arm.place("block", place))
         self.assertFalse(self.scene.get_attached_objects())
         put = self.scene.get_object_poses(["block"])["block"].position

@@ -1,12 +1,20 @@
 """What the tests of move_group ask it with."""
+
 import threading
 
 import actionlib
 import rospy
 from geometry_msgs.msg import Point, Pose, Quaternion
-from moveit_msgs.msg import (CollisionObject, Constraints, JointConstraint, MotionPlanRequest, MoveGroupAction,
-                             MoveGroupGoal,
-                             PlanningScene, RobotState)
+from moveit_msgs.msg import (
+    CollisionObject,
+    Constraints,
+    JointConstraint,
+    MotionPlanRequest,
+    MoveGroupAction,
+    MoveGroupGoal,
+    PlanningScene,
+    RobotState,
+)
 from moveit_msgs.srv import ApplyPlanningScene, GetMotionPlan
 from shape_msgs.msg import SolidPrimitive
 
@@ -24,15 +32,19 @@ def call(name, kind, *arguments):
 
 def joint_goal(values, names=JOINTS):
     """Goal constraints of joint values."""
-    return Constraints(joint_constraints=[JointConstraint(name, value, 1e-4, 1e-4, 1.0) for name, value in zip(names,
-                                                                                                               values)])
+    return Constraints(joint_constraints=[JointConstraint(name, value, 1e-4, 1e-4, 1.0) for name, value in zip(names, values)])
 
 
 def request(values=None, **fields):
     """A MotionPlanRequest for the arm, to joint values."""
-    message = MotionPlanRequest(group_name="manipulator", allowed_planning_time=5.0, num_planning_attempts=1,
-                                start_state=RobotState(is_diff=True), max_velocity_scaling_factor=1.0,
-                                max_acceleration_scaling_factor=1.0)
+    message = MotionPlanRequest(
+        group_name="manipulator",
+        allowed_planning_time=5.0,
+        num_planning_attempts=1,
+        start_state=RobotState(is_diff=True),
+        max_velocity_scaling_factor=1.0,
+        max_acceleration_scaling_factor=1.0,
+    )
     message.goal_constraints = [joint_goal(values)] if values is not None else []
     for name, value in fields.items():
         setattr(message, name, value)
@@ -76,8 +88,7 @@ class Goal:
         if not self._client.wait_for_server(rospy.Duration(PATIENCE)):
             raise AssertionError(f"no action server {name}")
         self.states, self._done = [], threading.Event()
-        self._handle = self._client.send_goal(goal, self._changed, lambda _handle,
-                                              feedback: self.states.append(feedback.state))
+        self._handle = self._client.send_goal(goal, self._changed, lambda _handle, feedback: self.states.append(feedback.state))
 
     def _changed(self, handle):
         if handle.get_comm_state() == actionlib.CommState.DONE:

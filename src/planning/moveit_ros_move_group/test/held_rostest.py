@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """What is held: attached, changed and let go through topics, the service and clients. Lengths in m."""
+
 import copy
 import unittest
 
@@ -8,9 +9,18 @@ import rospy
 import rostest
 import tf2_ros
 from client import HOME, LEFT, apply, box, call, clear, plan, pose, wait_until
-from moveit_msgs.msg import (AttachedCollisionObject, CollisionObject, Constraints, MoveItErrorCodes, ObjectColor,
-                             OrientationConstraint, PlanningSceneComponents, PlanningSceneWorld,
-                             PositionConstraint, RobotState)
+from moveit_msgs.msg import (
+    AttachedCollisionObject,
+    CollisionObject,
+    Constraints,
+    MoveItErrorCodes,
+    ObjectColor,
+    OrientationConstraint,
+    PlanningSceneComponents,
+    PlanningSceneWorld,
+    PositionConstraint,
+    RobotState,
+)
 from moveit_msgs.srv import ApplyPlanningScene, GetPositionFK, GetPositionIK, GetPositionIKRequest
 from object_recognition_msgs.msg import ObjectType
 from services_rostest import scene, state_of
@@ -87,8 +97,18 @@ class Held(unittest.TestCase):
         flat.primitives[0].dimensions, lame.subframe_names = [0.1], ["tip", "toe"]
         lost = stick("lost")
         lost.header.frame_id = "nowhere"
-        for bad in (hold("ghost"), hold("stick", "link_5"), hold(stick("a"), ""), hold(stick("b"), "claw"), hold(flat), hold(lame),
-                    hold(lost), hold(stick("")), hold("stick", operation=MOVE), hold(stick("<octomap>"))):
+        for bad in (
+            hold("ghost"),
+            hold("stick", "link_5"),
+            hold(stick("a"), ""),
+            hold(stick("b"), "claw"),
+            hold(flat),
+            hold(lame),
+            hold(lost),
+            hold(stick("")),
+            hold("stick", operation=MOVE),
+            hold(stick("<octomap>")),
+        ):
             self.assertFalse(change(bad), f"{bad.object.id} on {bad.link_name}")
             self.assertEqual({name: body.link_name for name, body in held().items()}, {"stick": "hand"})
 
@@ -134,8 +154,13 @@ class Held(unittest.TestCase):
         thing = stick()
         thing.type = ObjectType(key="pen", db="{}")
         matrix = scene(Parts.ALLOWED_COLLISION_MATRIX).allowed_collision_matrix
-        self.assertTrue(apply(thing, allowed_collision_matrix=self.allowing(matrix, "stick", "link_3"),
-                              object_colors=[ObjectColor("stick", ColorRGBA(1, 0, 0, 1))]))
+        self.assertTrue(
+            apply(
+                thing,
+                allowed_collision_matrix=self.allowing(matrix, "stick", "link_3"),
+                object_colors=[ObjectColor("stick", ColorRGBA(1, 0, 0, 1))],
+            )
+        )
         for step, there in ((hold("stick"), held), (hold("stick", operation=REMOVE), standing)):
             self.assertTrue(change(step))
             item = there()["stick"]
@@ -159,8 +184,13 @@ class Held(unittest.TestCase):
 
         for vanish in (by_state, by_world):
             matrix = scene(Parts.ALLOWED_COLLISION_MATRIX).allowed_collision_matrix
-            self.assertTrue(apply(stick(), allowed_collision_matrix=self.allowing(matrix, "stick", "link_3"),
-                                  object_colors=[ObjectColor("stick", ColorRGBA(1, 0, 0, 1))]))
+            self.assertTrue(
+                apply(
+                    stick(),
+                    allowed_collision_matrix=self.allowing(matrix, "stick", "link_3"),
+                    object_colors=[ObjectColor("stick", ColorRGBA(1, 0, 0, 1))],
+                )
+            )
             vanish()
             self.assertEqual(self.known("stick"), (False, []), vanish.__name__)
             self.tearDown()
@@ -192,6 +222,7 @@ class Held(unittest.TestCase):
             wait_until(lambda: buffer.can_transform(parent, frame, rospy.Time()), frame)
             where = buffer.lookup_transform(parent, frame, rospy.Time()).transform.translation
             return [where.x, where.y, where.z]
+
         np.testing.assert_allclose(seen("hand", "move_group/stick"), [0, 0, 0.15], atol=1e-6)
         np.testing.assert_allclose(seen("hand", "move_group/stick/tip"), [0, 0, 0.20], atol=1e-6)
         self.assertTrue(change(hold("stick", operation=REMOVE)))
@@ -231,8 +262,14 @@ class Held(unittest.TestCase):
             near.constraint_region.primitives = [SolidPrimitive(SolidPrimitive.SPHERE, [1e-3])]
             where = np.array([here.position.x, here.position.y, here.position.z]) + 0.15 * turned
             near.constraint_region.primitive_poses = [pose(*where)]
-            turn = OrientationConstraint(link_name="stick/tip", absolute_x_axis_tolerance=0.01, absolute_y_axis_tolerance=0.01,
-                                         absolute_z_axis_tolerance=0.01, weight=1.0, orientation=here.orientation)
+            turn = OrientationConstraint(
+                link_name="stick/tip",
+                absolute_x_axis_tolerance=0.01,
+                absolute_y_axis_tolerance=0.01,
+                absolute_z_axis_tolerance=0.01,
+                weight=1.0,
+                orientation=here.orientation,
+            )
             turn.header.frame_id = "world"
             goal = Constraints(position_constraints=[near], orientation_constraints=[turn])
             answer = plan(goal_constraints=[goal], start_state=hand)

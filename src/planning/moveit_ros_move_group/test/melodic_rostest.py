@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Parameters as configurations of Melodic have them, directly below move_group."""
+
 import unittest
 
 import rospy
@@ -28,24 +29,42 @@ class Melodic(unittest.TestCase):
         found = plan(LEFT)
         answer = call("execute_kinematic_path", ExecuteKnownTrajectory, found.trajectory, True)
         self.assertEqual(answer.error_code.val, MoveItErrorCodes.SUCCESS)
-        self.assertEqual(call("execute_kinematic_path", ExecuteKnownTrajectory, found.trajectory, True).error_code.val,
-                         MoveItErrorCodes.CONTROL_FAILED, "the robot is no longer where the trajectory starts")
+        self.assertEqual(
+            call("execute_kinematic_path", ExecuteKnownTrajectory, found.trajectory, True).error_code.val,
+            MoveItErrorCodes.CONTROL_FAILED,
+            "the robot is no longer where the trajectory starts",
+        )
         self.assertEqual(move(HOME).result()[1].error_code.val, MoveItErrorCodes.SUCCESS)
 
     def test_with_position_only_ik_orientations_are_free(self):
         """The hand far out, pointing back at the robot: out of reach, but for its position."""
         there = PoseStamped(pose=Pose(Point(0.75, 0.0, 0.35), Quaternion(0.0, -0.707, 0.0, 0.707)))
         there.header.frame_id = "world"
-        goal = Constraints(position_constraints=[PositionConstraint(header=there.header, link_name="hand", weight=1.0)],
-                           orientation_constraints=[OrientationConstraint(
-                               header=there.header, link_name="hand", orientation=there.pose.orientation, weight=1.0,
-                               absolute_x_axis_tolerance=1e-3, absolute_y_axis_tolerance=1e-3, absolute_z_axis_tolerance=1e-3)])
+        goal = Constraints(
+            position_constraints=[PositionConstraint(header=there.header, link_name="hand", weight=1.0)],
+            orientation_constraints=[
+                OrientationConstraint(
+                    header=there.header,
+                    link_name="hand",
+                    orientation=there.pose.orientation,
+                    weight=1.0,
+                    absolute_x_axis_tolerance=1e-3,
+                    absolute_y_axis_tolerance=1e-3,
+                    absolute_z_axis_tolerance=1e-3,
+                )
+            ],
+        )
         region = goal.position_constraints[0].constraint_region
         region.primitives, region.primitive_poses = [SolidPrimitive(SolidPrimitive.SPHERE, [1e-3])], [there.pose]
         found = plan(goal_constraints=[goal])
         self.assertEqual(found.error_code.val, MoveItErrorCodes.SUCCESS)
-        line = call("compute_cartesian_path", GetCartesianPath, GetCartesianPathRequest(
-            start_state=RobotState(is_diff=True), group_name="manipulator", link_name="hand", max_step=0.02, waypoints=[there.pose]))
+        line = call(
+            "compute_cartesian_path",
+            GetCartesianPath,
+            GetCartesianPathRequest(
+                start_state=RobotState(is_diff=True), group_name="manipulator", link_name="hand", max_step=0.02, waypoints=[there.pose]
+            ),
+        )
         self.assertEqual(line.fraction, 1.0)
 
 

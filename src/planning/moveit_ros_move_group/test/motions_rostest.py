@@ -1,26 +1,46 @@
 #!/usr/bin/env python3
 """Industrial motions and lines as clients of move_group ask for them: by messages through its services and actions."""
+
 import copy
 import unittest
 
 import numpy as np
 import rospy
 import rostest
-from client import HOME, JOINTS, PATIENCE, Goal, apply, box, call, clear, joint_goal, move, plan, request
+from client import HOME, JOINTS, PATIENCE, Goal, apply, box, call, clear, joint_goal, move, plan, request, wait_until
 from geometry_msgs.msg import Pose, Quaternion
-from moveit_msgs.msg import (AllowedCollisionEntry, AllowedCollisionMatrix, CollisionObject, Constraints,
-                             DisplayTrajectory, GenericTrajectory, MoveGroupSequenceAction, MoveGroupSequenceGoal,
-                             MoveItErrorCodes, MotionSequenceItem, ObjectColor, OrientationConstraint,
-                             PlanningSceneComponents, PositionConstraint, RobotState, TrajectoryConstraints)
-from moveit_msgs.srv import (GetCartesianPath, GetCartesianPathRequest, GetMotionSequence, GetMotionSequenceRequest,
-                             GetPlanningScene, GetPositionFK, GetStateValidity)
+from moveit_msgs.msg import (
+    AllowedCollisionEntry,
+    AllowedCollisionMatrix,
+    CollisionObject,
+    Constraints,
+    DisplayTrajectory,
+    GenericTrajectory,
+    MotionSequenceItem,
+    MoveGroupSequenceAction,
+    MoveGroupSequenceGoal,
+    MoveItErrorCodes,
+    ObjectColor,
+    OrientationConstraint,
+    PlanningSceneComponents,
+    PositionConstraint,
+    RobotState,
+    TrajectoryConstraints,
+)
+from moveit_msgs.srv import (
+    GetCartesianPath,
+    GetCartesianPathRequest,
+    GetMotionSequence,
+    GetMotionSequenceRequest,
+    GetPlanningScene,
+    GetPositionFK,
+    GetStateValidity,
+)
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
 from shape_msgs.msg import SolidPrimitive
 from std_msgs.msg import Header
 from tf.transformations import quaternion_about_axis, quaternion_matrix, quaternion_multiply
-
-from client import wait_until
 
 Codes = MoveItErrorCodes
 PILZ = "pilz_industrial_motion_planner"
@@ -56,8 +76,15 @@ def pose_goal(target, region=True):
 
 
 def industrial(planner, *goals, **fields):
-    fields = {"pipeline_id": PILZ, "planner_id": planner, "goal_constraints": list(goals), "max_velocity_scaling_factor": 0.1,
-              "max_acceleration_scaling_factor": 0.1, "start_state": state_of(HOME), **fields}
+    fields = {
+        "pipeline_id": PILZ,
+        "planner_id": planner,
+        "goal_constraints": list(goals),
+        "max_velocity_scaling_factor": 0.1,
+        "max_acceleration_scaling_factor": 0.1,
+        "start_state": state_of(HOME),
+        **fields,
+    }
     return request(**fields)
 
 
@@ -123,8 +150,13 @@ class Circles(unittest.TestCase):
         clear()
 
     def test_what_is_no_circle(self):
-        for name, asked in (("its name", dict(kind="")), ("no pose", dict(poses=0, region=True)), ("two poses", dict(poses=2)),
-                            ("on the line", dict(at=moved(y=0.1))), ("not in the middle", dict(kind="center", at=moved(y=0.15, z=0.02)))):
+        for name, asked in (
+            ("its name", dict(kind="")),
+            ("no pose", dict(poses=0, region=True)),
+            ("two poses", dict(poses=2)),
+            ("on the line", dict(at=moved(y=0.1))),
+            ("not in the middle", dict(kind="center", at=moved(y=0.15, z=0.02))),
+        ):
             self.assertEqual(self.ask(**asked).error_code.val, Codes.INVALID_MOTION_PLAN, name)
 
 
@@ -139,8 +171,11 @@ class Requests(unittest.TestCase):
         """joint_limits: 2 rad/s, 4 rad/s^2; Cartesian limits are Pilz's defaults, 1 m/s and 2.25 m/s^2."""
         codes = []
         for scale in (1.0, 0.1):
-            found = answer(industrial("LIN", pose_goal(moved(x=-0.15, z=-0.15)), max_velocity_scaling_factor=scale,
-                                      max_acceleration_scaling_factor=scale))
+            found = answer(
+                industrial(
+                    "LIN", pose_goal(moved(x=-0.15, z=-0.15)), max_velocity_scaling_factor=scale, max_acceleration_scaling_factor=scale
+                )
+            )
             codes.append(found.error_code.val)
             points = found.trajectory.joint_trajectory.points
             self.assertLessEqual(max([np.abs(point.velocities).max() for point in points] or [0]), 2.002)
@@ -149,12 +184,14 @@ class Requests(unittest.TestCase):
 
     def test_a_line_that_only_turns_keeps_the_hand_in_its_place(self):
         goal = moved()
-        goal.orientation = Quaternion(*quaternion_multiply([getattr(goal.orientation, axis) for axis in "xyzw"],
-                                                           quaternion_about_axis(2.0, (0, 0, 1))))
+        goal.orientation = Quaternion(
+            *quaternion_multiply([getattr(goal.orientation, axis) for axis in "xyzw"], quaternion_about_axis(2.0, (0, 0, 1)))
+        )
         found = answer(industrial("LIN", pose_goal(goal)))
         self.assertEqual(found.error_code.val, Codes.SUCCESS)
-        np.testing.assert_allclose(path(found.trajectory), np.tile(vector(goal), (len(found.trajectory.joint_trajectory.points), 1)),
-                                   atol=1e-3)
+        np.testing.assert_allclose(
+            path(found.trajectory), np.tile(vector(goal), (len(found.trajectory.joint_trajectory.points), 1)), atol=1e-3
+        )
         steps = np.abs(np.diff([point.positions for point in found.trajectory.joint_trajectory.points], axis=0))
         self.assertLess(steps.max(), 0.1)
 
@@ -162,8 +199,14 @@ class Requests(unittest.TestCase):
         """MotionPlanRequest.msg: what is not in (0, 1], 0 above all, means 1."""
         times = []
         for scale in (0.0, 1.0, 3.0):
-            found = plan([0.5] + HOME[1:], start_state=state_of(HOME), max_velocity_scaling_factor=scale,
-                         max_acceleration_scaling_factor=scale, pipeline_id=PILZ, planner_id="PTP")
+            found = plan(
+                [0.5] + HOME[1:],
+                start_state=state_of(HOME),
+                max_velocity_scaling_factor=scale,
+                max_acceleration_scaling_factor=scale,
+                pipeline_id=PILZ,
+                planner_id="PTP",
+            )
             times.append(found.trajectory.joint_trajectory.points[-1].time_from_start.to_sec())
         np.testing.assert_allclose(times, 2 * np.sqrt(0.5 / 4.0), rtol=1e-6)  # the way at 4 rad/s^2, never at 2 rad/s
 
@@ -176,16 +219,17 @@ class Requests(unittest.TestCase):
         self.assertLess(speeds.max(), 0.1 + 1e-6)
         self.assertGreater(times[-1], 2 * fast.trajectory.joint_trajectory.points[-1].time_from_start.to_sec())
 
-
     def test_what_nobody_uses_is_said(self):
         """OMPL and Pilz look at neither; a link's speed is kept by an adapter, which Pilz's pipeline has not got."""
         heard = []
         subscriber = rospy.Subscriber("/rosout", Log, lambda message: heard.append(message.msg))
         wait_until(subscriber.get_num_connections, "the connection")
         constrained = TrajectoryConstraints(constraints=[Constraints(name="all the way")])
-        for words, fields in (("trajectory_constraints", dict(trajectory_constraints=constrained)),
-                              ("reference_trajectories", dict(reference_trajectories=[GenericTrajectory()])),
-                              ("LimitMaxCartesianLinkSpeed", dict(max_cartesian_speed=0.1, pipeline_id=PILZ, planner_id="PTP"))):
+        for words, fields in (
+            ("trajectory_constraints", dict(trajectory_constraints=constrained)),
+            ("reference_trajectories", dict(reference_trajectories=[GenericTrajectory()])),
+            ("LimitMaxCartesianLinkSpeed", dict(max_cartesian_speed=0.1, pipeline_id=PILZ, planner_id="PTP")),
+        ):
             found = plan([0.2] + HOME[1:], start_state=state_of(HOME), **fields)
             self.assertEqual(found.error_code.val, Codes.SUCCESS, words)
             wait_until(lambda words=words: any(words in line and "ignored" in line for line in heard), words)
@@ -226,8 +270,11 @@ class Sequences(unittest.TestCase):
         way = Constraints(name="center", position_constraints=[PositionConstraint(link_name="hand")])
         way.position_constraints[0].header.frame_id = "world"
         way.position_constraints[0].constraint_region.primitive_poses = [moved(z=-0.1)]
-        found = self.ask(self.item(0.0, planner_id="PTP", start_state=state_of(turned)),
-                         self.item(0.0, y=0.1, z=-0.1, planner_id="CIRC", path_constraints=way), self.item(0.0, y=0.1))
+        found = self.ask(
+            self.item(0.0, planner_id="PTP", start_state=state_of(turned)),
+            self.item(0.0, y=0.1, z=-0.1, planner_id="CIRC", path_constraints=way),
+            self.item(0.0, y=0.1),
+        )
         self.assertEqual((found.error_code.val, len(found.planned_trajectories)), (Codes.SUCCESS, 1))
         points = path(found.planned_trajectories[0])
         np.testing.assert_allclose(points[0], vector(place(turned)), atol=1e-3)
@@ -242,13 +289,18 @@ class Sequences(unittest.TestCase):
         self.assertTrue(0.002 < away < 0.04, away)
 
     def test_what_is_refused(self):
-        cases = [("a start of the second", [self.item(0.0, y=0.1), self.item(0.0, start_state=state_of(HOME))], Codes.INVALID_ROBOT_STATE),
-                 ("a last radius", [self.item(0.0, y=0.1), self.item(0.02)], Codes.INVALID_MOTION_PLAN),
-                 ("a negative radius", [self.item(-0.1, y=0.1), self.item(0.0)], Codes.INVALID_MOTION_PLAN),
-                 ("radii that overlap", [self.item(0.06, y=0.1), self.item(0.06, y=0.1, z=-0.1), self.item(0.0, z=-0.1)],
-                  Codes.INVALID_MOTION_PLAN),
-                 ("out of reach", [self.item(0.0, y=0.1), self.item(0.0, x=5.0)], Codes.NO_IK_SOLUTION),
-                 ("no pipeline", [self.item(0.0, y=0.1, pipeline_id="magic"), self.item(0.0)], Codes.FAILURE)]
+        cases = [
+            ("a start of the second", [self.item(0.0, y=0.1), self.item(0.0, start_state=state_of(HOME))], Codes.INVALID_ROBOT_STATE),
+            ("a last radius", [self.item(0.0, y=0.1), self.item(0.02)], Codes.INVALID_MOTION_PLAN),
+            ("a negative radius", [self.item(-0.1, y=0.1), self.item(0.0)], Codes.INVALID_MOTION_PLAN),
+            (
+                "radii that overlap",
+                [self.item(0.06, y=0.1), self.item(0.06, y=0.1, z=-0.1), self.item(0.0, z=-0.1)],
+                Codes.INVALID_MOTION_PLAN,
+            ),
+            ("out of reach", [self.item(0.0, y=0.1), self.item(0.0, x=5.0)], Codes.NO_IK_SOLUTION),
+            ("no pipeline", [self.item(0.0, y=0.1, pipeline_id="magic"), self.item(0.0)], Codes.FAILURE),
+        ]
         for name, items, code in cases:
             found = self.ask(*items)
             self.assertEqual((found.error_code.val, len(found.planned_trajectories)), (code, 0), name)
@@ -282,8 +334,16 @@ class Sequences(unittest.TestCase):
         subscriber.unregister()
 
     def test_groups_that_take_turns_are_trajectories_of_their_own(self):
-        hand = MotionSequenceItem(req=request(start_state=RobotState(), group_name="hand", pipeline_id=PILZ, planner_id="PTP",
-                                              goal_constraints=[joint_goal([0.03], ["finger_joint"])]), blend_radius=0.05)
+        hand = MotionSequenceItem(
+            req=request(
+                start_state=RobotState(),
+                group_name="hand",
+                pipeline_id=PILZ,
+                planner_id="PTP",
+                goal_constraints=[joint_goal([0.03], ["finger_joint"])],
+            ),
+            blend_radius=0.05,
+        )
         found = self.ask(self.item(0.0, y=0.1), hand, self.item(0.0, y=0.1, z=-0.1))
         self.assertEqual(found.error_code.val, Codes.SUCCESS)
         self.assertEqual([t.joint_trajectory.joint_names[0] for t in found.planned_trajectories], ["joint_1", "finger_joint", "joint_1"])
@@ -291,9 +351,17 @@ class Sequences(unittest.TestCase):
 
 class Lines(unittest.TestCase):
     def ask(self, *waypoints, **fields):
-        return call("compute_cartesian_path", GetCartesianPath, GetCartesianPathRequest(
-            group_name="manipulator", start_state=state_of(HOME), waypoints=list(waypoints), max_step=0.01,
-            **{"link_name": "hand", **fields}))
+        return call(
+            "compute_cartesian_path",
+            GetCartesianPath,
+            GetCartesianPathRequest(
+                group_name="manipulator",
+                start_state=state_of(HOME),
+                waypoints=list(waypoints),
+                max_step=0.01,
+                **{"link_name": "hand", **fields},
+            ),
+        )
 
     def turned(self, angle, axis=(0, 0, 1)):
         there = place(HOME)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The node move_group: its names on the graph, its services and actions, and what it answers to bad requests."""
+
 import math
 import re
 import unittest
@@ -11,17 +12,35 @@ import rospkg
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
-from client import (HOME, JOINTS, LEFT, PATIENCE, Goal, apply, box, call, clear, joint_goal, move, plan, pose,
-                    wait_until)
+from client import HOME, JOINTS, LEFT, PATIENCE, Goal, apply, box, call, clear, joint_goal, move, plan, pose, wait_until
 from geometry_msgs.msg import Pose, PoseStamped, Quaternion, Transform, TransformStamped
-from moveit_msgs.msg import (AttachedCollisionObject, CollisionObject, Constraints, DisplayTrajectory,
-                             ExecuteTrajectoryAction,
-                             ExecuteTrajectoryGoal, MoveItErrorCodes, OrientationConstraint, PlanningScene,
-                             PlanningSceneComponents, PlanningSceneWorld, PositionConstraint, PositionIKRequest,
-                             RobotState)
-from moveit_msgs.srv import (GetCartesianPath, GetCartesianPathRequest, GetPlannerParams, GetPlanningScene,
-                             GetPositionFK,
-                             GetPositionIK, GetStateValidity, QueryPlannerInterfaces, SetPlannerParams)
+from moveit_msgs.msg import (
+    AttachedCollisionObject,
+    CollisionObject,
+    Constraints,
+    DisplayTrajectory,
+    ExecuteTrajectoryAction,
+    ExecuteTrajectoryGoal,
+    MoveItErrorCodes,
+    OrientationConstraint,
+    PlanningScene,
+    PlanningSceneComponents,
+    PlanningSceneWorld,
+    PositionConstraint,
+    PositionIKRequest,
+    RobotState,
+)
+from moveit_msgs.srv import (
+    GetCartesianPath,
+    GetCartesianPathRequest,
+    GetPlannerParams,
+    GetPlanningScene,
+    GetPositionFK,
+    GetPositionIK,
+    GetStateValidity,
+    QueryPlannerInterfaces,
+    SetPlannerParams,
+)
 from sensor_msgs.msg import JointState
 from shape_msgs.msg import SolidPrimitive
 from std_msgs.msg import Header
@@ -70,30 +89,51 @@ class Names(unittest.TestCase):
         published, subscribed, services = (dict(part) for part in master.getSystemState())
         for action in ("move_group", "execute_trajectory", "pickup", "place", "sequence_move_group"):
             self.assertIn("/move_group", published[f"/{action}/status"], action)
-        for topic in ("monitored_planning_scene", "display_planned_path", "display_contacts",
-                      "fake_controller_joint_states"):
+        for topic in ("monitored_planning_scene", "display_planned_path", "display_contacts", "fake_controller_joint_states"):
             self.assertIn(f"/move_group/{topic}", published)
-        for topic in ("planning_scene", "planning_scene_world", "collision_object", "attached_collision_object",
-                      "trajectory_execution_event", "joint_states"):
+        for topic in (
+            "planning_scene",
+            "planning_scene_world",
+            "collision_object",
+            "attached_collision_object",
+            "trajectory_execution_event",
+            "joint_states",
+        ):
             self.assertIn("/move_group", subscribed[f"/{topic}"], topic)
-        for service in ("plan_kinematic_path", "compute_ik", "compute_fk", "compute_cartesian_path",
-                        "check_state_validity",
-                        "get_planning_scene", "apply_planning_scene", "query_planner_interface", "get_planner_params",
-                        "set_planner_params", "clear_octomap", "plan_sequence_path", "move_group/load_map",
-                        "move_group/save_map"):
+        for service in (
+            "plan_kinematic_path",
+            "compute_ik",
+            "compute_fk",
+            "compute_cartesian_path",
+            "check_state_validity",
+            "get_planning_scene",
+            "apply_planning_scene",
+            "query_planner_interface",
+            "get_planner_params",
+            "set_planner_params",
+            "clear_octomap",
+            "plan_sequence_path",
+            "move_group/load_map",
+            "move_group/save_map",
+        ):
             self.assertIn(f"/{service}", services)
-        for server in ("planning_scene_monitor", "trajectory_execution", "plan_execution", "sense_for_plan", "pick_place",
-                       "planning_pipelines/ompl/ompl"):
+        for server in (
+            "planning_scene_monitor",
+            "trajectory_execution",
+            "plan_execution",
+            "sense_for_plan",
+            "pick_place",
+            "planning_pipelines/ompl/ompl",
+        ):
             self.assertIn(f"/move_group/{server}/set_parameters", services)
 
     def test_planners_are_listed_by_group_and_pipeline(self):
-        found = {entry.pipeline_id: entry for entry in call("query_planner_interface",
-                                                            QueryPlannerInterfaces).planner_interfaces}
-        self.assertEqual(sorted(found), ["ompl",
-                                         "pilz_industrial_motion_planner"])  # CHOMP was refused, the node lives on
+        found = {entry.pipeline_id: entry for entry in call("query_planner_interface", QueryPlannerInterfaces).planner_interfaces}
+        self.assertEqual(sorted(found), ["ompl", "pilz_industrial_motion_planner"])  # CHOMP was refused, the node lives on
         self.assertEqual(found["ompl"].name, "OMPL")
-        self.assertEqual(list(found["ompl"].planner_ids), ["hand", "manipulator", "manipulator[RRTConnect]",
-                                                           "manipulator[RRT]", "manipulator[RRTstar]"])
+        self.assertEqual(
+            list(found["ompl"].planner_ids), ["hand", "manipulator", "manipulator[RRTConnect]", "manipulator[RRT]", "manipulator[RRTstar]"]
+        )
         self.assertEqual(list(found["pilz_industrial_motion_planner"].planner_ids), ["CIRC", "LIN", "PTP"])
 
     def test_a_pipeline_beside_the_default_that_is_not_supplied_is_a_warning(self):
@@ -119,8 +159,7 @@ class Kinematics(unittest.TestCase):
         answer = ik(there)
         self.assertEqual(answer.error_code.val, Codes.SUCCESS)
         back = fk(answer.solution).pose_stamped[0].pose.position
-        np.testing.assert_allclose([back.x, back.y, back.z], [getattr(there.pose.position, axis) for axis in "xyz"],
-                                   atol=1e-4)
+        np.testing.assert_allclose([back.x, back.y, back.z], [getattr(there.pose.position, axis) for axis in "xyz"], atol=1e-4)
         self.assertEqual(answer.solution.joint_state.name, JOINTS + ["finger_joint", "finger_mirror"])
 
     def test_fk_in_another_frame_and_of_links_that_are_not_there(self):
@@ -136,10 +175,8 @@ class Kinematics(unittest.TestCase):
         self.assertEqual(ik(far).error_code.val, Codes.NO_IK_SOLUTION)
         self.assertEqual(ik(far, group_name="legs").error_code.val, Codes.INVALID_GROUP_NAME)
         self.assertEqual(ik(far, ik_link_name="claw").error_code.val, Codes.INVALID_LINK_NAME)
-        self.assertEqual(ik(PoseStamped(Header(frame_id="nowhere"), pose())).error_code.val,
-                         Codes.FRAME_TRANSFORM_FAILURE)
-        self.assertEqual(ik(far, pose_stamped_vector=[far, far], ik_link_names=["hand"]).error_code.val,
-                         Codes.INVALID_LINK_NAME)
+        self.assertEqual(ik(PoseStamped(Header(frame_id="nowhere"), pose())).error_code.val, Codes.FRAME_TRANSFORM_FAILURE)
+        self.assertEqual(ik(far, pose_stamped_vector=[far, far], ik_link_names=["hand"]).error_code.val, Codes.INVALID_LINK_NAME)
         self.assertEqual(ik(far, group_name="hand").error_code.val, Codes.NO_IK_SOLUTION)  # no kinematics in the YAML
         bad = PoseStamped(pose=Pose(pose().position, Quaternion(0, 0, 0, math.nan)))
         self.assertEqual(ik(bad).error_code.val, Codes.FAILURE)
@@ -164,8 +201,9 @@ class Kinematics(unittest.TestCase):
         turn = quaternion_matrix([getattr(hand.orientation, axis) for axis in "xyzw"])[:3, :3]
         tip = np.array([hand.position.x, hand.position.y, hand.position.z]) + turn @ [0.0, 0.05, 0.1]
         end = Pose(pose(tip[0], tip[1] + 0.05, tip[2]).position, hand.orientation)
-        wanted = GetCartesianPathRequest(group_name="manipulator", start_state=start, waypoints=[end], max_step=0.01,
-                                         avoid_collisions=False, link_name="stick/tip")
+        wanted = GetCartesianPathRequest(
+            group_name="manipulator", start_state=start, waypoints=[end], max_step=0.01, avoid_collisions=False, link_name="stick/tip"
+        )
         answer = call("compute_cartesian_path", GetCartesianPath, wanted)
         self.assertEqual((answer.error_code.val, answer.fraction), (Codes.SUCCESS, 1.0))
         there = fk(state_of(answer.solution.joint_trajectory.points[-1].positions)).pose_stamped[0].pose.position
@@ -182,9 +220,9 @@ class Kinematics(unittest.TestCase):
     def test_cartesian_path(self):
         start = fk(state_of(HOME)).pose_stamped[0].pose
         end = Pose(pose(start.position.x, start.position.y + 0.1, start.position.z).position, start.orientation)
-        wanted = GetCartesianPathRequest(group_name="manipulator", start_state=state_of(HOME), waypoints=[end],
-                                         max_step=0.01,
-                                         avoid_collisions=True, link_name="hand")
+        wanted = GetCartesianPathRequest(
+            group_name="manipulator", start_state=state_of(HOME), waypoints=[end], max_step=0.01, avoid_collisions=True, link_name="hand"
+        )
         answer = call("compute_cartesian_path", GetCartesianPath, wanted)
         self.assertEqual((answer.error_code.val, answer.fraction), (Codes.SUCCESS, 1.0))
         points = answer.solution.joint_trajectory.points
@@ -195,8 +233,7 @@ class Kinematics(unittest.TestCase):
         wanted.max_step = 0.0
         self.assertEqual(call("compute_cartesian_path", GetCartesianPath, wanted).error_code.val, Codes.FAILURE)
         wanted.max_step, wanted.group_name = 0.01, "legs"
-        self.assertEqual(call("compute_cartesian_path", GetCartesianPath, wanted).error_code.val,
-                         Codes.INVALID_GROUP_NAME)
+        self.assertEqual(call("compute_cartesian_path", GetCartesianPath, wanted).error_code.val, Codes.INVALID_GROUP_NAME)
         wanted.group_name, wanted.waypoints[0].position.x = "manipulator", 5.0
         answer = call("compute_cartesian_path", GetCartesianPath, wanted)
         self.assertEqual(answer.error_code.val, Codes.SUCCESS)
@@ -231,12 +268,10 @@ class Planning(unittest.TestCase):
         self.assertEqual(answer.error_code.val, Codes.SUCCESS)
         points = answer.trajectory.joint_trajectory.points
         for point in points:
-            self.assertTrue(call("check_state_validity", GetStateValidity, state_of(point.positions), "manipulator",
-                                 Constraints()).valid)
+            self.assertTrue(call("check_state_validity", GetStateValidity, state_of(point.positions), "manipulator", Constraints()).valid)
         end = fk(state_of(points[-1].positions)).pose_stamped[0].pose.position
         np.testing.assert_allclose([end.x, end.y, end.z], [getattr(target.position, axis) for axis in "xyz"], atol=2e-3)
-        wait_until(lambda: any(len(m.trajectory[0].joint_trajectory.points) == len(points) for m in shown), "the path "
-                   "to be shown")
+        wait_until(lambda: any(len(m.trajectory[0].joint_trajectory.points) == len(points) for m in shown), "the path to be shown")
         subscriber.unregister()
 
     def test_every_bad_request_has_its_code_and_harms_nothing(self):
@@ -255,24 +290,30 @@ class Planning(unittest.TestCase):
             ("no rotation", dict(goal_constraints=[zero]), Codes.INVALID_GOAL_CONSTRAINTS),
             ("unknown frame", dict(goal_constraints=[nowhere]), Codes.INVALID_GOAL_CONSTRAINTS),
             ("unknown link", dict(goal_constraints=[pose_goal(target, "claw")]), Codes.INVALID_GOAL_CONSTRAINTS),
-            ("no kinematics", dict(group_name="hand", goal_constraints=[pose_goal(target, "finger_left")]),
-             Codes.FAILURE),
+            ("no kinematics", dict(group_name="hand", goal_constraints=[pose_goal(target, "finger_left")]), Codes.FAILURE),
             ("unknown pipeline", dict(pipeline_id="magic", goal_constraints=[joint_goal(LEFT)]), Codes.FAILURE),
             ("refused pipeline", dict(pipeline_id="chomp", goal_constraints=[joint_goal(LEFT)]), Codes.FAILURE),
-            ("start of another robot", dict(start_state=RobotState(joint_state=JointState(name=["knee"],
-                                                                                          position=[1.0])),
-                                            goal_constraints=[joint_goal(LEFT)]), Codes.INVALID_ROBOT_STATE),
-            ("half a start", dict(start_state=RobotState(joint_state=JointState(name=JOINTS, position=[1.0])),
-                                  goal_constraints=[joint_goal(LEFT)]), Codes.INVALID_ROBOT_STATE),
-            ("start beyond its limits", dict(start_state=state_of([9.0] + HOME[1:]),
-                                             goal_constraints=[joint_goal(LEFT)]),
-             Codes.START_STATE_INVALID)]
+            (
+                "start of another robot",
+                dict(start_state=RobotState(joint_state=JointState(name=["knee"], position=[1.0])), goal_constraints=[joint_goal(LEFT)]),
+                Codes.INVALID_ROBOT_STATE,
+            ),
+            (
+                "half a start",
+                dict(start_state=RobotState(joint_state=JointState(name=JOINTS, position=[1.0])), goal_constraints=[joint_goal(LEFT)]),
+                Codes.INVALID_ROBOT_STATE,
+            ),
+            (
+                "start beyond its limits",
+                dict(start_state=state_of([9.0] + HOME[1:]), goal_constraints=[joint_goal(LEFT)]),
+                Codes.START_STATE_INVALID,
+            ),
+        ]
         for name, fields, code in cases:
             answer = plan(**fields)
             self.assertEqual(answer.error_code.val, code, name)
             self.assertFalse(answer.trajectory.joint_trajectory.points, name)
-        self.assertEqual(plan(LEFT, planner_id="Unheard", start_state=state_of(HOME)).error_code.val,
-                         Codes.SUCCESS)  # default
+        self.assertEqual(plan(LEFT, planner_id="Unheard", start_state=state_of(HOME)).error_code.val, Codes.SUCCESS)  # default
 
     def test_a_goal_or_start_inside_something(self):
         at = fk(state_of(LEFT)).pose_stamped[0].pose.position
@@ -287,11 +328,9 @@ class Planning(unittest.TestCase):
         apply(box("block", at.x, at.y, at.z))
         answer = call("check_state_validity", GetStateValidity, state_of(HOME), "manipulator", Constraints())
         self.assertFalse(answer.valid)
-        self.assertIn("block", {body for contact in answer.contacts for body in (contact.contact_body_1,
-                                                                                 contact.contact_body_2)})
+        self.assertIn("block", {body for contact in answer.contacts for body in (contact.contact_body_1, contact.contact_body_2)})
         answer = call("check_state_validity", GetStateValidity, state_of(LEFT), "manipulator", joint_goal(HOME))
-        self.assertEqual((answer.valid, answer.constraint_result[0].result, len(answer.constraint_result)), (False,
-                                                                                                             False, 6))
+        self.assertEqual((answer.valid, answer.constraint_result[0].result, len(answer.constraint_result)), (False, False, 6))
 
 
 class Scene(unittest.TestCase):
@@ -313,8 +352,7 @@ class Scene(unittest.TestCase):
         body.object.id = "a"
         attached.publish(body)
         held = PlanningSceneComponents.ROBOT_STATE_ATTACHED_OBJECTS
-        wait_until(lambda: [b.object.id for b in scene(held).robot_state.attached_collision_objects] == ["a"],
-                   "a to be held")
+        wait_until(lambda: [b.object.id for b in scene(held).robot_state.attached_collision_objects] == ["a"], "a to be held")
         self.assertEqual(self.names(), [])
         body.object.operation = CollisionObject.REMOVE
         attached.publish(body)
@@ -359,8 +397,7 @@ class Scene(unittest.TestCase):
         subscriber.unregister()
 
     def test_a_thousand_objects(self):
-        self.assertTrue(apply(*(box(f"b{i}", 2 + i % 10, i // 100, 1 + (i // 10) % 10, (0.05,
-                                                                                        ) * 3) for i in range(1000))))
+        self.assertTrue(apply(*(box(f"b{i}", 2 + i % 10, i // 100, 1 + (i // 10) % 10, (0.05,) * 3) for i in range(1000))))
         self.assertEqual(len(self.names()), 1000)
         self.assertEqual(plan(LEFT, start_state=state_of(HOME)).error_code.val, Codes.SUCCESS)
 
@@ -383,11 +420,9 @@ class Execution(unittest.TestCase):
     def test_plan_and_execute(self):
         goal = move(LEFT)
         status, result, text = goal.result()
-        self.assertEqual((status, result.error_code.val, text), (GoalStatus.SUCCEEDED, Codes.SUCCESS, "Solution was "
-                                                                 "found and executed."))
+        self.assertEqual((status, result.error_code.val, text), (GoalStatus.SUCCEEDED, Codes.SUCCESS, "Solution was found and executed."))
         self.assertTrue(self.at(LEFT))
-        self.assertEqual([state for i, state in enumerate(goal.states) if state not in goal.states[:i]][:2],
-                         ["PLANNING", "MONITOR"])
+        self.assertEqual([state for i, state in enumerate(goal.states) if state not in goal.states[:i]][:2], ["PLANNING", "MONITOR"])
 
     def test_plan_only_moves_nothing_and_execute_trajectory_does(self):
         status, result, text = move(LEFT, plan_only=True).result()
@@ -396,8 +431,7 @@ class Execution(unittest.TestCase):
         goal = Goal("execute_trajectory", ExecuteTrajectoryAction, ExecuteTrajectoryGoal(result.planned_trajectory))
         self.assertEqual(goal.result()[1].error_code.val, Codes.SUCCESS)
         self.assertTrue(self.at(LEFT))
-        status, again, text = Goal("execute_trajectory", ExecuteTrajectoryAction,
-                                   ExecuteTrajectoryGoal(result.planned_trajectory)).result()
+        status, again, text = Goal("execute_trajectory", ExecuteTrajectoryAction, ExecuteTrajectoryGoal(result.planned_trajectory)).result()
         self.assertEqual((status, again.error_code.val), (GoalStatus.ABORTED, Codes.CONTROL_FAILED))
         self.assertIn("joint 'joint_1' is 1.2", text)
         self.assertIn("Plan again", text)
@@ -408,8 +442,7 @@ class Execution(unittest.TestCase):
         wait_until(lambda: not self.at(HOME), "a motion")
         apply(box("post", middle.x, middle.y, middle.z))
         status, result, text = goal.result()
-        self.assertEqual((status, result.error_code.val), (GoalStatus.ABORTED,
-                                                           Codes.MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE))
+        self.assertEqual((status, result.error_code.val), (GoalStatus.ABORTED, Codes.MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE))
         self.assertIn("'post'", text)
         self.assertFalse(self.at(LEFT))
 
@@ -436,12 +469,13 @@ class Execution(unittest.TestCase):
         self.assertTrue(self.at(HOME))
 
     def test_bad_trajectories_move_nothing(self):
-        cases = [("another robot", lambda t: t.joint_names.__setitem__(0, "knee"), "'knee'"),
-                 ("too few positions", lambda t: setattr(t.points[1], "positions", [1.0]), "1 positions for 6 joints"),
-                 ("not a number", lambda t: setattr(t.points[1], "positions", [math.nan] * 6), "not finite"),
-                 ("backwards", lambda t: setattr(t.points[1], "time_from_start", rospy.Duration(0)),
-                  "not after the one"),
-                 ("mimic only", lambda t: setattr(t, "joint_names", ["finger_mirror"]), "positions for 1 joints")]
+        cases = [
+            ("another robot", lambda t: t.joint_names.__setitem__(0, "knee"), "'knee'"),
+            ("too few positions", lambda t: setattr(t.points[1], "positions", [1.0]), "1 positions for 6 joints"),
+            ("not a number", lambda t: setattr(t.points[1], "positions", [math.nan] * 6), "not finite"),
+            ("backwards", lambda t: setattr(t.points[1], "time_from_start", rospy.Duration(0)), "not after the one"),
+            ("mimic only", lambda t: setattr(t, "joint_names", ["finger_mirror"]), "positions for 1 joints"),
+        ]
         for name, spoil, words in cases:
             trajectory = plan(LEFT).trajectory
             spoil(trajectory.joint_trajectory)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Services and frames of move_group, asked as clients in C++, Python and RViz ask them; expected is what upstream's capabilities do."""
+
 import unittest
 
 import motion
@@ -10,11 +11,29 @@ import tf2_ros
 from client import HOME, JOINTS, LEFT, PATIENCE, Goal, apply, box, call, clear, move, pose, wait_until
 from geometry_msgs.msg import Transform, Vector3
 from moveit_msgs.msg import (
-    AttachedCollisionObject, CollisionObject, Constraints, ExecuteTrajectoryAction, ExecuteTrajectoryGoal, LinkPadding,
+    AttachedCollisionObject,
+    CollisionObject,
+    Constraints,
+    ExecuteTrajectoryAction,
+    ExecuteTrajectoryGoal,
+    LinkPadding,
     MoveItErrorCodes,
-    OrientationConstraint, PlannerParams, PlanningScene, PlanningSceneComponents, RobotState, RobotTrajectory)
+    OrientationConstraint,
+    PlannerParams,
+    PlanningScene,
+    PlanningSceneComponents,
+    RobotState,
+    RobotTrajectory,
+)
 from moveit_msgs.srv import (
-    GetCartesianPath, GetCartesianPathRequest, GetPlannerParams, GetPlanningScene, GetPositionFK, GetStateValidity, SetPlannerParams)
+    GetCartesianPath,
+    GetCartesianPathRequest,
+    GetPlannerParams,
+    GetPlanningScene,
+    GetPositionFK,
+    GetStateValidity,
+    SetPlannerParams,
+)
 from octomap_msgs.msg import Octomap
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
@@ -45,8 +64,15 @@ class PlannerParameters(unittest.TestCase):
         return dict(zip(params.keys, params.values))
 
     def set(self, planner, values, group="", replace=False, pipeline="ompl"):
-        call("set_planner_params", SetPlannerParams, pipeline, planner, group, PlannerParams(list(values), list(values.values()), []),
-             replace)
+        call(
+            "set_planner_params",
+            SetPlannerParams,
+            pipeline,
+            planner,
+            group,
+            PlannerParams(list(values), list(values.values()), []),
+            replace,
+        )
 
     def test_those_of_a_group_lie_over_those_of_the_planner(self):
         self.set("RRTstar", {"range": "0.5"}, "manipulator")
@@ -72,8 +98,11 @@ class PlannerParameters(unittest.TestCase):
 
 def let_go():
     """Of all that is held, and of all that there is."""
-    apply(robot_state=RobotState(is_diff=True, attached_collision_objects=[
-        AttachedCollisionObject(object=CollisionObject(operation=CollisionObject.REMOVE))]))
+    apply(
+        robot_state=RobotState(
+            is_diff=True, attached_collision_objects=[AttachedCollisionObject(object=CollisionObject(operation=CollisionObject.REMOVE))]
+        )
+    )
     clear()
 
 
@@ -147,14 +176,21 @@ class Validity(unittest.TestCase):
     def test_what_a_collision_costs_is_the_box_that_shapes_share(self):
         """The base is a cylinder 0.08 m about the origin, up to 0.1 m; the boxes' corners are those of their intersections."""
         bare = [LinkPadding("base_link", 0.0)]
-        self.assertTrue(apply(box("small", -0.10, 0, 0.05, (0.06, 0.06, 0.06)), box("large", 0.1, 0, 0.05, (0.1, 0.1, 0.1)),
-                              box("far", 2, 2, 2), link_padding=bare))
+        self.assertTrue(
+            apply(
+                box("small", -0.10, 0, 0.05, (0.06, 0.06, 0.06)),
+                box("large", 0.1, 0, 0.05, (0.1, 0.1, 0.1)),
+                box("far", 2, 2, 2),
+                link_padding=bare,
+            )
+        )
         answer = valid(state_of(HOME), "")
         self.assertFalse(answer.valid)
-        seen = [(c.cost_density, c.aabb_min.x, c.aabb_max.x, c.aabb_min.y, c.aabb_max.y, c.aabb_min.z, c.aabb_max.z)
-                for c in answer.cost_sources]
-        np.testing.assert_allclose(seen, [(1, 0.05, 0.08, -0.05, 0.05, 0.0, 0.1), (1, -0.08, -0.07, -0.03, 0.03, 0.02, 0.08)],
-                                   atol=1e-6)
+        seen = [
+            (c.cost_density, c.aabb_min.x, c.aabb_max.x, c.aabb_min.y, c.aabb_max.y, c.aabb_min.z, c.aabb_max.z)
+            for c in answer.cost_sources
+        ]
+        np.testing.assert_allclose(seen, [(1, 0.05, 0.08, -0.05, 0.05, 0.0, 0.1), (1, -0.08, -0.07, -0.03, 0.03, 0.02, 0.08)], atol=1e-6)
         self.assertFalse(valid(state_of(HOME), "hand").cost_sources)  # what does not move is not looked at
         clear()
         self.assertFalse(valid(state_of(HOME), "").cost_sources)
@@ -178,8 +214,9 @@ class Validity(unittest.TestCase):
     def test_no_group_is_the_whole_robot_and_some_joints_are_enough(self):
         part = RobotState(joint_state=JointState(name=["joint_1"], position=[0.3]))
         self.assertTrue(valid(part, "").valid)
-        level = OrientationConstraint(link_name="hand", absolute_x_axis_tolerance=0.1, absolute_y_axis_tolerance=0.1,
-                                      absolute_z_axis_tolerance=0.1, weight=1.0)
+        level = OrientationConstraint(
+            link_name="hand", absolute_x_axis_tolerance=0.1, absolute_y_axis_tolerance=0.1, absolute_z_axis_tolerance=0.1, weight=1.0
+        )
         level.header.frame_id, level.orientation.w = "world", 1.0
         answer = valid(state_of(LEFT), constraints=Constraints(orientation_constraints=[level]))
         self.assertEqual((answer.valid, [r.result for r in answer.constraint_result]), (False, [False]))
@@ -189,8 +226,9 @@ class Validity(unittest.TestCase):
 class Motion(unittest.TestCase):
     def test_a_line_in_the_frame_of_its_own_link_is_relative(self):
         self.assertEqual(move(HOME).result()[1].error_code.val, Codes.SUCCESS)
-        asked = GetCartesianPathRequest(group_name="manipulator", link_name="hand", waypoints=[pose(0, 0, 0.05)], max_step=0.01,
-                                        start_state=RobotState(is_diff=True))
+        asked = GetCartesianPathRequest(
+            group_name="manipulator", link_name="hand", waypoints=[pose(0, 0, 0.05)], max_step=0.01, start_state=RobotState(is_diff=True)
+        )
         asked.header.frame_id = "hand"
         answer = call("compute_cartesian_path", GetCartesianPath, asked)
         self.assertEqual((answer.error_code.val, answer.fraction), (Codes.SUCCESS, 1.0))
@@ -205,15 +243,20 @@ class Motion(unittest.TestCase):
     def test_points_that_do_not_fit_their_joints_are_refused(self):
         """A message may hold any number of values; whoever takes it for another has to be told, and the next goal is taken."""
         second = rospy.Duration(1.0)
-        wrong = {"too few positions": [JointTrajectoryPoint(positions=HOME[1:], time_from_start=second)],
-                 "too few velocities": [JointTrajectoryPoint(positions=HOME, velocities=[0.0], time_from_start=second)],
-                 "too many accelerations": [JointTrajectoryPoint(positions=HOME, accelerations=[0.0] * 7, time_from_start=second)],
-                 "no number": [JointTrajectoryPoint(positions=HOME, effort=[float("nan")] * len(HOME), time_from_start=second)],
-                 "the same time": [JointTrajectoryPoint(positions=HOME, time_from_start=second)] * 2}
-        multi = {"no transforms": [MultiDOFJointTrajectoryPoint(time_from_start=second)],
-                 "no number": [MultiDOFJointTrajectoryPoint(transforms=[Transform(translation=Vector3(float("inf"), 0.0, 0.0))],
-                                                            time_from_start=second)],
-                 "the same time": [MultiDOFJointTrajectoryPoint(transforms=[Transform()], time_from_start=second)] * 2}
+        wrong = {
+            "too few positions": [JointTrajectoryPoint(positions=HOME[1:], time_from_start=second)],
+            "too few velocities": [JointTrajectoryPoint(positions=HOME, velocities=[0.0], time_from_start=second)],
+            "too many accelerations": [JointTrajectoryPoint(positions=HOME, accelerations=[0.0] * 7, time_from_start=second)],
+            "no number": [JointTrajectoryPoint(positions=HOME, effort=[float("nan")] * len(HOME), time_from_start=second)],
+            "the same time": [JointTrajectoryPoint(positions=HOME, time_from_start=second)] * 2,
+        }
+        multi = {
+            "no transforms": [MultiDOFJointTrajectoryPoint(time_from_start=second)],
+            "no number": [
+                MultiDOFJointTrajectoryPoint(transforms=[Transform(translation=Vector3(float("inf"), 0.0, 0.0))], time_from_start=second)
+            ],
+            "the same time": [MultiDOFJointTrajectoryPoint(transforms=[Transform()], time_from_start=second)] * 2,
+        }
         cases = {what: RobotTrajectory(joint_trajectory=JointTrajectory(Header(), JOINTS, points)) for what, points in wrong.items()}
         for what, points in multi.items():
             path = MultiDOFJointTrajectory(Header(), JOINTS[:1], points)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A motion is cancelled, or said to stop, while it is planned, executed, and between two plans."""
+
 import sys
 import unittest
 
@@ -8,8 +9,15 @@ import rospkg
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
-from moveit_msgs.msg import ExecuteTrajectoryAction, ExecuteTrajectoryActionGoal, ExecuteTrajectoryGoal
-from moveit_msgs.msg import MoveGroupAction, MoveGroupActionGoal, MoveGroupGoal, MoveItErrorCodes
+from moveit_msgs.msg import (
+    ExecuteTrajectoryAction,
+    ExecuteTrajectoryActionGoal,
+    ExecuteTrajectoryGoal,
+    MoveGroupAction,
+    MoveGroupActionGoal,
+    MoveGroupGoal,
+    MoveItErrorCodes,
+)
 from moveit_msgs.srv import GetPositionFK, GetPositionFKRequest
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
@@ -105,8 +113,9 @@ class Stopping(unittest.TestCase):
             self.assertEqual(result.error_code.val, Codes.PREEMPTED)
         path = plan(LEFT).trajectory
         for _ in range(5):
-            result = self.overtaken("execute_trajectory", ExecuteTrajectoryAction, ExecuteTrajectoryActionGoal,
-                                    ExecuteTrajectoryGoal(trajectory=path))
+            result = self.overtaken(
+                "execute_trajectory", ExecuteTrajectoryAction, ExecuteTrajectoryActionGoal, ExecuteTrajectoryGoal(trajectory=path)
+            )
             self.assertEqual(result.error_code.val, Codes.PREEMPTED)
         self.assertTrue(at(HOME))
 

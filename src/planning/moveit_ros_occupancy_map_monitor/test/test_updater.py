@@ -1,4 +1,5 @@
 """What updaters keep of messages."""
+
 import gc
 import inspect
 import weakref
@@ -6,7 +7,6 @@ import weakref
 import numpy as np
 import pytest
 import rospy
-
 from moveit_ros_occupancy_map_monitor.updater import OccupancyMapUpdater, UpdaterError
 
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Point clouds and depth images become an octomap that is planned round."""
+
 import threading
 import time
 import unittest
@@ -67,9 +68,11 @@ class Octomap(unittest.TestCase):
         tree = self.tree()
         if tree is None:
             return False
-        ball = motion.load_model('<robot name="r"><link name="a"/><link name="b"><collision><geometry><sphere radius="%g"/>'
-                                 '</geometry></collision></link><joint name="j" type="fixed"><parent link="a"/>'
-                                 '<child link="b"/><origin xyz="%g %g %g"/></joint></robot>' % (radius, *point))
+        ball = motion.load_model(
+            '<robot name="r"><link name="a"/><link name="b"><collision><geometry><sphere radius="%g"/>'
+            '</geometry></collision></link><joint name="j" type="fixed"><parent link="a"/>'
+            '<child link="b"/><origin xyz="%g %g %g"/></joint></robot>' % (radius, *point)
+        )
         scene = motion.PlanningScene(ball)
         scene.set_octomap(tree, motion.Pose.identity())
         return bool(scene.check())
@@ -92,8 +95,7 @@ class Octomap(unittest.TestCase):
             time.sleep(0.05)
 
     def see(self, points, place):
-        self.until(lambda: self.touches(place), lambda: self.cloud.publish(self.message(points)),
-                   "what was seen is not in the octomap")
+        self.until(lambda: self.touches(place), lambda: self.cloud.publish(self.message(points)), "what was seen is not in the octomap")
 
     def valid(self, positions=()):
         """Of the arm where it is, or with its joints at other positions."""
@@ -189,11 +191,17 @@ class Octomap(unittest.TestCase):
         for encoding in ("32FC1", "16UC1"):
             self.clear()
             # 0.5 m before the camera is x = 1.5
-            self.until(lambda: self.touches((1.5, 0.0, 0.5)), lambda: self.image.publish(self.depth(0.5, encoding)),
-                       f"{encoding}: the octomap stays empty")
+            self.until(
+                lambda: self.touches((1.5, 0.0, 0.5)),
+                lambda: self.image.publish(self.depth(0.5, encoding)),
+                f"{encoding}: the octomap stays empty",
+            )
             self.assertFalse(self.touches((1.0, 0.0, 0.5)))
-            self.until(lambda: not self.touches((1.5, 0.0, 0.5)), lambda: self.image.publish(self.depth(6.0, encoding)),
-                       f"{encoding}: what is looked through stays")
+            self.until(
+                lambda: not self.touches((1.5, 0.0, 0.5)),
+                lambda: self.image.publish(self.depth(6.0, encoding)),
+                f"{encoding}: what is looked through stays",
+            )
 
     def test_what_is_broken_does_no_harm(self):
         bad = self.message(wall(0.6, 0.5, 0.5))

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The modules that upstream compiles, by their names: messages go in and out serialised, setters answer."""
+
 import unittest
 
 import numpy as np
@@ -7,15 +8,24 @@ import rospy
 import rostest
 from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion
 from moveit_commander.conversions import msg_from_string, msg_to_string
-from moveit_msgs.msg import (CollisionObject, Constraints, JointConstraint, MotionPlanRequest, MoveItErrorCodes,
-                             PlannerInterfaceDescription, PlanningScene, RobotState, RobotTrajectory)
+from moveit_msgs.msg import (
+    CollisionObject,
+    Constraints,
+    JointConstraint,
+    MotionPlanRequest,
+    MoveItErrorCodes,
+    PlannerInterfaceDescription,
+    PlanningScene,
+    RobotState,
+    RobotTrajectory,
+)
 from moveit_ros_planning_interface._moveit_move_group_interface import MoveGroupInterface
 from moveit_ros_planning_interface._moveit_planning_scene_interface import PlanningSceneInterface
 from moveit_ros_planning_interface._moveit_robot_interface import RobotInterface
 from moveit_ros_planning_interface._moveit_roscpp_initializer import roscpp_init, roscpp_shutdown
 from sensor_msgs.msg import JointState
-from test_support import wait_until
 from shape_msgs.msg import SolidPrimitive
+from test_support import wait_until
 from visualization_msgs.msg import MarkerArray
 
 HOME = [0.0, -0.6, 1.6, 0.0, 1.0, 0.0]
@@ -58,9 +68,13 @@ class Group(unittest.TestCase):
         joints = JointState(name=["joint_3"], position=[1.5])
         self.assertTrue(self.group.set_joint_value_target_from_joint_state_message(msg_to_string(joints)))
         np.testing.assert_allclose(self.group.get_joint_value_target()[:3], [0.3, -0.5, 1.5])
-        answers = [self.group.set_joint_value_target([9.0] * 6), self.group.set_joint_value_target("knee", 1.0),
-                   self.group.set_named_target("nowhere"), self.group.set_end_effector_link("claw"),
-                   self.group.set_pose_target([1.0, 2.0])]
+        answers = [
+            self.group.set_joint_value_target([9.0] * 6),
+            self.group.set_joint_value_target("knee", 1.0),
+            self.group.set_named_target("nowhere"),
+            self.group.set_end_effector_link("claw"),
+            self.group.set_pose_target([1.0, 2.0]),
+        ]
         self.assertEqual(answers, [False] * 5)
         with self.assertRaises(AttributeError):
             self.group.set_wings(1)
@@ -88,8 +102,9 @@ class Group(unittest.TestCase):
         self.group.set_planner_id("RRTConnect")
         self.group.set_workspace(-1, -1, -1, 1, 1, 2)
         request = read(MotionPlanRequest, self.group.construct_motion_plan_request())
-        self.assertEqual((request.group_name, request.planner_id, request.workspace_parameters.max_corner.z),
-                         ("manipulator", "RRTConnect", 2.0))
+        self.assertEqual(
+            (request.group_name, request.planner_id, request.workspace_parameters.max_corner.z), ("manipulator", "RRTConnect", 2.0)
+        )
         state = read(RobotState, self.group.get_current_state())
         state.joint_state.position = [9.0, *state.joint_state.position[1:]]
         bounded = read(RobotState, self.group.enforce_bounds(msg_to_string(state)))
@@ -105,8 +120,9 @@ class Group(unittest.TestCase):
         self.group.set_named_target("left")
         trajectory = self.group.plan()[1]
         now, algorithm = self.group.get_current_state(), "time_optimal_trajectory_generation"
-        fast, slow = (read(RobotTrajectory, self.group.retime_trajectory(now, trajectory, share, share, algorithm))
-                      for share in (1.0, 0.25))
+        fast, slow = (
+            read(RobotTrajectory, self.group.retime_trajectory(now, trajectory, share, share, algorithm)) for share in (1.0, 0.25)
+        )
         fast, slow = (timed.joint_trajectory.points[-1].time_from_start.to_sec() for timed in (fast, slow))
         self.assertGreater(slow, 1.9 * fast)  # twice where the accelerations limit it, four times where the speeds do
         self.assertLess(slow, 4.1 * fast)
@@ -117,10 +133,8 @@ class World(unittest.TestCase):
         robot = RobotInterface("robot_description")
         self.assertEqual((robot.get_robot_name(), robot.get_planning_frame(), robot.has_group("legs")), ("arm", "world", False))
         self.assertEqual(robot.get_group_active_joint_names("manipulator"), [f"joint_{k}" for k in range(1, 7)])
-        self.assertEqual((robot.get_group_joint_names("legs"), robot.get_joint_limits("knee"), robot.get_link_pose("knee")),
-                         ([], [], []))
-        self.assertEqual((robot.get_parent_group("hand"), robot.get_parent_group("manipulator")),
-                         (("manipulator", "hand"), ("", "")))
+        self.assertEqual((robot.get_group_joint_names("legs"), robot.get_joint_limits("knee"), robot.get_link_pose("knee")), ([], [], []))
+        self.assertEqual((robot.get_parent_group("hand"), robot.get_parent_group("manipulator")), (("manipulator", "hand"), ("", "")))
         self.assertEqual(robot.get_group_joint_tips("manipulator"), ["hand"])
         self.assertEqual(robot.get_group_default_states("hand"), ["open", "closed"])
         self.assertEqual(robot.get_joint_values("manipulator", "left")["joint_1"], 1.2)
@@ -135,8 +149,7 @@ class World(unittest.TestCase):
     def test_the_scene(self):
         scene = PlanningSceneInterface()
         box = CollisionObject(id="box", primitives=[SolidPrimitive(SolidPrimitive.BOX, [0.1] * 3)])
-        box.header.frame_id, box.pose, box.primitive_poses = "world", Pose(Point(2, 0, 0), Quaternion(0, 0, 0, 1)), \
-            [PoseStamped().pose]
+        box.header.frame_id, box.pose, box.primitive_poses = "world", Pose(Point(2, 0, 0), Quaternion(0, 0, 0, 1)), [PoseStamped().pose]
         box.primitive_poses[0].orientation.w = 1.0
         diff = PlanningScene(is_diff=True)
         diff.robot_state.is_diff = True

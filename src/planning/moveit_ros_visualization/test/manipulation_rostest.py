@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The tab Manipulation in RViz on a private display, used by real clicks: detect, pick, place."""
+
 import os
 import shutil
 import tempfile
@@ -9,10 +10,9 @@ import actionlib
 import rospy
 import rostest
 from geometry_msgs.msg import Point, PoseStamped
-from moveit_msgs.msg import (CollisionObject, Grasp, GripperTranslation, MoveItErrorCodes, PickupActionGoal, PlaceActionGoal,
-                             PlanningScene)
+from moveit_msgs.msg import CollisionObject, Grasp, GripperTranslation, MoveItErrorCodes, PickupActionGoal, PlaceActionGoal, PlanningScene
 from moveit_msgs.srv import GetPlanningScene, GetPlanningSceneRequest, GraspPlanning, GraspPlanningResponse
-from object_recognition_msgs.msg import (ObjectRecognitionAction, ObjectRecognitionResult, RecognizedObject, Table, TableArray)
+from object_recognition_msgs.msg import ObjectRecognitionAction, ObjectRecognitionResult, RecognizedObject, Table, TableArray
 from rqt_testing.desktop import Desktop
 from rviz_desktop import run_rviz
 from shape_msgs.msg import SolidPrimitive
@@ -35,8 +35,9 @@ def stamped(x, y, z, rpy=(0, 0, 0)):
 
 def box(name, size, x, y, z):
     pose = stamped(x, y, z)
-    item = CollisionObject(id=name, header=pose.header, pose=pose.pose, operation=CollisionObject.ADD,
-                           primitives=[SolidPrimitive(SolidPrimitive.BOX, size)])
+    item = CollisionObject(
+        id=name, header=pose.header, pose=pose.pose, operation=CollisionObject.ADD, primitives=[SolidPrimitive(SolidPrimitive.BOX, size)]
+    )
     item.primitive_poses.append(stamped(0, 0, 0).pose)
     return item
 
@@ -49,16 +50,27 @@ def along_z(sign):
 
 
 def fingers(position):
-    return JointTrajectory(joint_names=["finger_joint"], points=[JointTrajectoryPoint(
-        positions=[position], time_from_start=rospy.Duration(0.5))])
+    return JointTrajectory(
+        joint_names=["finger_joint"], points=[JointTrajectoryPoint(positions=[position], time_from_start=rospy.Duration(0.5))]
+    )
 
 
 def from_above(request):
     """A grasp planner."""
     at = request.target.pose.position
-    return GraspPlanningResponse(error_code=MoveItErrorCodes(MoveItErrorCodes.SUCCESS), grasps=[Grasp(
-        id="from above", grasp_pose=stamped(at.x, at.y, at.z + REACH, (0, 3.14159, 0)), pre_grasp_approach=along_z(-1.0),
-        post_grasp_retreat=along_z(1.0), pre_grasp_posture=fingers(0.04), grasp_posture=fingers(0.015))])
+    return GraspPlanningResponse(
+        error_code=MoveItErrorCodes(MoveItErrorCodes.SUCCESS),
+        grasps=[
+            Grasp(
+                id="from above",
+                grasp_pose=stamped(at.x, at.y, at.z + REACH, (0, 3.14159, 0)),
+                pre_grasp_approach=along_z(-1.0),
+                post_grasp_retreat=along_z(1.0),
+                pre_grasp_posture=fingers(0.04),
+                grasp_posture=fingers(0.015),
+            )
+        ],
+    )
 
 
 class Manipulation(unittest.TestCase):
@@ -91,8 +103,10 @@ class Manipulation(unittest.TestCase):
         request = GetPlanningSceneRequest()
         request.components.components = 2 | 4 | 8 | 16
         scene = self.ask(request).scene
-        return ({item.id: item for item in scene.world.collision_objects},
-                {item.object.id: item.link_name for item in scene.robot_state.attached_collision_objects})
+        return (
+            {item.id: item for item in scene.world.collision_objects},
+            {item.object.id: item.link_name for item in scene.robot_state.attached_collision_objects},
+        )
 
     def put(self, *objects):
         message = PlanningScene(is_diff=True)
@@ -157,8 +171,9 @@ class Manipulation(unittest.TestCase):
         said = self.result("Failed: ")
         subscriber.unregister()
         goal = goals[-1].goal
-        self.assertEqual((goal.target_name, goal.group_name, goal.end_effector, goal.possible_grasps), ("block", "manipulator",
-                                                                                                         "gripper", []))
+        self.assertEqual(
+            (goal.target_name, goal.group_name, goal.end_effector, goal.possible_grasps), ("block", "manipulator", "gripper", [])
+        )
         self.assertEqual((goal.support_surface_name, goal.allow_gripper_support_collision), ("table_0", True))
         self.assertIn("PLANNING_FAILED", said)
         self.assertNotIn("\n", said)
@@ -180,8 +195,11 @@ class Manipulation(unittest.TestCase):
         self.assertEqual(attached, {})
         self.assertAlmostEqual(objects["block"].pose.position.z, TOP + 0.04, delta=2e-3)
         location = places[-1].goal.place_locations[0]
-        self.assertEqual((location.pre_place_approach.direction.vector.z, location.post_place_retreat.direction.vector.z),
-                         (-1.0, 1.0), "down, and back up the way it came")
+        self.assertEqual(
+            (location.pre_place_approach.direction.vector.z, location.post_place_retreat.direction.vector.z),
+            (-1.0, 1.0),
+            "down, and back up the way it came",
+        )
         self.assertGreater(len(places[-1].goal.place_locations), 10)
 
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """MotionPlanning and its panel in RViz on a private display, used by real clicks; the arm's controllers pretend to move."""
+
 import io
 import json
 import math
@@ -103,8 +104,10 @@ class Panel(unittest.TestCase):
         return next(marker for marker in markers if marker.name == "EE:goal_hand")
 
     def test_1_all_displays_load_without_a_complaint(self):
-        self.rviz.wait(lambda: all(entry[1] == "Status: Ok" for entry in self.statuses().values()),
-                       f"four displays without complaint: {self.statuses()}")
+        self.rviz.wait(
+            lambda: all(entry[1] == "Status: Ok" for entry in self.statuses().values()),
+            f"four displays without complaint: {self.statuses()}",
+        )
         self.assertEqual([entry[0].split("/")[0] for entry in self.statuses().values()], ["moveit_rviz_plugin"] * 4)
 
     def test_2_saved_properties_stay(self):
@@ -209,9 +212,11 @@ class Panel(unittest.TestCase):
         request = GetPlanningSceneRequest()
         request.components.components = 2 | 4 | 8 | 16 | 32
         scene = rospy.ServiceProxy("get_planning_scene", GetPlanningScene)(request).scene
-        return ({item.id: item for item in scene.world.collision_objects},
-                {item.object.id: item.link_name for item in scene.robot_state.attached_collision_objects},
-                len(scene.world.octomap.octomap.data))
+        return (
+            {item.id: item for item in scene.world.collision_objects},
+            {item.object.id: item.link_name for item in scene.robot_state.attached_collision_objects},
+            len(scene.world.octomap.octomap.data),
+        )
 
     def type_number(self, name, value):
         self.rviz.click(name, at=(0.3, 0.5))
@@ -259,17 +264,26 @@ class Panel(unittest.TestCase):
             self.desktop.keys("ctrl+a")
             self.desktop.type(path)
             return self.rviz.text("fileNameEdit") == path
+
         self.rviz.wait(typed, f"the name in {title}")
         self.desktop.type("\n")
 
     def test_6_2_objects_go_to_a_file_and_come_back_with_a_mesh(self):
         mesh = os.path.join(self.folder, "wedge.stl")
         with open(mesh, "w") as file:
-            file.write("solid w\n" + "".join(
-                "facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {x} {y} {z}\n" for x, y, z in corners) +
-                "endloop\nendfacet\n" for corners in (((0, 0, 0), (1, 0, 0), (0, 1, 0)), ((0, 0, 0), (0, 1, 0), (0, 0, 1)),
-                                                     ((0, 0, 0), (0, 0, 1), (1, 0, 0)), ((1, 0, 0), (0, 0, 1), (0, 1, 0)))) +
-                       "endsolid w\n")
+            file.write(
+                "solid w\n"
+                + "".join(
+                    "facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {x} {y} {z}\n" for x, y, z in corners) + "endloop\nendfacet\n"
+                    for corners in (
+                        ((0, 0, 0), (1, 0, 0), (0, 1, 0)),
+                        ((0, 0, 0), (0, 1, 0), (0, 0, 1)),
+                        ((0, 0, 0), (0, 0, 1), (1, 0, 0)),
+                        ((1, 0, 0), (0, 0, 1), (0, 1, 0)),
+                    )
+                )
+                + "endsolid w\n"
+            )
         self.rviz.click_text("Scene Objects")
         self.choose("shapes_combo_box", "Mesh from file")
         self.type_number("shape_size_x_spin_box", 0.1)
@@ -290,9 +304,13 @@ class Panel(unittest.TestCase):
         self.rviz.wait(lambda: self.rviz.ask("entry", "wedge_0"), "objects of the file")
         self.publish(lambda: set(self.scene()[0]) == set(before), "objects in move_group again")
         for name, item in self.scene()[0].items():
-            self.assertLess(math.dist((item.pose.position.x, item.pose.position.y, item.pose.position.z),
-                                      (before[name].pose.position.x, before[name].pose.position.y, before[name].pose.position.z)),
-                            1e-6)
+            self.assertLess(
+                math.dist(
+                    (item.pose.position.x, item.pose.position.y, item.pose.position.z),
+                    (before[name].pose.position.x, before[name].pose.position.y, before[name].pose.position.z),
+                ),
+                1e-6,
+            )
         self.rviz.click("clear_scene_button")
         self.publish(lambda: not self.scene()[0], "empty scene")
         self.choose("shapes_combo_box", "Box")
@@ -300,13 +318,16 @@ class Panel(unittest.TestCase):
 
     def test_6_3_constraints_that_another_node_keeps_are_offered_and_sent(self):
         base = os.path.join(os.environ["ROS_HOME"], "warehouse.sqlite")
-        constraints = Constraints(name="anywhere", joint_constraints=[
-            JointConstraint(joint_name="joint_1", tolerance_above=3.0, tolerance_below=3.0, weight=1.0)])
+        constraints = Constraints(
+            name="anywhere", joint_constraints=[JointConstraint(joint_name="joint_1", tolerance_above=3.0, tolerance_below=3.0, weight=1.0)]
+        )
         data = io.BytesIO()
         constraints.serialize(data)
         with sqlite3.connect(base) as connection:
-            connection.execute("INSERT OR REPLACE INTO constraints (name, robot, planning_group, data) VALUES (?, '', '', ?)",
-                               ("anywhere", data.getvalue()))
+            connection.execute(
+                "INSERT OR REPLACE INTO constraints (name, robot, planning_group, data) VALUES (?, '', '', ?)",
+                ("anywhere", data.getvalue()),
+            )
         goals = []
         subscriber = rospy.Subscriber("move_group/goal", MoveGroupActionGoal, goals.append)
         self.rviz.wait(subscriber.get_num_connections, "action client")
@@ -345,9 +366,16 @@ class Panel(unittest.TestCase):
         marker = self.marker()
 
         def choose(title):
-            entry, = [entry for entry in marker.menu_entries if entry.title == title]
-            publisher.publish(InteractiveMarkerFeedback(client_id="test", marker_name=marker.name, menu_entry_id=entry.id,
-                                                        event_type=InteractiveMarkerFeedback.MENU_SELECT, pose=marker.pose))
+            (entry,) = [entry for entry in marker.menu_entries if entry.title == title]
+            publisher.publish(
+                InteractiveMarkerFeedback(
+                    client_id="test",
+                    marker_name=marker.name,
+                    menu_entry_id=entry.id,
+                    event_type=InteractiveMarkerFeedback.MENU_SELECT,
+                    pose=marker.pose,
+                )
+            )
 
         self.rviz.click("velocity_scaling_factor", at=(0.3, 0.5))
         self.desktop.keys("ctrl+a")

@@ -1,4 +1,5 @@
 """RViz's window on a private display."""
+
 import os
 import signal
 

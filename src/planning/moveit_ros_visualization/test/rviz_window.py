@@ -4,6 +4,7 @@
 In its status bar a label "statuses" says what the displays say of themselves, as JSON, a label "frames" how many pictures have been
 drawn, and a button "save_config" writes CONFIG.saved.
 """
+
 import json
 import signal
 import sys
@@ -37,9 +38,11 @@ def look():
     for index in range(group.numDisplays()):
         display = group.getDisplayAt(index)
         status = display.childAt(0)
-        seen[display.getName()] = [display.getClassId(), status.getName() if status else "",
-                                   {status.childAt(i).getName(): str(status.childAt(i).getValue())
-                                    for i in range(status.numChildren())} if status else {}]
+        seen[display.getName()] = [
+            display.getClassId(),
+            status.getName() if status else "",
+            {status.childAt(i).getName(): str(status.childAt(i).getValue()) for i in range(status.numChildren())} if status else {},
+        ]
     statuses.setText(json.dumps(seen))
     frames.setText(str(frame.getManager().getFrameCount()))
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """As the tutorial says: MotionPlanning is added to an empty RViz, goals are chosen, Plan and Execute are pressed,
 and the arm in simulation gets there. All by clicks on a private X server. ``TUTORIAL_PICTURES=FOLDER`` keeps pictures."""
+
 import json
 import math
 import os

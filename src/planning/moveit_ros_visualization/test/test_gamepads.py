@@ -1,10 +1,10 @@
 """What the messages of gamepads mean."""
+
 import math
 
 import pytest
-from sensor_msgs.msg import Joy
-
 from moveit_ros_visualization.gamepads import PADS, read
+from sensor_msgs.msg import Joy
 
 XBOX = (8, 11)
 

@@ -1,14 +1,13 @@
 """Text files of scenes and queries, and the file of the warehouse itself."""
+
 import pytest
 from geometry_msgs.msg import Point, Pose, Quaternion
-from moveit_msgs.msg import CollisionObject, Constraints, MotionPlanRequest, PlanningScene, RobotState, RobotTrajectory
-from shape_msgs.msg import Mesh, MeshTriangle, Plane, SolidPrimitive
-from std_msgs.msg import ColorRGBA
-from moveit_msgs.msg import ObjectColor
-
 from moveit_core import scene_text
+from moveit_msgs.msg import CollisionObject, Constraints, MotionPlanRequest, ObjectColor, PlanningScene, RobotState, RobotTrajectory
 from moveit_ros_warehouse import queries
 from moveit_ros_warehouse.storage import StorageError, Warehouse
+from shape_msgs.msg import Mesh, MeshTriangle, Plane, SolidPrimitive
+from std_msgs.msg import ColorRGBA
 
 # as RViz of Noetic and of Melodic export it
 NEW = """kitchen
@@ -53,7 +52,7 @@ sphere
 
 def test_scenes_of_noetic_and_melodic_are_read():
     scene = scene_text.read(NEW, "world")
-    table, = scene.world.collision_objects
+    (table,) = scene.world.collision_objects
     assert (scene.name, table.id, table.header.frame_id, scene.is_diff) == ("kitchen", "a table", "world", True)
     assert table.pose.position.z == 0.4 and table.primitive_poses[1].position.z == -0.3
     assert list(table.primitives[0].dimensions) == [0.6, 1.2, 0.05]
@@ -77,18 +76,27 @@ def test_what_is_written_is_read_again():
     assert found == item and again.object_colors == scene.object_colors
 
 
-@pytest.mark.parametrize("old, new, message", [
-    ("box", "pyramid", "line 6: shape 'pyramid' is unknown"), ("0.6 1.2", "0.6 wide", "line 7: a box is 3 numbers, not '0.6 wide 0.05'"),
-    ("0.6 1.2", "nan 1.2", "a box is 3 numbers"), ("\n2\n", "\ntwo\n", "the number of shapes is 'two'"), ("\n.\n", "\n", "the text ends"),
-    ("* a table", "- a table", "line 2: '-' stands where")])
+@pytest.mark.parametrize(
+    "old, new, message",
+    [
+        ("box", "pyramid", "line 6: shape 'pyramid' is unknown"),
+        ("0.6 1.2", "0.6 wide", "line 7: a box is 3 numbers, not '0.6 wide 0.05'"),
+        ("0.6 1.2", "nan 1.2", "a box is 3 numbers"),
+        ("\n2\n", "\ntwo\n", "the number of shapes is 'two'"),
+        ("\n.\n", "\n", "the text ends"),
+        ("* a table", "- a table", "line 2: '-' stands where"),
+    ],
+)
 def test_broken_scenes_are_refused_with_the_line(old, new, message):
     with pytest.raises(ValueError, match=message.replace("(", "\\(")):
         scene_text.read(NEW.replace(old, new, 1))
 
 
 def test_queries():
-    text = "kitchen\nstart\n1\nhome\njoint_1 = 0.5\njoint_2 = -1\n.\n" \
-           "goal\n1\nlink_constraint\ngrasp\nhand\nxyz 0.3 0 0.5\nrpy 0.1 0.2 0.3\n.\n"
+    text = (
+        "kitchen\nstart\n1\nhome\njoint_1 = 0.5\njoint_2 = -1\n.\n"
+        "goal\n1\nlink_constraint\ngrasp\nhand\nxyz 0.3 0 0.5\nrpy 0.1 0.2 0.3\n.\n"
+    )
     found = queries.read(text)
     assert found.scene == "kitchen" and found.starts == {"home": {"joint_1": 0.5, "joint_2": -1.0}}
     assert found.goals == {"grasp": ("hand", [0.3, 0, 0.5], [0.1, 0.2, 0.3])}

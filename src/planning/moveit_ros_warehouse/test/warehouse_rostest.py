@@ -1,12 +1,19 @@
 #!/usr/bin/env python3
 """Robot states are saved, listed, renamed and deleted by name."""
+
 import unittest
 
 import rospy
 import rostest
 from moveit_msgs.msg import RobotState
-from moveit_msgs.srv import (CheckIfRobotStateExistsInWarehouse, DeleteRobotStateFromWarehouse, GetRobotStateFromWarehouse,
-                             ListRobotStatesInWarehouse, RenameRobotStateInWarehouse, SaveRobotStateToWarehouse)
+from moveit_msgs.srv import (
+    CheckIfRobotStateExistsInWarehouse,
+    DeleteRobotStateFromWarehouse,
+    GetRobotStateFromWarehouse,
+    ListRobotStatesInWarehouse,
+    RenameRobotStateInWarehouse,
+    SaveRobotStateToWarehouse,
+)
 
 
 def call(name, kind, *arguments):

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """A robot with an arm and a hand controller that do what ``~mode`` says: follow, reject, abort or stall."""
+
 import threading
 
 import actionlib
 import rospy
-from control_msgs.msg import (FollowJointTrajectoryAction, FollowJointTrajectoryResult, GripperCommandAction,
-                              GripperCommandResult)
+from control_msgs.msg import FollowJointTrajectoryAction, FollowJointTrajectoryResult, GripperCommandAction, GripperCommandResult
 from sensor_msgs.msg import JointState
 
 JOINTS = [f"joint_{number}" for number in range(1, 7)]
@@ -17,10 +17,10 @@ class Robot:
     def __init__(self):
         self._values = dict(zip(JOINTS, [0.0, -0.6, 1.6, 0.0, 1.0, 0.0]), finger_joint=0.0)
         self._publisher = rospy.Publisher("joint_states", JointState, queue_size=10)
-        self._arm = actionlib.SimpleActionServer("arm_controller/follow_joint_trajectory", FollowJointTrajectoryAction,
-                                                 self._follow, auto_start=False)
-        self._hand = actionlib.SimpleActionServer("hand_controller/gripper_action", GripperCommandAction, self._grip,
-                                                  auto_start=False)
+        self._arm = actionlib.SimpleActionServer(
+            "arm_controller/follow_joint_trajectory", FollowJointTrajectoryAction, self._follow, auto_start=False
+        )
+        self._hand = actionlib.SimpleActionServer("hand_controller/gripper_action", GripperCommandAction, self._grip, auto_start=False)
         threading.Thread(target=self._publish, daemon=True).start()
         self._arm.start()
         self._hand.start()
@@ -33,12 +33,17 @@ class Robot:
             rospy.sleep(0.02)
 
     def _follow(self, goal):
-        rospy.set_param("~goal", {"joints": goal.trajectory.joint_names, "goal_time": goal.goal_time_tolerance.to_sec(),
-                                  "tolerances": [entry.position for entry in goal.goal_tolerance]})
+        rospy.set_param(
+            "~goal",
+            {
+                "joints": goal.trajectory.joint_names,
+                "goal_time": goal.goal_time_tolerance.to_sec(),
+                "tolerances": [entry.position for entry in goal.goal_tolerance],
+            },
+        )
         mode = rospy.get_param("~mode", "follow")
         if mode == "reject":
-            self._arm.set_aborted(FollowJointTrajectoryResult(FollowJointTrajectoryResult.INVALID_JOINTS, "not\nmine"),
-                                  "no")
+            self._arm.set_aborted(FollowJointTrajectoryResult(FollowJointTrajectoryResult.INVALID_JOINTS, "not\nmine"), "no")
             return
         start = rospy.Time.now()
         for point in goal.trajectory.points:
@@ -49,8 +54,7 @@ class Robot:
                 rospy.sleep(0.005)
             self._values.update(zip(goal.trajectory.joint_names, point.positions))
             if mode == "abort" and point.time_from_start.to_sec() > 0.2:
-                result = FollowJointTrajectoryResult(FollowJointTrajectoryResult.PATH_TOLERANCE_VIOLATED, "joint_1 is "
-                                                     "late")
+                result = FollowJointTrajectoryResult(FollowJointTrajectoryResult.PATH_TOLERANCE_VIOLATED, "joint_1 is late")
                 self._arm.set_aborted(result, "path")
                 return
         self._arm.set_succeeded(FollowJointTrajectoryResult())

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Trajectories through actions: late, refusing, failing, stalling and dying controllers."""
+
 import subprocess
 import sys
 import unittest
@@ -25,9 +26,13 @@ def trajectory(seconds, names=JOINTS, start=HOME, end=NEAR):
     message = RobotTrajectory()
     message.joint_trajectory.joint_names = list(names)
     for share in range(11):
-        message.joint_trajectory.points.append(JointTrajectoryPoint(
-            positions=[a + (b - a) * share / 10 for a, b in zip(start, end)], velocities=[0.0] * len(names),
-            time_from_start=rospy.Duration(seconds * share / 10)))
+        message.joint_trajectory.points.append(
+            JointTrajectoryPoint(
+                positions=[a + (b - a) * share / 10 for a, b in zip(start, end)],
+                velocities=[0.0] * len(names),
+                time_from_start=rospy.Duration(seconds * share / 10),
+            )
+        )
     return message
 
 
@@ -59,8 +64,9 @@ class SimpleManager(unittest.TestCase):
     def test_a_controller_that_comes_late_is_used_when_it_comes(self):
         rospy.wait_for_service("get_planning_scene", timeout=PATIENCE)
         elsewhere = rospy.Publisher("/arm/joint_states", JointState, queue_size=1)
-        self.expect(trajectory(0.5), GoalStatus.ABORTED, Codes.CONTROL_FAILED, "Nobody publishes /joint_states",
-                    "joint_states:=/arm/joint_states")
+        self.expect(
+            trajectory(0.5), GoalStatus.ABORTED, Codes.CONTROL_FAILED, "Nobody publishes /joint_states", "joint_states:=/arm/joint_states"
+        )
         elsewhere.unregister()
         self.expect(trajectory(0.5), GoalStatus.ABORTED, Codes.CONTROL_FAILED, "Nobody publishes /joint_states: start the robot")
         self.start()
@@ -81,11 +87,9 @@ class SimpleManager(unittest.TestCase):
 
     def test_a_refusal_and_a_failure_say_why(self):
         self.start("reject")
-        self.expect(trajectory(1.0), GoalStatus.ABORTED, Codes.CONTROL_FAILED, "arm_controller", "INVALID_JOINTS",
-                    "not mine")
+        self.expect(trajectory(1.0), GoalStatus.ABORTED, Codes.CONTROL_FAILED, "arm_controller", "INVALID_JOINTS", "not mine")
         rospy.set_param("/pretend_controller/mode", "abort")
-        self.expect(trajectory(1.0), GoalStatus.ABORTED, Codes.CONTROL_FAILED, "PATH_TOLERANCE_VIOLATED", "joint_1 is "
-                    "late")
+        self.expect(trajectory(1.0), GoalStatus.ABORTED, Codes.CONTROL_FAILED, "PATH_TOLERANCE_VIOLATED", "joint_1 is late")
 
     def test_a_controller_that_takes_too_long_is_stopped(self):
         self.start("stall")

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A word of launch files where the name of a controller manager is expected."""
+
 import sys
 import unittest
 from pathlib import Path

@@ -1,4 +1,5 @@
 """The types must be those that compiled tools of Noetic speak: same MD5 sums."""
+
 from object_recognition_msgs import msg, srv
 
 MESSAGES = {
@@ -10,9 +11,7 @@ MESSAGES = {
     "Table": "39efebc7d51e44bd2d72f2df6c7823a2",
     "TableArray": "d1c853e5acd0ed273eb6682dc01ab428",
 }
-SERVICES = {
-    "GetObjectInformation": "dd7d344324fd86c32836f4fe1bc7b322",
-}
+SERVICES = {"GetObjectInformation": "dd7d344324fd86c32836f4fe1bc7b322"}
 
 
 def test_sums():

@@ -1,4 +1,5 @@
 """SRDF documents read, changed and written."""
+
 import pytest
 from srdfdom.srdf import SRDF, DisableCollisions, ParseError
 
@@ -44,12 +45,16 @@ def test_elements_can_be_added():
     assert 'link1="a"' in robot.to_xml_string()
 
 
-@pytest.mark.parametrize("text, said", [
-    ("<robot", "not XML"), ("<model/>", "<model>, not <robot>"),
-    ("<robot><group/></robot>", "<group> has no attribute 'name'"),
-    ('<robot><virtual_joint name="v" type="soft" parent_frame="a" child_link="b"/></robot>', "type 'soft'"),
-    ('<robot><group_state name="s" group="g"><joint name="j" value="up"/></group_state></robot>',
-     "'up', which is no number")])
+@pytest.mark.parametrize(
+    "text, said",
+    [
+        ("<robot", "not XML"),
+        ("<model/>", "<model>, not <robot>"),
+        ("<robot><group/></robot>", "<group> has no attribute 'name'"),
+        ('<robot><virtual_joint name="v" type="soft" parent_frame="a" child_link="b"/></robot>', "type 'soft'"),
+        ('<robot><group_state name="s" group="g"><joint name="j" value="up"/></group_state></robot>', "'up', which is no number"),
+    ],
+)
 def test_bad_documents_are_one_line(text, said):
     with pytest.raises(ParseError) as caught:
         SRDF.from_xml_string(text)

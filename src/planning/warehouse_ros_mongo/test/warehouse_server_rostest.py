@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The launch files of generated packages give a warehouse: the nodes that fill it, empty it and show it."""
+
 import os
 import subprocess
 import tempfile
@@ -8,9 +9,8 @@ import unittest
 import rospy
 import rostest
 from moveit_msgs.msg import CollisionObject, Constraints, MotionPlanRequest, PlanningScene, RobotState
-from shape_msgs.msg import SolidPrimitive
-
 from moveit_ros_warehouse.location import connect
+from shape_msgs.msg import SolidPrimitive
 from test_support import wait_until
 
 PATIENCE = 150.0  # s, for a busy machine
@@ -18,8 +18,9 @@ PATIENCE = 150.0  # s, for a busy machine
 
 def run(program, *arguments, folder=None):
     """(exit code, what a node of moveit_ros_warehouse said)."""
-    done = subprocess.run(["rosrun", "moveit_ros_warehouse", program, *arguments], cwd=folder, capture_output=True, text=True,
-                          timeout=PATIENCE)
+    done = subprocess.run(
+        ["rosrun", "moveit_ros_warehouse", program, *arguments], cwd=folder, capture_output=True, text=True, timeout=PATIENCE
+    )
     return done.returncode, done.stdout + done.stderr
 
 
@@ -80,8 +81,9 @@ class WarehouseServer(unittest.TestCase):
             self.assertEqual((code, "Traceback" in text), (1, False))
             self.assertIn("kitchen.queries: line ", text)
         self.assertEqual([item.id for item in base.scenes.load("office").world.collision_objects], ["chest"])
-        self.assertEqual(dict(zip(*(getattr(base.states.load("kitchen_start").joint_state, field)
-                                    for field in ("name", "position"))))["joint_1"], 0.5)
+        self.assertEqual(
+            dict(zip(*(getattr(base.states.load("kitchen_start").joint_state, field) for field in ("name", "position"))))["joint_1"], 0.5
+        )
         self.assertEqual(base.constraints.load("grasp").position_constraints[0].link_name, "hand")
 
     def test_3_broadcast(self):

@@ -1,4 +1,5 @@
 """Straight lines of a link, and checks of whole paths."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -29,11 +30,23 @@ class CartesianResult:
         return self.fraction >= 1.0
 
 
-def cartesian_path(scene: _core.PlanningScene, group: str, waypoints: Sequence[AnyPose], *, link: str = "",
-                   start: Optional[_core.RobotState] = None, max_step: float = 0.01, jump_threshold: float = 0.0,
-                   prismatic_jump: float = 0.0, revolute_jump: float = 0.0, avoid_collisions: bool = True,
-                   constraints: Optional[_core.Constraints] = None, relative: bool = False, timeout: float = 0.0,
-                   position_only: bool = False) -> CartesianResult:
+def cartesian_path(
+    scene: _core.PlanningScene,
+    group: str,
+    waypoints: Sequence[AnyPose],
+    *,
+    link: str = "",
+    start: Optional[_core.RobotState] = None,
+    max_step: float = 0.01,
+    jump_threshold: float = 0.0,
+    prismatic_jump: float = 0.0,
+    revolute_jump: float = 0.0,
+    avoid_collisions: bool = True,
+    constraints: Optional[_core.Constraints] = None,
+    relative: bool = False,
+    timeout: float = 0.0,
+    position_only: bool = False,
+) -> CartesianResult:
     """Joint values that bring a link from way point to way point along straight lines.
 
     :param waypoints: poses of the link in the model frame, or in the link's start frame if ``relative``.
@@ -50,13 +63,31 @@ def cartesian_path(scene: _core.PlanningScene, group: str, waypoints: Sequence[A
     if relative:
         origin = state.pose(link)
         poses = [origin * Pose(*(np.asarray(part, float) for part in pose)) for pose in poses]
-    fraction, points, message = _core._cartesian_path(scene, state, group, link, poses, max_step, jump_threshold, prismatic_jump,
-                                                      revolute_jump, avoid_collisions, timeout, constraints, position_only)
+    fraction, points, message = _core._cartesian_path(
+        scene,
+        state,
+        group,
+        link,
+        poses,
+        max_step,
+        jump_threshold,
+        prismatic_jump,
+        revolute_jump,
+        avoid_collisions,
+        timeout,
+        constraints,
+        position_only,
+    )
     return CartesianResult(fraction, Trajectory(scene.model, group, state, points), message)
 
 
-def explain(scene: _core.PlanningScene, state: Optional[_core.RobotState] = None, group: str = "",
-            constraints: Optional[_core.Constraints] = None, padded: bool = True) -> str:
+def explain(
+    scene: _core.PlanningScene,
+    state: Optional[_core.RobotState] = None,
+    group: str = "",
+    constraints: Optional[_core.Constraints] = None,
+    padded: bool = True,
+) -> str:
     """Why a state may not be used: limits, constraints, then collision; "" if it may."""
     state = state if state is not None else scene.state
     for variable, value, lower, upper in state.violations(group or None, 1e-6):
@@ -71,14 +102,21 @@ def explain(scene: _core.PlanningScene, state: Optional[_core.RobotState] = None
     return "the robot is in collision" if found else ""
 
 
-def is_valid(scene: _core.PlanningScene, state: Optional[_core.RobotState] = None, group: str = "",
-             constraints: Optional[_core.Constraints] = None) -> bool:
+def is_valid(
+    scene: _core.PlanningScene, state: Optional[_core.RobotState] = None, group: str = "", constraints: Optional[_core.Constraints] = None
+) -> bool:
     """Within limits, within the constraints and touching nothing."""
     return not explain(scene, state, group, constraints)
 
 
-def path_valid(scene: _core.PlanningScene, start: _core.RobotState, group: str, path: Union[np.ndarray, Sequence[Sequence[float]]],
-               constraints: Optional[_core.Constraints] = None, padded: bool = True) -> List[int]:
+def path_valid(
+    scene: _core.PlanningScene,
+    start: _core.RobotState,
+    group: str,
+    path: Union[np.ndarray, Sequence[Sequence[float]]],
+    constraints: Optional[_core.Constraints] = None,
+    padded: bool = True,
+) -> List[int]:
     """Indices of the (k, n) way points that collide or break the constraints."""
     if not len(path):
         return []

@@ -1,4 +1,5 @@
 """Finds the mesh files that descriptions name."""
+
 from __future__ import annotations
 
 import os

@@ -1,4 +1,5 @@
 """Inverse kinematics of a group: of one pose or of one for each of its tips."""
+
 from __future__ import annotations
 
 import random
@@ -36,8 +37,9 @@ class IkResult:
         return len(self.solutions) > 0 and not self.approximate
 
 
-def _targets(model: _core.RobotModel, group: _core.Group, pose: Union[AnyPose, Mapping[str, AnyPose]],
-             link: str) -> Sequence[Tuple[str, AnyPose]]:
+def _targets(
+    model: _core.RobotModel, group: _core.Group, pose: Union[AnyPose, Mapping[str, AnyPose]], link: str
+) -> Sequence[Tuple[str, AnyPose]]:
     if isinstance(pose, Mapping):
         if not pose:
             raise _core.InvalidInputError("inverse kinematics: no pose was given")
@@ -55,13 +57,25 @@ def _on_robot(state: _core.RobotState, name: str, pose: AnyPose) -> Tuple[str, A
     return link, Pose(*(np.asarray(part, float) for part in pose)) * in_link.inverse() if link != name else pose
 
 
-def ik(scene_or_model: Union[_core.PlanningScene, _core.RobotModel], group: str,
-       pose: Union[AnyPose, Mapping[str, AnyPose]], *, link: str = "",
-       seed: Union[_core.RobotState, Sequence[float], None] = None, timeout: float = 0.005, tolerance: float = 1e-5,
-       position_only: bool = False, avoid_collisions: bool = False, constraints: Optional[Any] = None,
-       consistency: Optional[Sequence[float]] = None, valid: Optional[Callable[[np.ndarray], bool]] = None,
-       solutions: int = 1, return_approximate: bool = False, random_seed: Optional[int] = None,
-       max_restarts: int = -1) -> IkResult:
+def ik(
+    scene_or_model: Union[_core.PlanningScene, _core.RobotModel],
+    group: str,
+    pose: Union[AnyPose, Mapping[str, AnyPose]],
+    *,
+    link: str = "",
+    seed: Union[_core.RobotState, Sequence[float], None] = None,
+    timeout: float = 0.005,
+    tolerance: float = 1e-5,
+    position_only: bool = False,
+    avoid_collisions: bool = False,
+    constraints: Optional[Any] = None,
+    consistency: Optional[Sequence[float]] = None,
+    valid: Optional[Callable[[np.ndarray], bool]] = None,
+    solutions: int = 1,
+    return_approximate: bool = False,
+    random_seed: Optional[int] = None,
+    max_restarts: int = -1,
+) -> IkResult:
     """Joint values that bring a link to a pose.
 
     :param pose: in the model frame; a mapping {link: pose} for groups with several tips.
@@ -84,9 +98,23 @@ def ik(scene_or_model: Union[_core.PlanningScene, _core.RobotModel], group: str,
         raise _core.InvalidInputError("inverse kinematics: collisions and constraints need a planning scene, not a model alone")
     targets = [_on_robot(start, name, p) for name, p in _targets(model, model.group(group), pose, link)]
     random_seed = random.getrandbits(63) if random_seed is None else random_seed
-    found = _core._ik(start, group, targets, timeout, tolerance, position_only, solutions, max_restarts,
-                      return_approximate, consistency, valid, random_seed, scene if avoid_collisions else None,
-                      scene, constraints)
+    found = _core._ik(
+        start,
+        group,
+        targets,
+        timeout,
+        tolerance,
+        position_only,
+        solutions,
+        max_restarts,
+        return_approximate,
+        consistency,
+        valid,
+        random_seed,
+        scene if avoid_collisions else None,
+        scene,
+        constraints,
+    )
     none = not len(found["solutions"]) or found["approximate"]
     return IkResult(message=_why(found, group, [name for name, _ in targets]) if none else "", **found)
 
@@ -95,5 +123,7 @@ def _why(found: Mapping[str, Any], group: str, links: Sequence[str]) -> str:
     names = ", ".join(f"'{name}'" for name in links)
     if found["rejected"]:
         return f"{found['rejected']} ways to bring {names} there were found, but all collide or break a constraint"
-    return (f"no joint values of group '{group}' bring {names} there: the pose is out of reach "
-            f"(nearest: {found['error']:.3g} off after {found['restarts']} restarts)")
+    return (
+        f"no joint values of group '{group}' bring {names} there: the pose is out of reach "
+        f"(nearest: {found['error']:.3g} off after {found['restarts']} restarts)"
+    )

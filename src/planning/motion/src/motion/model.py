@@ -1,14 +1,22 @@
 """From URDF and SRDF text to a RobotModel."""
+
 from __future__ import annotations
 
 from typing import Any, Dict, Mapping, Optional
 
 from motion import _core
-from motion.files import FindPackage, find_package as below_ros_package_path, resolve
+from motion.files import FindPackage, resolve
+from motion.files import find_package as below_ros_package_path
 
 
-def load_model(urdf: str, srdf: Optional[str] = None, *, joint_limits: Optional[Mapping[str, Any]] = None,
-               find_package: Optional[FindPackage] = None, meshes: bool = True) -> _core.RobotModel:
+def load_model(
+    urdf: str,
+    srdf: Optional[str] = None,
+    *,
+    joint_limits: Optional[Mapping[str, Any]] = None,
+    find_package: Optional[FindPackage] = None,
+    meshes: bool = True,
+) -> _core.RobotModel:
     """The robot that the texts describe.
 
     :param urdf: XML text of the URDF.

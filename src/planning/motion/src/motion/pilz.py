@@ -1,4 +1,5 @@
 """Industrial motions as in pilz_industrial_motion_planner: point to point, along a line, along a circle."""
+
 from __future__ import annotations
 
 import time
@@ -15,8 +16,8 @@ from motion.timing import above_zero
 from motion.trajectory import Trajectory
 
 SAMPLING = 0.1  # s, as upstream
-_RADII = 1e-2    # m by which the distances of start and goal from a circle's centre may differ, as upstream
-_UNSET = 1.0     # rad/s, rad/s^2 where the robot says nothing
+_RADII = 1e-2  # m by which the distances of start and goal from a circle's centre may differ, as upstream
+_UNSET = 1.0  # rad/s, rad/s^2 where the robot says nothing
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,7 @@ def _goal(scene: _core.PlanningScene, request: MotionRequest) -> _core.Constrain
     goals = [goal for goal in request.goals if not goal.empty()]
     if len(goals) != 1:
         raise Refused("no_goal", f"{request.planner} needs exactly one goal, not {len(goals)}")
-    goal, = goals
+    (goal,) = goals
     if goal.joint and (goal.position or goal.orientation):
         raise Refused("no_goal", f"{request.planner} needs a goal of joint values or of a pose, not of both")
     for constraint in goal.joint:
@@ -91,8 +92,11 @@ def _check_joint(model: _core.RobotModel, group: str, constraint: _core.JointCon
         raise Refused("no_goal", f"joint '{constraint.joint}' of the goal does not belong to group '{group}'")
     limits = model.variable_limits(constraint.joint)
     if limits.has_position and not limits.min_position - 1e-6 <= constraint.position <= limits.max_position + 1e-6:
-        raise Refused("no_goal", f"the goal is outside the limits of '{constraint.joint}': {constraint.position:.4g} is not within "
-                                  f"{limits.min_position:.4g} to {limits.max_position:.4g}")
+        raise Refused(
+            "no_goal",
+            f"the goal is outside the limits of '{constraint.joint}': {constraint.position:.4g} is not within "
+            f"{limits.min_position:.4g} to {limits.max_position:.4g}",
+        )
 
 
 @dataclass(frozen=True)
@@ -145,6 +149,7 @@ def slerp(a: Pose, b: Pose) -> Tuple[float, Callable[[float], np.ndarray]]:
             return qb if share > 0.5 else qa
         q = (np.sin((1 - share) * half) * qa + np.sin(share * half) * qb) / np.sin(half)
         return q / np.linalg.norm(q)
+
     return 2 * half, at
 
 
@@ -154,8 +159,10 @@ def _joint_limits(scene: _core.PlanningScene, group: str, unset: float) -> Tuple
     for name, limit in zip(names, limits):
         above_zero(name, "velocity", limit.max_velocity if limit.has_velocity else unset)
         above_zero(name, "acceleration", limit.max_acceleration if limit.has_acceleration else unset)
-    return (np.array([limit.max_velocity if limit.has_velocity else unset for limit in limits]),
-            np.array([limit.max_acceleration if limit.has_acceleration else unset for limit in limits]))
+    return (
+        np.array([limit.max_velocity if limit.has_velocity else unset for limit in limits]),
+        np.array([limit.max_acceleration if limit.has_acceleration else unset for limit in limits]),
+    )
 
 
 def check_limits(scene: _core.PlanningScene, trajectory: Trajectory, what: str) -> None:
@@ -163,13 +170,19 @@ def check_limits(scene: _core.PlanningScene, trajectory: Trajectory, what: str) 
     velocity, acceleration = _joint_limits(scene, trajectory.group, np.inf)
     assert trajectory.times is not None and trajectory.velocities is not None and trajectory.accelerations is not None
     steps = np.diff(trajectory.positions, axis=0) / np.diff(trajectory.times)[:, None]
-    for rows, limits, name in ((steps, velocity, "velocity"), (trajectory.velocities, velocity, "velocity"),
-                               (trajectory.accelerations, acceleration, "acceleration")):
+    for rows, limits, name in (
+        (steps, velocity, "velocity"),
+        (trajectory.velocities, velocity, "velocity"),
+        (trajectory.accelerations, acceleration, "acceleration"),
+    ):
         worst = np.abs(rows).max(axis=0, initial=0.0)
         if (worst > limits * 1.001).any():
             joint = int(np.argmax(worst / limits))
-            raise Refused("failed", f"{what} would move joint '{trajectory.variables[joint]}' with {worst[joint]:.3g}, above its "
-                                     f"{name} limit {limits[joint]:.3g}; a smaller {name} scaling helps")
+            raise Refused(
+                "failed",
+                f"{what} would move joint '{trajectory.variables[joint]}' with {worst[joint]:.3g}, above its "
+                f"{name} limit {limits[joint]:.3g}; a smaller {name} scaling helps",
+            )
 
 
 def trajectory_of(scene, group: str, start: _core.RobotState, at: Sequence[float], points: Sequence[np.ndarray]) -> Trajectory:
@@ -184,6 +197,7 @@ def trajectory_of(scene, group: str, start: _core.RobotState, at: Sequence[float
 
 
 # ---------------------------------------------------------------- the three motions
+
 
 def _ptp(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRequest, limits: CartesianLimits) -> Trajectory:
     goal = _goal(scene, request)
@@ -224,8 +238,16 @@ def _ptp(scene: _core.PlanningScene, start: _core.RobotState, request: MotionReq
     )
 
 
-def _along(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRequest, tool: _Tool, length: float, angle: float,
-           pose_at: Callable[[float], Pose], limits: CartesianLimits) -> Trajectory:
+def _along(
+    scene: _core.PlanningScene,
+    start: _core.RobotState,
+    request: MotionRequest,
+    tool: _Tool,
+    length: float,
+    angle: float,
+    pose_at: Callable[[float], Pose],
+    limits: CartesianLimits,
+) -> Trajectory:
     """A tool along poses of a share (0 to 1) of its way."""
     v_scale, a_scale = _scalings(request)
     # Turning counts as a way on a circle whose radius makes both limits one.
@@ -239,8 +261,14 @@ def _along(scene: _core.PlanningScene, start: _core.RobotState, request: MotionR
     seed = start.copy()
     for now in times[1:]:
         share = profile.at(now)[0] / way
-        values = follow(scene, request.group, tool.link, tool.link_at(pose_at(share)), seed,
-                         f"the {request.planner} motion cannot be followed beyond {share:.0%} of its way")
+        values = follow(
+            scene,
+            request.group,
+            tool.link,
+            tool.link_at(pose_at(share)),
+            seed,
+            f"the {request.planner} motion cannot be followed beyond {share:.0%} of its way",
+        )
         positions.append(values)
     trajectory = trajectory_of(scene, request.group, start, list(times), positions)
     check_limits(scene, trajectory, f"the {request.planner} motion")
@@ -250,8 +278,7 @@ def _along(scene: _core.PlanningScene, start: _core.RobotState, request: MotionR
 def follow(scene: _core.PlanningScene, group: str, link: str, pose: Pose, seed: _core.RobotState, problem: str) -> np.ndarray:
     """Joint values near those of ``seed``, which is put there: no joint is turned back from its limit."""
     size = scene.model.group(group).size
-    found = ik(scene, group, pose, link=link, seed=seed, timeout=0.1, max_restarts=0, tolerance=1e-6,
-               consistency=[0.99 * np.pi] * size)
+    found = ik(scene, group, pose, link=link, seed=seed, timeout=0.1, max_restarts=0, tolerance=1e-6, consistency=[0.99 * np.pi] * size)
     if not found:
         raise Refused("no_ik_solution", f"{problem}: {found.message}")
     seed.set_group(group, found.solutions[0])
@@ -263,8 +290,16 @@ def _lin(scene: _core.PlanningScene, start: _core.RobotState, request: MotionReq
     origin = start.pose(tool.link) * tool.in_link
     angle, turn = slerp(origin, tool.goal)
     way = tool.goal.position - origin.position
-    return _along(scene, start, request, tool, float(np.linalg.norm(way)), angle,
-                  lambda share: Pose(origin.position + share * way, turn(share)), limits)
+    return _along(
+        scene,
+        start,
+        request,
+        tool,
+        float(np.linalg.norm(way)),
+        angle,
+        lambda share: Pose(origin.position + share * way, turn(share)),
+        limits,
+    )
 
 
 def _circle(start: np.ndarray, goal: np.ndarray, point: np.ndarray, kind: str) -> Tuple[float, Callable[[float], np.ndarray]]:
@@ -289,15 +324,23 @@ def _circle(start: np.ndarray, goal: np.ndarray, point: np.ndarray, kind: str) -
     x = (start - centre) / radius
     y = np.cross(normal / np.linalg.norm(normal), x)
     angle = float(np.arctan2(np.dot(goal - centre, y), np.dot(goal - centre, x))) % (2 * np.pi)
-    return radius * angle, lambda share: centre + (radius + share * (last - radius)) * (
-        np.cos(share * angle) * x + np.sin(share * angle) * y)
+    return (
+        radius * angle,
+        lambda share: centre + (radius + share * (last - radius)) * (np.cos(share * angle) * x + np.sin(share * angle) * y),
+    )
 
 
 def with_auxiliary_point(request: MotionRequest) -> MotionRequest:
     """A request for CIRC with its auxiliary point taken out of the path constraints, where it is by MoveIt's convention."""
     extra = request.path_constraints
-    if request.planner != "CIRC" or request.auxiliary is not None or extra is None or extra.name not in ("interim", "center") or \
-            len(extra.position) != 1 or len(extra.position[0].region) != 1:
+    if (
+        request.planner != "CIRC"
+        or request.auxiliary is not None
+        or extra is None
+        or extra.name not in ("interim", "center")
+        or len(extra.position) != 1
+        or len(extra.position[0].region) != 1
+    ):
         return request
     point, rest = extra.position[0], _core.Constraints(joint=extra.joint, orientation=extra.orientation, visibility=extra.visibility)
     auxiliary = AuxiliaryPoint(extra.name, point.region[0][1].position, point.frame, point.link)
@@ -307,8 +350,10 @@ def with_auxiliary_point(request: MotionRequest) -> MotionRequest:
 def _circ(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRequest, limits: CartesianLimits) -> Trajectory:
     auxiliary = with_auxiliary_point(request).auxiliary
     if auxiliary is None:
-        raise Refused("invalid_plan", "CIRC needs path constraints named 'interim' or 'center' with one position constraint that has "
-                                       "one pose: its auxiliary point")
+        raise Refused(
+            "invalid_plan",
+            "CIRC needs path constraints named 'interim' or 'center' with one position constraint that has one pose: its auxiliary point",
+        )
     tool = _tool(scene, start, request, auxiliary.link)
     point = scene.frame_pose(auxiliary.frame, start) * np.asarray(auxiliary.position, float)
     origin = start.pose(tool.link) * tool.in_link
@@ -320,8 +365,12 @@ def _circ(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRe
 _MOTIONS = {"PTP": _ptp, "LIN": _lin, "CIRC": _circ}
 
 
-def pilz_plan(scene: _core.PlanningScene, request: MotionRequest, cancel: Optional[_core.CancelToken] = None,
-              limits: CartesianLimits = CartesianLimits()) -> PlanResult:
+def pilz_plan(
+    scene: _core.PlanningScene,
+    request: MotionRequest,
+    cancel: Optional[_core.CancelToken] = None,
+    limits: CartesianLimits = CartesianLimits(),
+) -> PlanResult:
     """A timed trajectory without a search: ``request.planner`` is PTP, LIN or CIRC.
 
     Obstacles are not avoided; a Pipeline checks the result.
@@ -350,8 +399,15 @@ def pilz_plan(scene: _core.PlanningScene, request: MotionRequest, cancel: Option
         return PlanResult("invalid_request", message=str(error), start=start, planner=request.planner)
     if cancel is not None and cancel.cancelled:
         return PlanResult("cancelled", message="planning was cancelled", start=start, planner=request.planner)
-    return PlanResult("solved", trajectory=trajectory, start=start, planner=request.planner, attempts=1, goals=1,
-                      planning_time=time.perf_counter() - begun)
+    return PlanResult(
+        "solved",
+        trajectory=trajectory,
+        start=start,
+        planner=request.planner,
+        attempts=1,
+        goals=1,
+        planning_time=time.perf_counter() - begun,
+    )
 
 
 # ---------------------------------------------------------------- sequences

@@ -1,4 +1,5 @@
 """Sequences of industrial motions, blended where they are asked to be, as in pilz_industrial_motion_planner."""
+
 from __future__ import annotations
 
 import time
@@ -36,9 +37,7 @@ class SequenceResult:
         return self.status == "solved"
 
 
-def _blend(
-    scene: _core.PlanningScene, first: Trajectory, second: Trajectory, link: str, radius: float
-) -> Trajectory:
+def _blend(scene: _core.PlanningScene, first: Trajectory, second: Trajectory, link: str, radius: float) -> Trajectory:
     """One trajectory that leaves the first where it enters the ball about its end, and joins the second where that leaves it."""
     places = [np.array([t.state(i).pose(link).position for i in range(len(t))]) for t in (first, second)]
     corner = places[0][-1]
@@ -52,26 +51,31 @@ def _blend(
     duration = max(first.duration - t_enter, t_leave)
     steps = max(2, int(np.ceil(duration / SAMPLING)))
     seed = first.state(enter)
-    times, positions = list(first.times[:enter + 1]), list(first.positions[:enter + 1])
+    times, positions = list(first.times[: enter + 1]), list(first.positions[: enter + 1])
     for k in range(1, steps + 1):
         t = duration * k / steps
         share = k / steps
-        alpha = share ** 3 * (10 - 15 * share + 6 * share * share)
+        alpha = share**3 * (10 - 15 * share + 6 * share * share)
         a = first.state_at(min(first.duration, t_enter + t)).pose(link)
         b = second.state_at(min(t_leave, max(0.0, t_leave - duration + t))).pose(link)
         _, turn = slerp(a, b)
         pose = Pose((1 - alpha) * a.position + alpha * b.position, turn(alpha))
         times.append(t_enter + t)
         positions.append(follow(scene, first.group, link, pose, seed, "the blend between two motions cannot be followed"))
-    times += list(times[-1] + second.times[leave + 1:] - t_leave)
-    positions += list(second.positions[leave + 1:])
+    times += list(times[-1] + second.times[leave + 1 :] - t_leave)
+    positions += list(second.positions[leave + 1 :])
     blended = trajectory_of(scene, first.group, first.start, times, positions)
     check_limits(scene, blended, "the blend between two motions")
     return blended
 
 
-def pilz_sequence(scene: _core.PlanningScene, items: Sequence[Tuple[MotionRequest, float]], cancel: Optional[_core.CancelToken] = None,
-                  limits: CartesianLimits = CartesianLimits(), plan: Optional[Planner] = None) -> SequenceResult:
+def pilz_sequence(
+    scene: _core.PlanningScene,
+    items: Sequence[Tuple[MotionRequest, float]],
+    cancel: Optional[_core.CancelToken] = None,
+    limits: CartesianLimits = CartesianLimits(),
+    plan: Optional[Planner] = None,
+) -> SequenceResult:
     """Motions one after the other, each from where the one before ends.
 
     :param items: (request, blend radius in m to the next one); the last radius must be 0. Only the first motion of a group may
@@ -113,8 +117,14 @@ def _radii(model: _core.RobotModel, items: Sequence[Tuple[MotionRequest, float]]
     return radii
 
 
-def _plan_all(scene: _core.PlanningScene, items: Sequence[Tuple[MotionRequest, float]], radii: Sequence[float],
-              cancel: Optional[_core.CancelToken], plan: Planner, result: SequenceResult) -> None:
+def _plan_all(
+    scene: _core.PlanningScene,
+    items: Sequence[Tuple[MotionRequest, float]],
+    radii: Sequence[float],
+    cancel: Optional[_core.CancelToken],
+    plan: Planner,
+    result: SequenceResult,
+) -> None:
     state, out, before = scene.state, result.trajectories, None
     for index, (request, _) in enumerate(items):
         where = f"motion {index + 1} of the sequence"
@@ -139,12 +149,16 @@ def _check_overlap(first: Trajectory, second: Trajectory, radius: float, later: 
     link = second.model.group(second.group).tip_link
     corner, end = (t.state(len(t) - 1).pose(link).position for t in (first, second))
     if later > 0 and np.linalg.norm(end - corner) <= radius + later:
-        raise Refused("invalid_plan", f"the blend radii {radius:g} m and {later:g} m at both ends of motion {index + 1} of the sequence "
-                                       f"overlap: they are {np.linalg.norm(end - corner):.3g} m apart")
+        raise Refused(
+            "invalid_plan",
+            f"the blend radii {radius:g} m and {later:g} m at both ends of motion {index + 1} of the sequence "
+            f"overlap: they are {np.linalg.norm(end - corner):.3g} m apart",
+        )
 
 
-def _blended(scene: _core.PlanningScene, first: Trajectory, second: Trajectory, radius: float, where: str,
-             result: SequenceResult) -> Trajectory:
+def _blended(
+    scene: _core.PlanningScene, first: Trajectory, second: Trajectory, radius: float, where: str, result: SequenceResult
+) -> Trajectory:
     try:
         trajectory = _blend(scene, first, second, scene.model.group(first.group).tip_link, radius)
     except Refused as refused:

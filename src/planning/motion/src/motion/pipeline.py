@@ -1,4 +1,5 @@
 """Planning with what goes around it: MoveIt's request adapters by their names, timing, and a last check."""
+
 from __future__ import annotations
 
 from dataclasses import replace
@@ -34,8 +35,13 @@ def _with_start_before(result: PlanResult, start: _core.RobotState, most: float)
     def with_rest(rows: Optional[np.ndarray]) -> Optional[np.ndarray]:
         return None if rows is None else np.vstack([np.zeros(rows.shape[1]), rows])
 
-    longer = trajectory.replaced(positions=positions, times=times, velocities=with_rest(trajectory.velocities),
-                                 accelerations=with_rest(trajectory.accelerations), start=start)
+    longer = trajectory.replaced(
+        positions=positions,
+        times=times,
+        velocities=with_rest(trajectory.velocities),
+        accelerations=with_rest(trajectory.accelerations),
+        start=start,
+    )
     return replace(result, trajectory=longer, added_prefix=[0] + [i + 1 for i in result.added_prefix])
 
 
@@ -47,9 +53,18 @@ class Pipeline:
     :param params: what the pipeline's parameters say (start_state_max_bounds_error, jiggle_fraction ...).
     """
 
-    NOETIC_ADAPTERS = [_PREFIX + name for name in (
-        "LimitMaxCartesianLinkSpeed", "AddTimeParameterization", "ResolveConstraintFrames", "FixWorkspaceBounds",
-        "FixStartStateBounds", "FixStartStateCollision", "FixStartStatePathConstraints")]
+    NOETIC_ADAPTERS = [
+        _PREFIX + name
+        for name in (
+            "LimitMaxCartesianLinkSpeed",
+            "AddTimeParameterization",
+            "ResolveConstraintFrames",
+            "FixWorkspaceBounds",
+            "FixStartStateBounds",
+            "FixStartStateCollision",
+            "FixStartStatePathConstraints",
+        )
+    ]
 
     ADAPTERS: List[str] = []  #: names of all adapters, without their prefix; from their table below
 
@@ -71,8 +86,9 @@ class Pipeline:
             raise _core.InvalidInputError(f"pipeline parameter '{key}' is '{str(self.params[key])[:40]}', not a number") from None
         return value
 
-    def generate(self, scene: _core.PlanningScene, request: MotionRequest, cancel: Optional[_core.CancelToken] = None,
-                 planner: Planner = plan) -> PlanResult:
+    def generate(
+        self, scene: _core.PlanningScene, request: MotionRequest, cancel: Optional[_core.CancelToken] = None, planner: Planner = plan
+    ) -> PlanResult:
         """Plan, time and check again. Never raises for what the request says: see the result's status."""
 
         def inner(index: int) -> Planner:
@@ -81,6 +97,7 @@ class Pipeline:
 
             def call(scene: _core.PlanningScene, request: MotionRequest, cancel: Optional[_core.CancelToken]) -> PlanResult:
                 return _ADAPTERS[self.adapters[index]](self, inner(index + 1), scene, request, cancel)
+
             return call
 
         request = with_auxiliary_point(request)  # which is no constraint
@@ -95,19 +112,28 @@ class Pipeline:
         trajectory = result.trajectory
         if not result or trajectory is None:
             return result
-        bad = [i for i in path_valid(scene, _start(scene, request), trajectory.group, trajectory.positions, request.path_constraints)
-               if i not in result.added_prefix]
+        bad = [
+            i
+            for i in path_valid(scene, _start(scene, request), trajectory.group, trajectory.positions, request.path_constraints)
+            if i not in result.added_prefix
+        ]
         if not bad or bad == [0]:
             return result
         state = trajectory.state(bad[0])
         found = scene.check(state, group=trajectory.group, contacts=100)
-        return replace(result, status="invalid_plan", invalid=bad, contacts=found.contacts,
-                       message=f"the planned motion is not valid at {len(bad)} of {len(trajectory)} points; at point {bad[0] + 1}: "
-                               + explain(scene, state, trajectory.group, request.path_constraints))
+        return replace(
+            result,
+            status="invalid_plan",
+            invalid=bad,
+            contacts=found.contacts,
+            message=f"the planned motion is not valid at {len(bad)} of {len(trajectory)} points; at point {bad[0] + 1}: "
+            + explain(scene, state, trajectory.group, request.path_constraints),
+        )
 
 
 # ---------------------------------------------------------------- the adapters
 # Each: (pipeline, the planner inside, scene, request, cancel) -> result
+
 
 def _nothing(pipeline: Pipeline, inside: Planner, scene, request, cancel) -> PlanResult:
     return inside(scene, request, cancel)
@@ -132,6 +158,7 @@ def _timing(method: str):
         except _core.InvalidInputError as error:
             return replace(result, status="failed", message=str(error))
         return replace(result, trajectory=timed)
+
     return adapter
 
 
@@ -166,8 +193,9 @@ def _start_bounds(pipeline: Pipeline, inside: Planner, scene, request, cancel) -
     start = _start(scene, request)
     fixed = start.copy()
     fixed.normalize_continuous()
-    if start.in_bounds(request.group, pipeline.number("start_state_max_bounds_error", 0.05)) or \
-            fixed.in_bounds(request.group, pipeline.number("start_state_max_bounds_error", 0.05)):
+    if start.in_bounds(request.group, pipeline.number("start_state_max_bounds_error", 0.05)) or fixed.in_bounds(
+        request.group, pipeline.number("start_state_max_bounds_error", 0.05)
+    ):
         fixed.enforce_bounds(request.group)
     moved = np.abs(fixed.get_group(request.group) - start.get_group(request.group)) % (2 * np.pi)
     result = inside(scene, replace(request, start=fixed), cancel)
@@ -208,9 +236,13 @@ def _start_constraints(pipeline: Pipeline, inside: Planner, scene, request, canc
     second = inside(scene, replace(request, start=there), cancel)
     if not second or second.trajectory is None:
         return second
-    return replace(second, trajectory=first.trajectory.append(second.trajectory), start=start,
-                   planning_time=first.planning_time + second.planning_time,
-                   added_prefix=list(range(len(first.trajectory) - 1)))
+    return replace(
+        second,
+        trajectory=first.trajectory.append(second.trajectory),
+        start=start,
+        planning_time=first.planning_time + second.planning_time,
+        added_prefix=list(range(len(first.trajectory) - 1)),
+    )
 
 
 _ADAPTERS = {

@@ -1,4 +1,5 @@
 """Planning requests, their results, and goals made easily."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -13,11 +14,30 @@ from motion.trajectory import Trajectory
 
 # MoveItErrorCodes as upstream's OMPL interface gives them.
 CODES: Dict[str, int] = {
-    "solved": 1, "approximate": -1, "timeout": -6, "cancelled": -7, "invalid_group": -15, "invalid_start": -26,
-    "start_in_collision": -10, "start_violates_path_constraints": -11, "no_goal": -16, "invalid_goal": -27,
-    "goal_in_collision": -27, "goal_violates_path_constraints": -27, "no_ik": -27, "unknown_link": -16, "unknown_frame": -21,
-    "unknown_planner": -1, "invalid_plan": -2, "invalid_request": -16, "invalid_state": -17, "invalid_link": -18,
-    "failed": -1, "no_ik_solution": -31, "failure": 99999}
+    "solved": 1,
+    "approximate": -1,
+    "timeout": -6,
+    "cancelled": -7,
+    "invalid_group": -15,
+    "invalid_start": -26,
+    "start_in_collision": -10,
+    "start_violates_path_constraints": -11,
+    "no_goal": -16,
+    "invalid_goal": -27,
+    "goal_in_collision": -27,
+    "goal_violates_path_constraints": -27,
+    "no_ik": -27,
+    "unknown_link": -16,
+    "unknown_frame": -21,
+    "unknown_planner": -1,
+    "invalid_plan": -2,
+    "invalid_request": -16,
+    "invalid_state": -17,
+    "invalid_link": -18,
+    "failed": -1,
+    "no_ik_solution": -31,
+    "failure": 99999,
+}
 
 
 @dataclass(frozen=True)
@@ -123,8 +143,9 @@ class PlanResult:
         return self.status == "solved"
 
 
-def pose_goal(link: str, pose: AnyPose, position_tolerance: float = 1e-4, orientation_tolerance: float = 1e-3,
-              frame: str = "") -> _core.Constraints:
+def pose_goal(
+    link: str, pose: AnyPose, position_tolerance: float = 1e-4, orientation_tolerance: float = 1e-3, frame: str = ""
+) -> _core.Constraints:
     """The link at a pose given in ``frame`` ("" = model frame), within a ball (m) and three angles (rad)."""
     position, quaternion = pose
     region = [(_core.Sphere(position_tolerance), Pose(np.asarray(position, float), np.array([0.0, 0, 0, 1])))]
@@ -133,11 +154,13 @@ def pose_goal(link: str, pose: AnyPose, position_tolerance: float = 1e-4, orient
         raise _core.InvalidInputError("the quaternion of a pose is zero or not finite: (0, 0, 0, 1) is no rotation")
     return _core.Constraints(
         position=[_core.PositionConstraint(link, region, frame=frame)],
-        orientation=[_core.OrientationConstraint(link, np.asarray(quaternion, float) / norm, (orientation_tolerance,) * 3, frame=frame)])
+        orientation=[_core.OrientationConstraint(link, np.asarray(quaternion, float) / norm, (orientation_tolerance,) * 3, frame=frame)],
+    )
 
 
-def joint_goal(model: _core.RobotModel, group: str, values: Union[Mapping[str, float], Sequence[float]],
-               tolerance: float = 1e-4) -> _core.Constraints:
+def joint_goal(
+    model: _core.RobotModel, group: str, values: Union[Mapping[str, float], Sequence[float]], tolerance: float = 1e-4
+) -> _core.Constraints:
     """Joint values: a mapping of variables, or all of the group in its order."""
     if not isinstance(values, Mapping):
         names = model.group(group).variables
@@ -169,7 +192,7 @@ def _compiled(request: MotionRequest) -> _core._PlanRequest:
     out.parameters = {str(key): _text(value) for key, value in request.planner_params.items()}
     out.time = float(request.planning_time)
     out.attempts = max(1, int(request.attempts))
-    out.seed = None if request.seed is None else int(request.seed) % 2 ** 63
+    out.seed = None if request.seed is None else int(request.seed) % 2**63
     out.simplify, out.interpolate, out.hybridize = request.simplify, request.interpolate, request.hybridize
     out.segment_fraction = float(request.longest_valid_segment_fraction)
     out.maximum_waypoint_distance = float(request.maximum_waypoint_distance)

@@ -1,4 +1,5 @@
 """Poses: a position and a quaternion, in Python's plainest form."""
+
 from __future__ import annotations
 
 from typing import NamedTuple, Sequence
@@ -24,16 +25,24 @@ class Pose(NamedTuple):
     def from_rpy(xyz: Sequence[float], rpy: Sequence[float]) -> "Pose":
         """:param rpy: turns about the fixed axes x, y, z in this order, rad (the rule of URDF)."""
         (cr, cp, cy), (sr, sp, sy) = np.cos(np.asarray(rpy) / 2), np.sin(np.asarray(rpy) / 2)
-        return Pose(np.asarray(xyz, float), np.array([sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy,
-                                                      cr * cp * sy - sr * sp * cy, cr * cp * cy + sr * sp * sy]))
+        return Pose(
+            np.asarray(xyz, float),
+            np.array([sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy, cr * cp * sy - sr * sp * cy, cr * cp * cy + sr * sp * sy]),
+        )
 
     @staticmethod
     def from_matrix(matrix: np.ndarray) -> "Pose":
         """:param matrix: (4, 4) homogeneous."""
         m = np.asarray(matrix, float)
         # The largest of the four squares is safe to divide by.
-        squares = np.array([1 + m[0, 0] - m[1, 1] - m[2, 2], 1 - m[0, 0] + m[1, 1] - m[2, 2],
-                            1 - m[0, 0] - m[1, 1] + m[2, 2], 1 + m[0, 0] + m[1, 1] + m[2, 2]])
+        squares = np.array(
+            [
+                1 + m[0, 0] - m[1, 1] - m[2, 2],
+                1 - m[0, 0] + m[1, 1] - m[2, 2],
+                1 - m[0, 0] - m[1, 1] + m[2, 2],
+                1 + m[0, 0] + m[1, 1] + m[2, 2],
+            ]
+        )
         largest = int(np.argmax(squares))
         q = np.empty(4)
         if largest == 3:
@@ -50,9 +59,13 @@ class Pose(NamedTuple):
     def rotation(self) -> np.ndarray:
         """(3, 3) rotation matrix."""
         x, y, z, w = self.quaternion
-        return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                         [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                         [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+        return np.array(
+            [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+            ]
+        )
 
     def matrix(self) -> np.ndarray:
         """(4, 4) homogeneous."""
@@ -64,8 +77,7 @@ class Pose(NamedTuple):
     def rpy(self) -> np.ndarray:
         """(3,) turns about the fixed axes x, y, z, rad."""
         r = self.rotation
-        return np.array([np.arctan2(r[2, 1], r[2, 2]), np.arctan2(-r[2, 0], np.hypot(r[2, 1], r[2, 2])),
-                         np.arctan2(r[1, 0], r[0, 0])])
+        return np.array([np.arctan2(r[2, 1], r[2, 2]), np.arctan2(-r[2, 0], np.hypot(r[2, 1], r[2, 2])), np.arctan2(r[1, 0], r[0, 0])])
 
     def inverse(self) -> "Pose":
         x, y, z, w = self.quaternion
@@ -77,6 +89,12 @@ class Pose(NamedTuple):
             return self.rotation @ np.asarray(other, float) + self.position
         position, (bx, by, bz, bw) = other
         ax, ay, az, aw = self.quaternion
-        quaternion = np.array([aw * bx + ax * bw + ay * bz - az * by, aw * by - ax * bz + ay * bw + az * bx,
-                               aw * bz + ax * by - ay * bx + az * bw, aw * bw - ax * bx - ay * by - az * bz])
+        quaternion = np.array(
+            [
+                aw * bx + ax * bw + ay * bz - az * by,
+                aw * by - ax * bz + ay * bw + az * bx,
+                aw * bz + ax * by - ay * bx + az * bw,
+                aw * bw - ax * bx - ay * by - az * bz,
+            ]
+        )
         return Pose(self.rotation @ np.asarray(position, float) + self.position, quaternion)

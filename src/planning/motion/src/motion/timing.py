@@ -1,4 +1,5 @@
 """When to be where: times, velocities and accelerations for a path."""
+
 from __future__ import annotations
 
 from typing import List, Tuple
@@ -46,9 +47,17 @@ def _limits(
     return np.array(velocity), np.array(acceleration)
 
 
-def time_parameterize(model: _core.RobotModel, trajectory: Trajectory, method: str = "iterative_parabolic", *,
-                      velocity_scaling: float = 1.0, acceleration_scaling: float = 1.0, path_tolerance: float = 0.1,
-                      resample_dt: float = 0.1, min_angle_change: float = 0.001) -> Trajectory:
+def time_parameterize(
+    model: _core.RobotModel,
+    trajectory: Trajectory,
+    method: str = "iterative_parabolic",
+    *,
+    velocity_scaling: float = 1.0,
+    acceleration_scaling: float = 1.0,
+    path_tolerance: float = 0.1,
+    resample_dt: float = 0.1,
+    min_angle_change: float = 0.001,
+) -> Trajectory:
     """The trajectory with times, velocities and accelerations that keep the joints' limits, starting and ending at rest.
 
     :param method: ``iterative_parabolic`` and ``iterative_spline`` keep the way points; ``time_optimal`` rounds the corners
@@ -63,8 +72,9 @@ def time_parameterize(model: _core.RobotModel, trajectory: Trajectory, method: s
         raise _core.InvalidInputError(f"there is no timing method '{str(method)[:60]}' (there is: {', '.join(_METHODS)})")
     smooth = trajectory.replaced().unwind()
     velocity, acceleration = _limits(trajectory, _scaling(velocity_scaling), _scaling(acceleration_scaling), method != "time_optimal")
-    times, positions, velocities, accelerations = _core._time(method, smooth.positions, velocity, acceleration,
-                                                              path_tolerance, resample_dt, min_angle_change)
+    times, positions, velocities, accelerations = _core._time(
+        method, smooth.positions, velocity, acceleration, path_tolerance, resample_dt, min_angle_change
+    )
     return smooth.replaced(positions=positions, times=times, velocities=velocities, accelerations=accelerations)
 
 
@@ -82,7 +92,8 @@ def limit_cartesian_speed(trajectory: Trajectory, link: str, speed: float) -> Tr
     return trajectory.replaced(
         times=trajectory.times[0] + np.concatenate([[0.0], np.cumsum(stretched)]),
         velocities=None if trajectory.velocities is None else trajectory.velocities / at_points,
-        accelerations=None if trajectory.accelerations is None else trajectory.accelerations / at_points ** 2)
+        accelerations=None if trajectory.accelerations is None else trajectory.accelerations / at_points**2,
+    )
 
 
 def limit_jerk(trajectory: Trajectory) -> Trajectory:
@@ -110,15 +121,20 @@ def limit_jerk(trajectory: Trajectory) -> Trajectory:
     whole, before = _motion(times, points, speeds, at), _motion(times, points, speeds, at - window)
     positions = (whole[0] - before[0]) / window
     positions[0], positions[-1] = points[0], points[-1]
-    return smooth.replaced(times=at + smooth.times[0], positions=positions, velocities=(whole[1] - before[1]) / window,
-                           accelerations=(whole[2] - before[2]) / window)
+    return smooth.replaced(
+        times=at + smooth.times[0],
+        positions=positions,
+        velocities=(whole[1] - before[1]) / window,
+        accelerations=(whole[2] - before[2]) / window,
+    )
 
 
 def _accelerations(times: np.ndarray, points: np.ndarray, speeds: np.ndarray) -> np.ndarray:
     """(2 (k - 1), n) accelerations at both ends of the segments of cubic splines."""
     step, way = np.diff(times)[:, None], np.diff(points, axis=0)
-    return np.concatenate([(6 * way / step - 4 * speeds[:-1] - 2 * speeds[1:]) / step,
-                           (-6 * way / step + 2 * speeds[:-1] + 4 * speeds[1:]) / step])
+    return np.concatenate(
+        [(6 * way / step - 4 * speeds[:-1] - 2 * speeds[1:]) / step, (-6 * way / step + 2 * speeds[:-1] + 4 * speeds[1:]) / step]
+    )
 
 
 def _motion(times: np.ndarray, points: np.ndarray, speeds: np.ndarray, at: np.ndarray) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -126,15 +142,18 @@ def _motion(times: np.ndarray, points: np.ndarray, speeds: np.ndarray, at: np.nd
     joints stand still before and after."""
     step, way = np.diff(times)[:, None], np.diff(points, axis=0)
     bend = (3 * way / step - 2 * speeds[:-1] - speeds[1:]) / step
-    twist = (-2 * way / step + speeds[:-1] + speeds[1:]) / step ** 2
-    areas = points[:-1] * step + speeds[:-1] * step ** 2 / 2 + bend * step ** 3 / 3 + twist * step ** 4 / 4
+    twist = (-2 * way / step + speeds[:-1] + speeds[1:]) / step**2
+    areas = points[:-1] * step + speeds[:-1] * step**2 / 2 + bend * step**3 / 3 + twist * step**4 / 4
     area = np.concatenate([np.zeros((1, points.shape[1])), np.cumsum(areas, axis=0)])
     part = np.clip(np.searchsorted(times, at, side="right") - 1, 0, len(times) - 2)
     inside = np.clip(at, 0.0, times[-1])
     dt = (inside - times[part])[:, None]
     q, v, b, c = points[part], speeds[part], bend[part], twist[part]
     outside = (at - inside)[:, None]  # below 0 before the start, above 0 after the end
-    place = q + v * dt + b * dt ** 2 + c * dt ** 3
-    moving = (outside == 0)
-    return (area[part] + q * dt + v * dt ** 2 / 2 + b * dt ** 3 / 3 + c * dt ** 4 / 4 + place * outside, place,
-            np.where(moving, v + 2 * b * dt + 3 * c * dt ** 2, 0.0))
+    place = q + v * dt + b * dt**2 + c * dt**3
+    moving = outside == 0
+    return (
+        area[part] + q * dt + v * dt**2 / 2 + b * dt**3 / 3 + c * dt**4 / 4 + place * outside,
+        place,
+        np.where(moving, v + 2 * b * dt + 3 * c * dt**2, 0.0),
+    )

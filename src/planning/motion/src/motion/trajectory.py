@@ -1,4 +1,5 @@
 """Paths and trajectories of a group."""
+
 from __future__ import annotations
 
 from typing import Any, Dict, List, Optional
@@ -20,9 +21,16 @@ class Trajectory:
     :raises InvalidInputError: shapes that do not fit each other, numbers that are not finite.
     """
 
-    def __init__(self, model: _core.RobotModel, group: str, start: _core.RobotState, positions: ArrayLike,
-                 times: Optional[ArrayLike] = None, velocities: Optional[ArrayLike] = None,
-                 accelerations: Optional[ArrayLike] = None):
+    def __init__(
+        self,
+        model: _core.RobotModel,
+        group: str,
+        start: _core.RobotState,
+        positions: ArrayLike,
+        times: Optional[ArrayLike] = None,
+        velocities: Optional[ArrayLike] = None,
+        accelerations: Optional[ArrayLike] = None,
+    ):
         self.model = model
         self.group = group
         self.variables: List[str] = model.group(group).variables
@@ -88,17 +96,26 @@ class Trajectory:
 
     def replaced(self, **fields: object) -> "Trajectory":
         """A copy with other positions, times, velocities or accelerations."""
-        values: Dict[str, Any] = {"positions": self.positions, "times": self.times, "velocities": self.velocities,
-                                  "accelerations": self.accelerations, "start": self._start, **fields}
+        values: Dict[str, Any] = {
+            "positions": self.positions,
+            "times": self.times,
+            "velocities": self.velocities,
+            "accelerations": self.accelerations,
+            "start": self._start,
+            **fields,
+        }
         return Trajectory(self.model, self.group, **values)
 
     def reversed(self) -> "Trajectory":
         """The same way back in the same time."""
         times = None if self.times is None else (self.times[-1] - self.times)[::-1]
-        return self.replaced(positions=self.positions[::-1], times=times,
-                             velocities=None if self.velocities is None else -self.velocities[::-1],
-                             accelerations=None if self.accelerations is None else self.accelerations[::-1],
-                             start=self.state(len(self) - 1) if len(self) else self._start)
+        return self.replaced(
+            positions=self.positions[::-1],
+            times=times,
+            velocities=None if self.velocities is None else -self.velocities[::-1],
+            accelerations=None if self.accelerations is None else self.accelerations[::-1],
+            start=self.state(len(self) - 1) if len(self) else self._start,
+        )
 
     def append(self, other: "Trajectory") -> "Trajectory":
         """This motion and then the other; its first point is left out if it is this one's last."""
@@ -110,17 +127,22 @@ class Trajectory:
             return None if mine is None or theirs is None else np.concatenate([mine, theirs[skip:] + shift])
 
         shift = 0.0 if self.times is None or not len(self.times) else float(self.times[-1])
-        return self.replaced(positions=joined(self.positions, other.positions), times=joined(self.times, other.times, shift),
-                             velocities=joined(self.velocities, other.velocities),
-                             accelerations=joined(self.accelerations, other.accelerations))
+        return self.replaced(
+            positions=joined(self.positions, other.positions),
+            times=joined(self.times, other.times, shift),
+            velocities=joined(self.velocities, other.velocities),
+            accelerations=joined(self.accelerations, other.accelerations),
+        )
 
     def joint_limits_exceeded(self, tolerance: float = 1e-3) -> List[str]:
         """One line for each joint that leaves its limits of position, velocity or acceleration."""
         said = []
         for index, name in enumerate(self.variables):
             limits = self.model.variable_limits(name)
-            for what, rows, limit in (("velocity", self.velocities, limits.max_velocity if limits.has_velocity else np.inf),
-                                      ("acceleration", self.accelerations, limits.max_acceleration if limits.has_acceleration else np.inf)):
+            for what, rows, limit in (
+                ("velocity", self.velocities, limits.max_velocity if limits.has_velocity else np.inf),
+                ("acceleration", self.accelerations, limits.max_acceleration if limits.has_acceleration else np.inf),
+            ):
                 worst = 0.0 if rows is None or not len(rows) else float(np.abs(rows[:, index]).max())
                 if worst > limit * (1 + tolerance):
                     said.append(f"joint '{name}': {what} {worst:.4g} is above its limit {limit:.4g}")

@@ -1,4 +1,5 @@
 """The program moveit_commander_cmdline.py."""
+
 from __future__ import annotations
 
 import argparse
@@ -13,9 +14,12 @@ from .exception import MoveItCommanderException
 from .interpreter import MoveGroupCommandInterpreter, MoveGroupInfoLevel
 from .roscpp_initializer import roscpp_initialize
 
-_COLOURS = {MoveGroupInfoLevel.FAIL: "\033[91m", MoveGroupInfoLevel.WARN: "\033[93m",
-            MoveGroupInfoLevel.SUCCESS: "\033[92m",
-            MoveGroupInfoLevel.DEBUG: "\033[94m"}
+_COLOURS = {
+    MoveGroupInfoLevel.FAIL: "\033[91m",
+    MoveGroupInfoLevel.WARN: "\033[93m",
+    MoveGroupInfoLevel.SUCCESS: "\033[92m",
+    MoveGroupInfoLevel.DEBUG: "\033[94m",
+}
 _HEADER, _PLAIN = "\033[95m", "\033[0m"
 
 

@@ -1,10 +1,10 @@
 """Constraints by name, from the warehouse."""
+
 from __future__ import annotations
 
 from typing import List
 
 from moveit_msgs.msg import Constraints
-
 from moveit_ros_warehouse.location import connect
 from moveit_ros_warehouse.storage import StorageError
 

@@ -1,4 +1,5 @@
 """Poses and transforms as lists, and messages as strings."""
+
 from __future__ import annotations
 
 import io
@@ -39,8 +40,7 @@ def list_to_pose(pose_list: Sequence[float]) -> Pose:
         return Pose(Point(*values[:3]), Quaternion(*values[3:]))
     if len(values) == 6:
         return Pose(Point(*values[:3]), Quaternion(*quaternion_from_euler(*values[3:])))
-    raise MoveItCommanderException("Expected either 6 or 7 elements in list: (x,y,z,r,p,y) or (x,y,z,qx,qy,qz,qw), "
-                                   f"not {len(values)}")
+    raise MoveItCommanderException(f"Expected either 6 or 7 elements in list: (x,y,z,r,p,y) or (x,y,z,qx,qy,qz,qw), not {len(values)}")
 
 
 def list_to_pose_stamped(pose_list: Sequence[float], target_frame: str) -> PoseStamped:

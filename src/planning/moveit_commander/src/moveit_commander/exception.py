@@ -1,4 +1,5 @@
 """What the clients raise."""
+
 from moveit_core.errors import MoveItError
 
 

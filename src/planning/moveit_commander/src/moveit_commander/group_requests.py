@@ -1,22 +1,35 @@
 """The goals that a MoveGroupCommander sends, and what it asks services for."""
+
 from __future__ import annotations
 
 import time
 from typing import List, Optional, Sequence, Tuple
 
 import rospy
-from moveit_msgs.msg import (AttachedCollisionObject, CollisionObject, Constraints, ExecuteTrajectoryAction,
-                             ExecuteTrajectoryGoal,
-                             MotionPlanRequest, MoveGroupAction, MoveGroupGoal, MoveGroupResult, MoveItErrorCodes,
-                             PickupAction,
-                             PickupGoal,
-                             PlaceAction, PlaceGoal, PlanningOptions, RobotState, RobotTrajectory,
-                             TrajectoryConstraints)
-from moveit_msgs.srv import GetCartesianPath, GetCartesianPathRequest, QueryPlannerInterfaces
-from std_msgs.msg import String
-
 from moveit_core.errors import code_name
+from moveit_msgs.msg import (
+    AttachedCollisionObject,
+    CollisionObject,
+    Constraints,
+    ExecuteTrajectoryAction,
+    ExecuteTrajectoryGoal,
+    MotionPlanRequest,
+    MoveGroupAction,
+    MoveGroupGoal,
+    MoveGroupResult,
+    MoveItErrorCodes,
+    PickupAction,
+    PickupGoal,
+    PlaceAction,
+    PlaceGoal,
+    PlanningOptions,
+    RobotState,
+    RobotTrajectory,
+    TrajectoryConstraints,
+)
+from moveit_msgs.srv import GetCartesianPath, GetCartesianPathRequest, QueryPlannerInterfaces
 from moveit_ros_planning import robot_model
+from std_msgs.msg import String
 
 from .session import Action, Session, publish
 from .targets import Targets
@@ -49,8 +62,7 @@ class GroupRequests:
         self._pick: Optional[Action] = None
         self._place: Optional[Action] = None
         self._stop = rospy.Publisher(session.name("trajectory_execution_event"), String, queue_size=1)
-        self._attach = rospy.Publisher(session.name("attached_collision_object"), AttachedCollisionObject,
-                                       queue_size=10)
+        self._attach = rospy.Publisher(session.name("attached_collision_object"), AttachedCollisionObject, queue_size=10)
 
     def wait(self, seconds: float) -> None:
         """Wait for the servers (wall seconds; 0: for ever).
@@ -61,21 +73,28 @@ class GroupRequests:
         for action in (self._move, self._execute):
             left = max(0.01, end - time.monotonic()) if seconds > 0 else 0.0
             if not action.wait(left):
-                raise RuntimeError(f"Unable to connect to move_group action server '{rospy.resolve_name(action.name)}' "
-                                   f"within allotted "
-                                   f"time ({seconds:g}s): is move_group running (its launch file says 'You can start "
-                                   f"planning now!')?")
+                raise RuntimeError(
+                    f"Unable to connect to move_group action server '{rospy.resolve_name(action.name)}' "
+                    f"within allotted "
+                    f"time ({seconds:g}s): is move_group running (its launch file says 'You can start "
+                    f"planning now!')?"
+                )
 
     # --- requests ---
 
     def request(self) -> MotionPlanRequest:
         """What is asked of the planner now."""
-        message = MotionPlanRequest(group_name=self.group, num_planning_attempts=self.attempts,
-                                    planner_id=self.planner_id,
-                                    pipeline_id=self.pipeline_id, allowed_planning_time=self.planning_time,
-                                    max_velocity_scaling_factor=self.velocity,
-                                    max_acceleration_scaling_factor=self.acceleration,
-                                    cartesian_speed_limited_link=self.speed_link, max_cartesian_speed=self.speed)
+        message = MotionPlanRequest(
+            group_name=self.group,
+            num_planning_attempts=self.attempts,
+            planner_id=self.planner_id,
+            pipeline_id=self.pipeline_id,
+            allowed_planning_time=self.planning_time,
+            max_velocity_scaling_factor=self.velocity,
+            max_acceleration_scaling_factor=self.acceleration,
+            cartesian_speed_limited_link=self.speed_link,
+            max_cartesian_speed=self.speed,
+        )
         low, high = message.workspace_parameters.min_corner, message.workspace_parameters.max_corner
         (low.x, low.y, low.z), (high.x, high.y, high.z) = self.workspace[:3], self.workspace[3:]
         message.workspace_parameters.header.frame_id = self.session.model.frame
@@ -89,9 +108,12 @@ class GroupRequests:
         return message
 
     def _options(self, plan_only: bool) -> PlanningOptions:
-        options = PlanningOptions(plan_only=plan_only, look_around=self.look and not plan_only,
-                                  replan=self.replan and not plan_only,
-                                  replan_delay=self.replan_delay)
+        options = PlanningOptions(
+            plan_only=plan_only,
+            look_around=self.look and not plan_only,
+            replan=self.replan and not plan_only,
+            replan_delay=self.replan_delay,
+        )
         options.planning_scene_diff.is_diff = True
         options.planning_scene_diff.robot_state.is_diff = True
         return options
@@ -162,15 +184,20 @@ class GroupRequests:
         node = self.session.name("move_group").rstrip("/")
         return rospy.get_param(f"{node}/default_planning_pipeline", "")
 
-    def cartesian(self, waypoints: Sequence, step: float, jump: float, avoid: bool, constraints: Optional[Constraints],
-                  frame: str,
-                  link: str):
+    def cartesian(
+        self, waypoints: Sequence, step: float, jump: float, avoid: bool, constraints: Optional[Constraints], frame: str, link: str
+    ):
         """The response of compute_cartesian_path; None if it does not answer."""
-        request = GetCartesianPathRequest(group_name=self.group, waypoints=list(waypoints), max_step=step,
-                                          jump_threshold=jump,
-                                          avoid_collisions=avoid, link_name=link,
-                                          cartesian_speed_limited_link=self.speed_link,
-                                          max_cartesian_speed=self.speed)
+        request = GetCartesianPathRequest(
+            group_name=self.group,
+            waypoints=list(waypoints),
+            max_step=step,
+            jump_threshold=jump,
+            avoid_collisions=avoid,
+            link_name=link,
+            cartesian_speed_limited_link=self.speed_link,
+            max_cartesian_speed=self.speed,
+        )
         request.header.frame_id, request.header.stamp = frame, rospy.Time.now()
         request.start_state = self.start_state if self.start_state is not None else RobotState(is_diff=True)
         if constraints is not None:
@@ -202,12 +229,17 @@ class GroupRequests:
 
     def pick(self, name: str, grasps: Sequence, plan_only: bool) -> int:
         """Pick an object; the error code."""
-        goal = PickupGoal(target_name=name, group_name=self.group, end_effector=self._effector(),
-                          support_surface_name=self.support_surface,
-                          possible_grasps=list(grasps), allowed_planning_time=self.planning_time,
-                          planner_id=self.planner_id,
-                          planning_options=self._options(plan_only),
-                          allow_gripper_support_collision=bool(self.support_surface))
+        goal = PickupGoal(
+            target_name=name,
+            group_name=self.group,
+            end_effector=self._effector(),
+            support_surface_name=self.support_surface,
+            possible_grasps=list(grasps),
+            allowed_planning_time=self.planning_time,
+            planner_id=self.planner_id,
+            planning_options=self._options(plan_only),
+            allow_gripper_support_collision=bool(self.support_surface),
+        )
         if self.path_constraints is not None:
             goal.path_constraints = self.path_constraints
         self._pick = self._pick or Action(self.session.name("pickup"), PickupAction)
@@ -215,11 +247,16 @@ class GroupRequests:
 
     def place(self, name: str, locations: Sequence, plan_only: bool) -> int:
         """Place an attached object; the error code."""
-        goal = PlaceGoal(attached_object_name=name, group_name=self.group, place_locations=list(locations),
-                         support_surface_name=self.support_surface, allowed_planning_time=self.planning_time,
-                         planner_id=self.planner_id,
-                         planning_options=self._options(plan_only),
-                         allow_gripper_support_collision=bool(self.support_surface))
+        goal = PlaceGoal(
+            attached_object_name=name,
+            group_name=self.group,
+            place_locations=list(locations),
+            support_surface_name=self.support_surface,
+            allowed_planning_time=self.planning_time,
+            planner_id=self.planner_id,
+            planning_options=self._options(plan_only),
+            allow_gripper_support_collision=bool(self.support_surface),
+        )
         if self.path_constraints is not None:
             goal.path_constraints = self.path_constraints
         self._place = self._place or Action(self.session.name("place"), PlaceAction)

@@ -1,4 +1,5 @@
 """Commands as lines of text: what moveit_commander_cmdline.py reads."""
+
 from __future__ import annotations
 
 import os
@@ -75,8 +76,18 @@ class MoveGroupCommandInterpreter:
     """Executes one line at a time: :meth:`execute` gives (level, text)."""
 
     DEFAULT_FILENAME = "move_group.cfg"
-    GO_DIRS = {"up": (2, 1), "down": (2, -1), "z": (2, 1), "left": (1, 1), "right": (1, -1), "y": (1, 1),
-               "forward": (0, 1), "backward": (0, -1), "back": (0, -1), "x": (0, 1)}
+    GO_DIRS = {
+        "up": (2, 1),
+        "down": (2, -1),
+        "z": (2, 1),
+        "left": (1, 1),
+        "right": (1, -1),
+        "y": (1, 1),
+        "forward": (0, 1),
+        "backward": (0, -1),
+        "back": (0, -1),
+        "x": (0, 1),
+    }
 
     def __init__(self) -> None:
         self._gdict: Dict[str, MoveGroupCommander] = {}
@@ -100,7 +111,12 @@ class MoveGroupCommandInterpreter:
             return _OK
         words[0] = {"which": "id", "groups": "use"}.get(words[0].lower(), words[0].lower())
         generic: Dict[str, Callable[[List[str]], Answer]] = {
-            "use": self._use, "trace": self._set_trace, "load": self._load, "save": self._save, "help": self._help}
+            "use": self._use,
+            "trace": self._set_trace,
+            "load": self._load,
+            "save": self._save,
+            "help": self._help,
+        }
         try:
             if words[0] in generic and "=" not in words:
                 return generic[words[0]](words)
@@ -108,8 +124,10 @@ class MoveGroupCommandInterpreter:
                 return self._load(["load", "cmd/" + cmd])
             group = self.get_active_group()
             if group is None:
-                return (MoveGroupInfoLevel.INFO, self.get_help() + "\n\nNo groups initialized yet. "
-                        "You must call the 'use' or the 'load' command first.\n")
+                return (
+                    MoveGroupInfoLevel.INFO,
+                    self.get_help() + "\n\nNo groups initialized yet. You must call the 'use' or the 'load' command first.\n",
+                )
             return self.execute_group_command(group, " ".join([words[0]] + words[1:]))
         except MoveItCommanderException as error:
             return (MoveGroupInfoLevel.WARN, str(error))
@@ -205,8 +223,7 @@ class MoveGroupCommandInterpreter:
         try:
             if vector:
                 g.remember_joint_values(vector.group(1), [float(value) for value in vector.group(2).split()])
-                return (MoveGroupInfoLevel.SUCCESS, f"Remembered joint values [{vector.group(2)}] under the name "
-                        f"{vector.group(1)}")
+                return (MoveGroupInfoLevel.SUCCESS, f"Remembered joint values [{vector.group(2)}] under the name {vector.group(1)}")
             if element and element.group(1) in known:
                 values = known[element.group(1)]
                 values[int(element.group(2))] = float(element.group(3))
@@ -231,8 +248,10 @@ class MoveGroupCommandInterpreter:
         return (MoveGroupInfoLevel.INFO, "\n" + "\n".join(rows) + "\n")
 
     def _do_0_show(self, g, _words) -> Answer:
-        return (MoveGroupInfoLevel.INFO, "\n".join(f"{name} = {_numbers(values)}" for name, values in
-                                                   g.get_remembered_joint_values().items()))
+        return (
+            MoveGroupInfoLevel.INFO,
+            "\n".join(f"{name} = {_numbers(values)}" for name, values in g.get_remembered_joint_values().items()),
+        )
 
     def _do_1_show(self, g, words) -> Answer:
         known = g.get_remembered_joint_values()
@@ -248,11 +267,13 @@ class MoveGroupCommandInterpreter:
         return (MoveGroupInfoLevel.INFO, text)
 
     def _do_group_state(self, g, _words) -> Answer:
-        rows = [f'        <joint name="{name}" value="{value}"/>' for name, value in zip(g.get_active_joints(),
-                                                                                       g.get_current_joint_values())]
-        return (MoveGroupInfoLevel.INFO,
-                f'    <group_state name="custom_state" group="{g.get_name()}">\n' + "\n".join(rows)
-                + "\n    </group_state>")
+        rows = [
+            f'        <joint name="{name}" value="{value}"/>' for name, value in zip(g.get_active_joints(), g.get_current_joint_values())
+        ]
+        return (
+            MoveGroupInfoLevel.INFO,
+            f'    <group_state name="custom_state" group="{g.get_name()}">\n' + "\n".join(rows) + "\n    </group_state>",
+        )
 
     def _do_ground(self, _g, _words) -> Answer:
         pose = PoseStamped()
@@ -272,8 +293,12 @@ class MoveGroupCommandInterpreter:
             except (MoveItCommanderException, ValueError) as error:
                 return (MoveGroupInfoLevel.WARN, f"Not connected to a database: {error}")
         known = g.get_known_constraints()
-        return (MoveGroupInfoLevel.INFO, "Constraints of the database: " + ", ".join(known) if known else
-                "Not connected to a database, or it has no constraints for this group")
+        return (
+            MoveGroupInfoLevel.INFO,
+            "Constraints of the database: " + ", ".join(known)
+            if known
+            else "Not connected to a database, or it has no constraints for this group",
+        )
 
     def _do_0_constrain(self, g, _words) -> Answer:
         g.clear_path_constraints()
@@ -287,8 +312,7 @@ class MoveGroupCommandInterpreter:
         return (MoveGroupInfoLevel.SUCCESS, f"Constraining paths by {words[1]}")
 
     def _do_0_tolerance(self, g, _words) -> Answer:
-        return (MoveGroupInfoLevel.INFO,
-                "Joint = %0.6g, Position = %0.6g, Orientation = %0.6g" % g.get_goal_tolerance())
+        return (MoveGroupInfoLevel.INFO, "Joint = %0.6g, Position = %0.6g, Orientation = %0.6g" % g.get_goal_tolerance())
 
     def _do_1_tolerance(self, g, words) -> Answer:
         g.set_goal_tolerance(float(words[1]))
@@ -422,8 +446,28 @@ class MoveGroupCommandInterpreter:
         group = self.get_active_group()
         known = list(group.get_remembered_joint_values()) if group is not None else []
         named = list(group.get_named_targets()) if group is not None else []
-        alone = ("help", "wait", "group_state", "current", "load", "save", "pick", "place", "constrain", "vars",
-                 "joints", "tolerance", "time", "eef", "execute", "ground", "id", "stop", "planner", "rotate")
+        alone = (
+            "help",
+            "wait",
+            "group_state",
+            "current",
+            "load",
+            "save",
+            "pick",
+            "place",
+            "constrain",
+            "vars",
+            "joints",
+            "tolerance",
+            "time",
+            "eef",
+            "execute",
+            "ground",
+            "id",
+            "stop",
+            "planner",
+            "rotate",
+        )
         keywords: Dict[str, List[str]] = {name: [] for name in alone}
         directions = ["up", "down", "left", "right", "backward", "forward"]
         keywords.update(go=directions + ["random"] + named, plan=["random"] + named, record=known, show=known)

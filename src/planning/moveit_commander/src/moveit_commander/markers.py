@@ -1,4 +1,5 @@
 """A robot as markers, for RViz's MarkerArray display."""
+
 from __future__ import annotations
 
 from typing import Dict, List, Optional, Sequence, Tuple
@@ -6,12 +7,11 @@ from typing import Dict, List, Optional, Sequence, Tuple
 import lenient_xml
 import motion
 from geometry_msgs.msg import Vector3
+from moveit_core import convert, states
 from moveit_msgs.msg import RobotState
+from moveit_ros_planning.robot_model import RobotDescription
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
-
-from moveit_core import convert, states
-from moveit_ros_planning.robot_model import RobotDescription
 
 from .exception import MoveItCommanderException
 

@@ -1,4 +1,5 @@
 """Planning and moving one group of joints."""
+
 from __future__ import annotations
 
 from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
@@ -8,12 +9,19 @@ import motion
 import numpy as np
 import rospy
 from geometry_msgs.msg import Pose, PoseStamped
-from moveit_msgs.msg import (Constraints, Grasp, MotionPlanRequest, MoveItErrorCodes, PlaceLocation,
-                             PlannerInterfaceDescription,
-                             RobotState, RobotTrajectory, TrajectoryConstraints)
-from tf.transformations import euler_from_quaternion
-
 from moveit_core import states
+from moveit_msgs.msg import (
+    Constraints,
+    Grasp,
+    MotionPlanRequest,
+    MoveItErrorCodes,
+    PlaceLocation,
+    PlannerInterfaceDescription,
+    RobotState,
+    RobotTrajectory,
+    TrajectoryConstraints,
+)
+from tf.transformations import euler_from_quaternion
 
 from . import conversions
 from .exception import MoveItCommanderException
@@ -22,9 +30,11 @@ from .session import session
 from .target_commands import TargetCommands
 from .targets import Targets
 
-_ALGORITHMS = {"iterative_time_parameterization": "iterative_parabolic",
-               "iterative_spline_parameterization": "iterative_spline",
-               "time_optimal_trajectory_generation": "time_optimal"}
+_ALGORITHMS = {
+    "iterative_time_parameterization": "iterative_parabolic",
+    "iterative_spline_parameterization": "iterative_spline",
+    "time_optimal_trajectory_generation": "time_optimal",
+}
 
 
 class PlanTuple(tuple):
@@ -46,19 +56,23 @@ class MoveGroupCommander(TargetCommands):
     :raises RuntimeError: no robot description, no such group, or no move_group.
     """
 
-    def __init__(self, name: str, robot_description: str = "robot_description", ns: str = "",
-                 wait_for_servers: float = 5.0):
+    def __init__(self, name: str, robot_description: str = "robot_description", ns: str = "", wait_for_servers: float = 5.0):
         self._session = session(robot_description, ns)
         self._model = self._session.model
         if not self._model.has_group(name):
-            raise RuntimeError(f"Group '{name}' was not found. The robot '{self._model.name}' has the groups: "
-                               + (", ".join(self._model.groups) or "none; is the SRDF loaded?"))
+            raise RuntimeError(
+                f"Group '{name}' was not found. The robot '{self._model.name}' has the groups: "
+                + (", ".join(self._model.groups) or "none; is the SRDF loaded?")
+            )
         self._name = name
         self._warehouse: Any = None  # StoredConstraints, which not everybody has the database for
         self._group = self._model.group(name)
         settings = self._session.description.kinematics.get(name)
-        self._targets = Targets(self._model, name, *((settings.joint_tolerance, settings.position_tolerance,
-                                                      settings.orientation_tolerance) if settings else ()))
+        self._targets = Targets(
+            self._model,
+            name,
+            *((settings.joint_tolerance, settings.position_tolerance, settings.orientation_tolerance) if settings else ()),
+        )
         self._requests = GroupRequests(self._session, name, self._targets)
         self._remembered: Dict[str, List[float]] = {}
         self._reference = self._model.frame
@@ -206,9 +220,11 @@ class MoveGroupCommander(TargetCommands):
         """Constraints that hold all along the path, or their name in the warehouse; None clears them."""
         if value is not None and not isinstance(value, Constraints):
             if self._warehouse is None:
-                raise MoveItCommanderException(f"Unable to set path constraints {value}: names are those of a warehouse, "
-                                               f"which set_constraints_database(host, port) opens; or give a "
-                                               f"moveit_msgs/Constraints")
+                raise MoveItCommanderException(
+                    f"Unable to set path constraints {value}: names are those of a warehouse, "
+                    f"which set_constraints_database(host, port) opens; or give a "
+                    f"moveit_msgs/Constraints"
+                )
             value = self._warehouse.load(str(value))
         self._requests.path_constraints = value
 
@@ -232,6 +248,7 @@ class MoveGroupCommander(TargetCommands):
         :raises MoveItCommanderException: there is none.
         """
         from .constraints import StoredConstraints
+
         self._warehouse = StoredConstraints(host, self._model.name, self._name)
 
     def set_planning_time(self, seconds: float) -> None:
@@ -301,9 +318,11 @@ class MoveGroupCommander(TargetCommands):
             return
         if isinstance(joints, str):
             if joints not in self._remembered:
-                raise MoveItCommanderException(f"No joint values are remembered as '{joints}'; targets of the SRDF are "
-                                               f"for "
-                                               f"set_named_target: {', '.join(self.get_named_targets()) or 'none'}")
+                raise MoveItCommanderException(
+                    f"No joint values are remembered as '{joints}'; targets of the SRDF are "
+                    f"for "
+                    f"set_named_target: {', '.join(self.get_named_targets()) or 'none'}"
+                )
             self.set_joint_value_target(self._remembered[joints])
         elif isinstance(joints, Pose):
             self.set_pose_target(joints)
@@ -314,15 +333,15 @@ class MoveGroupCommander(TargetCommands):
         """(success, trajectory, planning time in s, error code); scripts for Melodic may take it for the trajectory."""
         self._take_target(joints)
         result = self._requests.plan()
-        return PlanTuple((result.error_code.val == MoveItErrorCodes.SUCCESS, result.planned_trajectory, result.planning_time,
-                          result.error_code))
+        return PlanTuple(
+            (result.error_code.val == MoveItErrorCodes.SUCCESS, result.planned_trajectory, result.planning_time, result.error_code)
+        )
 
     def execute(self, trajectory, wait: bool = True) -> bool:
         """Execute a planned RobotTrajectory (or JointTrajectory, or what :meth:`plan` returned)."""
         if isinstance(trajectory, tuple):
             if not isinstance(trajectory, PlanTuple):
-                raise MoveItCommanderException("plan() returns (success, trajectory, time, code): execute its second "
-                                               "element, plan()[1]")
+                raise MoveItCommanderException("plan() returns (success, trajectory, time, code): execute its second element, plan()[1]")
             trajectory = trajectory[1]
         if not hasattr(trajectory, "joint_trajectory"):
             trajectory = RobotTrajectory(joint_trajectory=trajectory)
@@ -336,9 +355,14 @@ class MoveGroupCommander(TargetCommands):
         """What :meth:`plan` would ask."""
         return self._requests.request()
 
-    def compute_cartesian_path(self, waypoints: Sequence[Pose], eef_step: float, jump_threshold=0.0,
-                               avoid_collisions: bool = True,
-                               path_constraints: Optional[Constraints] = None) -> Tuple[RobotTrajectory, float]:
+    def compute_cartesian_path(
+        self,
+        waypoints: Sequence[Pose],
+        eef_step: float,
+        jump_threshold=0.0,
+        avoid_collisions: bool = True,
+        path_constraints: Optional[Constraints] = None,
+    ) -> Tuple[RobotTrajectory, float]:
         """Straight lines of the end effector through ``waypoints`` (in the pose reference frame), a point every
         ``eef_step`` metres:
         (trajectory, fraction that could be followed); the fraction is -1.0 on an error.
@@ -350,30 +374,36 @@ class MoveGroupCommander(TargetCommands):
                 path_constraints = avoid_collisions
             jump_threshold, avoid_collisions = 0.0, jump_threshold
         if path_constraints is not None and not isinstance(path_constraints, Constraints):
-            raise MoveItCommanderException(f"Unable to set path constraints, unknown constraint type "
-                                           f"{type(path_constraints)}")
+            raise MoveItCommanderException(f"Unable to set path constraints, unknown constraint type {type(path_constraints)}")
         poses = [self._pose_target(pose).pose for pose in waypoints]
-        response = self._requests.cartesian(poses, float(eef_step), float(jump_threshold), avoid_collisions,
-                                            path_constraints,
-                                            self._reference, self._eef)
+        response = self._requests.cartesian(
+            poses, float(eef_step), float(jump_threshold), avoid_collisions, path_constraints, self._reference, self._eef
+        )
         if response is None or response.error_code.val != MoveItErrorCodes.SUCCESS:
             return RobotTrajectory(), -1.0
         return response.solution, response.fraction
 
-    def retime_trajectory(self, ref_state_in: RobotState, traj_in: RobotTrajectory,
-                          velocity_scaling_factor: float = 1.0,
-                          acceleration_scaling_factor: float = 1.0,
-                          algorithm: str = "iterative_time_parameterization") -> RobotTrajectory:
+    def retime_trajectory(
+        self,
+        ref_state_in: RobotState,
+        traj_in: RobotTrajectory,
+        velocity_scaling_factor: float = 1.0,
+        acceleration_scaling_factor: float = 1.0,
+        algorithm: str = "iterative_time_parameterization",
+    ) -> RobotTrajectory:
         """A trajectory with new times. An unknown algorithm gives an empty one."""
         if algorithm not in _ALGORITHMS:
-            rospy.logerr("Unknown time parameterization algorithm: %s; there are: %s", algorithm,
-                         ", ".join(_ALGORITHMS))
+            rospy.logerr("Unknown time parameterization algorithm: %s; there are: %s", algorithm, ", ".join(_ALGORITHMS))
             return RobotTrajectory()
         state = self._state_of(ref_state_in)
         trajectory = states.trajectory_from_message(self._model, self._name, state, traj_in)
-        timed = motion.time_parameterize(self._model, trajectory, _ALGORITHMS[algorithm],
-                                         velocity_scaling=velocity_scaling_factor,
-                                         acceleration_scaling=acceleration_scaling_factor)
+        timed = motion.time_parameterize(
+            self._model,
+            trajectory,
+            _ALGORITHMS[algorithm],
+            velocity_scaling=velocity_scaling_factor,
+            acceleration_scaling=acceleration_scaling_factor,
+        )
         return states.trajectory_message(timed)
 
     def _state_of(self, message: RobotState) -> motion.RobotState:
@@ -381,8 +411,7 @@ class MoveGroupCommander(TargetCommands):
         states.apply_robot_state(None, state, message)
         return state
 
-    def get_jacobian_matrix(self, joint_values: Sequence[float],
-                            reference_point: Optional[Sequence[float]] = None) -> np.ndarray:
+    def get_jacobian_matrix(self, joint_values: Sequence[float], reference_point: Optional[Sequence[float]] = None) -> np.ndarray:
         """The (6, n) Jacobian of the end effector at ``joint_values``, rows v and w."""
         state = self._model.state()
         state.set_group(self._name, np.asarray(joint_values, dtype=float))
@@ -424,11 +453,10 @@ class MoveGroupCommander(TargetCommands):
         locations = location if isinstance(location, list) else [location] if location else []
         wrong = [entry for entry in locations if not isinstance(entry, (Pose, PoseStamped, PlaceLocation))]
         if wrong:
-            raise MoveItCommanderException("Parameter location must be a Pose, PoseStamped, PlaceLocation, list of "
-                                           "PoseStamped or list of "
-                                           "PlaceLocation object")
-        return self._requests.place(object_name, [self._location(entry) for entry in locations],
-                                    plan_only) == MoveItErrorCodes.SUCCESS
+            raise MoveItCommanderException(
+                "Parameter location must be a Pose, PoseStamped, PlaceLocation, list of PoseStamped or list of PlaceLocation object"
+            )
+        return self._requests.place(object_name, [self._location(entry) for entry in locations], plan_only) == MoveItErrorCodes.SUCCESS
 
     def _location(self, entry) -> PlaceLocation:
         if isinstance(entry, PlaceLocation):

@@ -1,4 +1,5 @@
 """What stands around the robot: objects of move_group's planning scene."""
+
 from __future__ import annotations
 
 import time
@@ -7,14 +8,18 @@ from typing import Dict, List, Optional, Sequence
 import motion
 import rospy
 from geometry_msgs.msg import Pose
-from moveit_msgs.msg import (AllowedCollisionEntry, AllowedCollisionMatrix, AttachedCollisionObject, CollisionObject,
-                             PlanningScene,
-                             PlanningSceneComponents)
+from moveit_core import convert
+from moveit_msgs.msg import (
+    AllowedCollisionEntry,
+    AllowedCollisionMatrix,
+    AttachedCollisionObject,
+    CollisionObject,
+    PlanningScene,
+    PlanningSceneComponents,
+)
 from moveit_msgs.srv import ApplyPlanningScene, GetPlanningScene
 from rosgraph.names import ns_join
 from shape_msgs.msg import Plane, SolidPrimitive
-
-from moveit_core import convert
 
 from . import conversions
 from .exception import MoveItCommanderException
@@ -38,8 +43,7 @@ class PlanningSceneInterface:
             self._wait(service.resolved_name)
         if not synchronous:
             self._pub_co = rospy.Publisher(self._name("collision_object"), CollisionObject, queue_size=100)
-            self._pub_aco = rospy.Publisher(self._name("attached_collision_object"), AttachedCollisionObject,
-                                            queue_size=100)
+            self._pub_aco = rospy.Publisher(self._name("attached_collision_object"), AttachedCollisionObject, queue_size=100)
 
     def _name(self, relative: str) -> str:
         return ns_join(self._ns, relative) if self._ns else relative
@@ -54,8 +58,7 @@ class PlanningSceneInterface:
             except rospy.ROSException:
                 if not told and time.monotonic() - started > 5.0:
                     told = True
-                    rospy.logwarn("service '%s' not advertised yet. Continue waiting... (move_group offers it)",
-                                  service)
+                    rospy.logwarn("service '%s' not advertised yet. Continue waiting... (move_group offers it)", service)
 
     def _submit(self, message, attach: bool = False) -> None:
         if not self._synchronous:
@@ -106,23 +109,30 @@ class PlanningSceneInterface:
         object.touch_links = list(touch_links) if touch_links is not None else [object.link_name]
         self._submit(object, attach=True)
 
-    def attach_mesh(self, link: str, name: str, pose=None, filename: str = "", size: Sequence[float] = (1, 1, 1),
-                    touch_links: Optional[Sequence[str]] = None) -> None:
+    def attach_mesh(
+        self,
+        link: str,
+        name: str,
+        pose=None,
+        filename: str = "",
+        size: Sequence[float] = (1, 1, 1),
+        touch_links: Optional[Sequence[str]] = None,
+    ) -> None:
         item = self.make_mesh(name, pose, filename, size) if pose is not None and filename else name
         self.attach_object(item, link, touch_links)
 
-    def attach_box(self, link: str, name: str, pose=None, size: Sequence[float] = (1, 1, 1),
-                   touch_links: Optional[Sequence[str]] = None) -> None:
+    def attach_box(
+        self, link: str, name: str, pose=None, size: Sequence[float] = (1, 1, 1), touch_links: Optional[Sequence[str]] = None
+    ) -> None:
         self.attach_object(self.make_box(name, pose, size) if pose is not None else name, link, touch_links)
 
-    def attach_sphere(self, link: str, name: str, pose=None, radius: float = 1,
-                      touch_links: Optional[Sequence[str]] = None) -> None:
+    def attach_sphere(self, link: str, name: str, pose=None, radius: float = 1, touch_links: Optional[Sequence[str]] = None) -> None:
         self.attach_object(self.make_sphere(name, pose, radius) if pose is not None else name, link, touch_links)
 
-    def attach_cylinder(self, link: str, name: str, pose=None, height: float = 1, radius: float = 1,
-                        touch_links: Optional[Sequence[str]] = None) -> None:
-        self.attach_object(self.make_cylinder(name, pose, height, radius) if pose is not None else name, link,
-                           touch_links)
+    def attach_cylinder(
+        self, link: str, name: str, pose=None, height: float = 1, radius: float = 1, touch_links: Optional[Sequence[str]] = None
+    ) -> None:
+        self.attach_object(self.make_cylinder(name, pose, height, radius) if pose is not None else name, link, touch_links)
 
     # --- removing ---
 
@@ -151,17 +161,21 @@ class PlanningSceneInterface:
         """Objects of the world; ``with_type``: only those of a known type."""
         return [item.id for item in self._world(geometry=False) if not with_type or item.type.key]
 
-    def get_known_object_names_in_roi(self, minx: float, miny: float, minz: float, maxx: float, maxy: float,
-                                      maxz: float,
-                                      with_type: bool = False) -> List[str]:
+    def get_known_object_names_in_roi(
+        self, minx: float, miny: float, minz: float, maxx: float, maxy: float, maxz: float, with_type: bool = False
+    ) -> List[str]:
         """Objects of which all shapes have their origin in a box of the planning frame."""
         names = []
         for item in self._world():
             poses = [*item.primitive_poses, *item.mesh_poses]
             base = convert.pose(item.pose)
-            inside = [all(low <= value <= high for low, value, high in zip((minx, miny, minz),
-                                                                           (base * convert.pose(pose)).position,
-                                                                          (maxx, maxy, maxz))) for pose in poses]
+            inside = [
+                all(
+                    low <= value <= high
+                    for low, value, high in zip((minx, miny, minz), (base * convert.pose(pose)).position, (maxx, maxy, maxz))
+                )
+                for pose in poses
+            ]
             if inside and all(inside) and (not with_type or item.type.key):
                 names.append(item.id)
         return names
@@ -176,8 +190,9 @@ class PlanningSceneInterface:
     def get_attached_objects(self, object_ids: Sequence[str] = ()) -> Dict[str, AttachedCollisionObject]:
         """Those named, or all."""
         scene = self.get_planning_scene(PlanningSceneComponents.ROBOT_STATE_ATTACHED_OBJECTS)
-        return {item.object.id: item for item in scene.robot_state.attached_collision_objects
-                if not object_ids or item.object.id in object_ids}
+        return {
+            item.object.id: item for item in scene.robot_state.attached_collision_objects if not object_ids or item.object.id in object_ids
+        }
 
     def get_planning_scene(self, components: int) -> PlanningScene:
         """The scene, or the parts that the bits of PlanningSceneComponents name.
@@ -252,8 +267,7 @@ class PlanningSceneInterface:
 
     def make_plane(self, name: str, pose, normal: Sequence[float] = (0, 0, 1), offset: float = 0) -> CollisionObject:
         message = self._make(name, pose)
-        message.planes, message.plane_poses = [Plane([*(float(value) for value in normal),
-                                                      float(offset)])], [message.pose]
+        message.planes, message.plane_poses = [Plane([*(float(value) for value in normal), float(offset)])], [message.pose]
         message.pose = Pose()
         return message
 

@@ -1,4 +1,5 @@
 """The whole robot: its groups, joints and links, and where they are."""
+
 from __future__ import annotations
 
 from typing import Dict, List, Optional
@@ -6,11 +7,10 @@ from typing import Dict, List, Optional
 import motion
 import rospy
 from geometry_msgs.msg import PoseStamped
-from moveit_msgs.msg import RobotState
-from visualization_msgs.msg import MarkerArray
-
 from moveit_core import states
+from moveit_msgs.msg import RobotState
 from moveit_ros_planning.robot_model import RobotDescription
+from visualization_msgs.msg import MarkerArray
 
 from . import conversions
 from .exception import MoveItCommanderException
@@ -82,8 +82,7 @@ class RobotCommander:
         def pose(self) -> PoseStamped:
             """In the planning frame, now."""
             pose = self._robot._state().pose(self._name)
-            return conversions.list_to_pose_stamped([*pose.position, *pose.quaternion],
-                                                    self._robot.get_planning_frame())
+            return conversions.list_to_pose_stamped([*pose.position, *pose.quaternion], self._robot.get_planning_frame())
 
     def __init__(self, robot_description: str = "robot_description", ns: str = ""):
         self._robot_description = robot_description
@@ -179,5 +178,4 @@ class RobotCommander:
             if model.has_link(name):
                 return self.Link(self, name)
         rospy.logdebug("the robot has no group, joint or link '%s'", name)
-        raise AttributeError(f"'RobotCommander' object has no attribute '{name}', and the robot no group, joint or "
-                             f"link of that name")
+        raise AttributeError(f"'RobotCommander' object has no attribute '{name}', and the robot no group, joint or link of that name")

@@ -1,4 +1,5 @@
 """Starting the ROS side of the clients, which is rospy alone: there is no second node as with compiled clients."""
+
 from __future__ import annotations
 
 import time
@@ -41,8 +42,10 @@ def ensure_node() -> None:
     rospy.init_node(f"move_group_commander_wrappers_{int(time.time() * 1000)}", argv=_arguments, anonymous=True)
 
     def already(name, *_args, **_options) -> None:
-        rospy.logwarn("rospy.init_node('%s') comes after a client of move_group started the node %s, which is kept; "
-                      "call it first",
-                      name, rospy.get_name())
+        rospy.logwarn(
+            "rospy.init_node('%s') comes after a client of move_group started the node %s, which is kept; call it first",
+            name,
+            rospy.get_name(),
+        )
 
     rospy.init_node = already

@@ -1,4 +1,5 @@
 """What the clients of one process share: the robot and its current state, per description and namespace."""
+
 from __future__ import annotations
 
 import threading
@@ -6,17 +7,16 @@ import time
 from typing import Dict, Optional, Tuple
 
 import actionlib
+import motion
 import rospy
 import tf2_ros
 from actionlib_msgs.msg import GoalStatus
-from rosgraph.names import ns_join
-
-import motion
 from moveit_core.scene_messages import attach_to_state
 from moveit_msgs.msg import PlanningSceneComponents
 from moveit_msgs.srv import GetPlanningScene, GetPlanningSceneRequest
 from moveit_ros_planning import robot_model
 from moveit_ros_planning.state_monitor import CurrentStateMonitor
+from rosgraph.names import ns_join
 
 from .roscpp_initializer import ensure_node
 
@@ -121,8 +121,12 @@ class Action:
             return False
         server = status._connection_header["callerid"]
         goals, cancels = self._client.pub_goal.impl, self._client.pub_cancel.impl
-        return goals is not None and goals.has_connection(server) and cancels.has_connection(server) and \
-            self._client.result_sub.get_num_connections() > 0
+        return (
+            goals is not None
+            and goals.has_connection(server)
+            and cancels.has_connection(server)
+            and self._client.result_sub.get_num_connections() > 0
+        )
 
     def wait(self, timeout: float) -> bool:
         """Wait (wall seconds; 0: for ever) for the server."""

@@ -1,4 +1,5 @@
 """The targets of a group, as MoveGroupCommander sets them."""
+
 from __future__ import annotations
 
 from typing import Dict, List, Optional, Sequence, Union
@@ -7,10 +8,9 @@ import motion
 import numpy as np
 import rospy
 from geometry_msgs.msg import Pose, PoseStamped
+from moveit_core import convert
 from sensor_msgs.msg import JointState
 from tf.transformations import euler_from_quaternion, quaternion_from_euler
-
-from moveit_core import convert
 
 from . import conversions, targets
 from .exception import MoveItCommanderException
@@ -84,17 +84,18 @@ class TargetCommands:
             raise MoveItCommanderException("Too many arguments specified")
         if isinstance(arg1, JointState):
             if len(arg1.name) != len(arg1.position):
-                raise MoveItCommanderException(f"{_BOUNDS} It has {len(arg1.name)} names and {len(arg1.position)} "
-                                               f"positions")
+                raise MoveItCommanderException(f"{_BOUNDS} It has {len(arg1.name)} names and {len(arg1.position)} positions")
             self._set_joints(dict(zip(arg1.name, arg1.position)))
         elif isinstance(arg1, dict):
             self._set_joints(arg1)
         elif hasattr(arg1, "__iter__"):
             values = list(arg1)
             if len(values) != len(self._group.variables):
-                raise MoveItCommanderException(f"{_BOUNDS} Provided joint value list has length {len(values)} but "
-                                               f"group {self._name} has "
-                                               f"{len(self._group.variables)} joints")
+                raise MoveItCommanderException(
+                    f"{_BOUNDS} Provided joint value list has length {len(values)} but "
+                    f"group {self._name} has "
+                    f"{len(self._group.variables)} joints"
+                )
             self._set_joints(dict(zip(self._group.variables, values)))
         else:
             raise MoveItCommanderException(f"Unsupported argument of type {type(arg1)}")
@@ -105,8 +106,7 @@ class TargetCommands:
         variables = list(self._model.joint(joint).variables)
         values = list(value) if hasattr(value, "__iter__") else [value]
         if len(values) != len(variables):
-            raise MoveItCommanderException(f"Error setting joint target. Joint '{joint}' has {len(variables)} values, "
-                                           f"not {len(values)}")
+            raise MoveItCommanderException(f"Error setting joint target. Joint '{joint}' has {len(variables)} values, not {len(values)}")
         return dict(zip(variables, values))
 
     def _set_joints(self, values: Dict[str, float]) -> None:
@@ -136,14 +136,13 @@ class TargetCommands:
         state = self._state(link) or self._model.state()
         try:
             target = self._in_model_frame(state, stamped)
-            found = motion.ik(self._model, self._name, target, link=link, seed=state, timeout=0.1,
-                              return_approximate=approximate)
+            found = motion.ik(self._model, self._name, target, link=link, seed=state, timeout=0.1, return_approximate=approximate)
         except (motion.MotionError, ValueError) as error:
             raise MoveItCommanderException(f"Error setting joint target: {error}") from error
         if not found and not (approximate and len(found.solutions)):
-            raise MoveItCommanderException("Error setting joint target. Is the IK solver functional? No joint values "
-                                           "bring "
-                                           f"'{link}' there: {found.message}")
+            raise MoveItCommanderException(
+                f"Error setting joint target. Is the IK solver functional? No joint values bring '{link}' there: {found.message}"
+            )
         self._targets.set_joints(dict(zip(self._group.variables, (float(value) for value in found.solutions[0]))))
 
     def _in_model_frame(self, state: motion.RobotState, stamped: PoseStamped) -> motion.Pose:
@@ -152,8 +151,7 @@ class TargetCommands:
         if frame in ("", self._model.frame):
             return pose
         if not self._model.has_link(frame):
-            raise ValueError(f"frame '{frame}' is no link of the robot '{self._model.name}'; poses in other frames are "
-                             f"for set_pose_target")
+            raise ValueError(f"frame '{frame}' is no link of the robot '{self._model.name}'; poses in other frames are for set_pose_target")
         return state.pose(frame) * pose
 
     def _stamped(self, pose: Pose) -> PoseStamped:
@@ -184,8 +182,7 @@ class TargetCommands:
         present = conversions.pose_to_list(pose.pose)
         if not any(present[3:]):
             present[6] = 1.0
-        values = [*(position if position is not None else present[:3]),
-                  *(orientation if orientation is not None else present[3:])]
+        values = [*(position if position is not None else present[:3]), *(orientation if orientation is not None else present[3:])]
         self._targets.set_poses(link, [self._stamped(conversions.list_to_pose(values))], kind)
 
     def set_pose_target(self, pose, end_effector_link: str = "") -> None:
@@ -240,9 +237,11 @@ class TargetCommands:
             self._targets.state.set_named(self._name, name)
             self._targets.kind = targets.JOINT
         else:
-            raise MoveItCommanderException(f"Unable to set target {name}. Is the target within bounds? Group "
-                                           f"'{self._name}' has the named "
-                                           f"targets: {', '.join(self.get_named_targets()) or 'none'}")
+            raise MoveItCommanderException(
+                f"Unable to set target {name}. Is the target within bounds? Group "
+                f"'{self._name}' has the named "
+                f"targets: {', '.join(self.get_named_targets()) or 'none'}"
+            )
 
     def get_named_target_values(self, target: str) -> Dict[str, float]:
         """Joint values of a named target; {} if there is none of that name."""
@@ -251,13 +250,11 @@ class TargetCommands:
         if target not in self._group.named_states:
             rospy.logwarn("The requested named target '%s' does not exist, returning empty values.", target)
             return {}
-        return {joint: float(values[0]) for joint,
-                values in self._group.named_state(target).items() if len(values) == 1}
+        return {joint: float(values[0]) for joint, values in self._group.named_state(target).items() if len(values) == 1}
 
     def remember_joint_values(self, name: str, values: Optional[Sequence[float]] = None) -> None:
         """Give values (default: the present ones) a name."""
-        self._remembered[name] = [float(value)
-                                  for value in (self.get_current_joint_values() if values is None else values)]
+        self._remembered[name] = [float(value) for value in (self.get_current_joint_values() if values is None else values)]
 
     def get_remembered_joint_values(self) -> Dict[str, List[float]]:
         return {name: list(values) for name, values in self._remembered.items()}

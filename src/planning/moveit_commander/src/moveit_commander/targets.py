@@ -1,4 +1,5 @@
 """The target of a group and the goals made of it, as clients of move_group send them."""
+
 from __future__ import annotations
 
 from typing import Dict, List, Sequence
@@ -15,9 +16,14 @@ JOINT, POSE, POSITION, ORIENTATION = "joint", "pose", "position", "orientation"
 class Targets:
     """What a group is to reach: joint values, or poses of links. Tolerances in radians and metres."""
 
-    def __init__(self, model: motion.RobotModel, group: str, joint_tolerance: float = 1e-4,
-                 position_tolerance: float = 1e-4,
-                 orientation_tolerance: float = 1e-3):
+    def __init__(
+        self,
+        model: motion.RobotModel,
+        group: str,
+        joint_tolerance: float = 1e-4,
+        position_tolerance: float = 1e-4,
+        orientation_tolerance: float = 1e-3,
+    ):
         self._model = model
         self._group = group
         self.kind = JOINT
@@ -63,14 +69,14 @@ class Targets:
         goal = Constraints()
         for joint in self._model.group(self._group).active_joints:
             for variable in self._model.joint(joint).variables:
-                goal.joint_constraints.append(JointConstraint(variable, self.state.get(variable), self.joint_tolerance,
-                                                              self.joint_tolerance, 1.0))
+                goal.joint_constraints.append(
+                    JointConstraint(variable, self.state.get(variable), self.joint_tolerance, self.joint_tolerance, 1.0)
+                )
         return goal
 
     def _add_pose(self, goal: Constraints, link: str, pose: PoseStamped) -> None:
         if self.kind in (POSE, POSITION):
-            region = BoundingVolume(primitives=[SolidPrimitive(SolidPrimitive.SPHERE, [self.position_tolerance])],
-                                    primitive_poses=[Pose()])
+            region = BoundingVolume(primitives=[SolidPrimitive(SolidPrimitive.SPHERE, [self.position_tolerance])], primitive_poses=[Pose()])
             region.primitive_poses[0].position = pose.pose.position
             region.primitive_poses[0].orientation.w = 1.0
             position = PositionConstraint(link_name=link, constraint_region=region, weight=1.0)

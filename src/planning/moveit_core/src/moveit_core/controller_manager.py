@@ -4,6 +4,7 @@ A package that depends on ``moveit_core`` exports its managers with
 ``<export><moveit_core plugin="${prefix}/plugins.xml"/></export>``; ``~moveit_controller_manager`` of move_group names
 the one.
 """
+
 from __future__ import annotations
 
 import enum

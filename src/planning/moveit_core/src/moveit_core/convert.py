@@ -3,6 +3,7 @@
 Lengths are metres, angles radians, quaternions x, y, z, w. What a message says wrongly raises ``ValueError`` with one
 line.
 """
+
 from __future__ import annotations
 
 import math
@@ -15,8 +16,7 @@ from moveit_msgs.msg import Constraints
 from shape_msgs.msg import Mesh, MeshTriangle, Plane, SolidPrimitive
 
 IDENTITY = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
-_NAMES = {SolidPrimitive.BOX: "box", SolidPrimitive.SPHERE: "sphere", SolidPrimitive.CYLINDER: "cylinder",
-          SolidPrimitive.CONE: "cone"}
+_NAMES = {SolidPrimitive.BOX: "box", SolidPrimitive.SPHERE: "sphere", SolidPrimitive.CYLINDER: "cylinder", SolidPrimitive.CONE: "cone"}
 _DIMENSIONS = {SolidPrimitive.BOX: 3, SolidPrimitive.SPHERE: 1, SolidPrimitive.CYLINDER: 2, SolidPrimitive.CONE: 2}
 
 
@@ -137,8 +137,11 @@ def shapes(message, owner: str) -> Tuple[list, List[motion.Pose]]:
     :raises ValueError: a shape that cannot be, naming ``owner``.
     """
     found, poses = [], []
-    for field, poses_field, make in (("primitives", "primitive_poses", primitive), ("meshes", "mesh_poses", mesh),
-                                     ("planes", "plane_poses", plane)):
+    for field, poses_field, make in (
+        ("primitives", "primitive_poses", primitive),
+        ("meshes", "mesh_poses", mesh),
+        ("planes", "plane_poses", plane),
+    ):
         given = getattr(message, poses_field, ())
         entries = getattr(message, field, ())
         if len(given) > len(entries):
@@ -156,9 +159,12 @@ def fill_shapes(message, found: Sequence, poses: Sequence) -> None:
     """Append shapes and poses to the fields of a CollisionObject or BoundingVolume; octrees have no message there."""
     for shape, where in zip(found, poses):
         if isinstance(shape, motion.Mesh):
-            message.meshes.append(Mesh(
-                triangles=[MeshTriangle(tuple(int(i) for i in row)) for row in shape.triangles],
-                vertices=[Point(*map(float, row)) for row in shape.vertices]))
+            message.meshes.append(
+                Mesh(
+                    triangles=[MeshTriangle(tuple(int(i) for i in row)) for row in shape.triangles],
+                    vertices=[Point(*map(float, row)) for row in shape.vertices],
+                )
+            )
             message.mesh_poses.append(pose_message(where))
         elif isinstance(shape, motion.Plane):
             message.planes.append(Plane([float(value) for value in shape.coefficients]))
@@ -208,14 +214,14 @@ def path_constraints(message: Constraints, scene, warn: Callable[[str], None]) -
 
 
 def _joint(message, scene) -> motion.JointConstraint:
-    numbers = finite((message.position, message.tolerance_above, message.tolerance_below),
-                     f"the constraint of joint '{message.joint_name}'")
+    numbers = finite(
+        (message.position, message.tolerance_above, message.tolerance_below), f"the constraint of joint '{message.joint_name}'"
+    )
     if not scene.model.has_joint(message.joint_name) and message.joint_name not in scene.model.variables:
         raise ValueError(f"joint constraint of '{message.joint_name}': the robot has no joint of that name")
     if min(numbers[1:]) < 0:
         raise ValueError(f"joint constraint of '{message.joint_name}': tolerances are 0 or more, not {numbers[1:]}")
-    return motion.JointConstraint(message.joint_name, numbers[0], above=numbers[1], below=numbers[2],
-                                  weight=message.weight)
+    return motion.JointConstraint(message.joint_name, numbers[0], above=numbers[1], below=numbers[2], weight=message.weight)
 
 
 def _position(message, scene) -> motion.PositionConstraint:
@@ -225,13 +231,19 @@ def _position(message, scene) -> motion.PositionConstraint:
     if not found:
         raise ValueError(f"{what} has no region: give it a primitive and its pose")
     if len(message.constraint_region.primitive_poses) != len(message.constraint_region.primitives):
-        raise ValueError(f"{what} has {len(message.constraint_region.primitives)} primitives and "
-                         f"{len(message.constraint_region.primitive_poses)} poses for them")
+        raise ValueError(
+            f"{what} has {len(message.constraint_region.primitives)} primitives and "
+            f"{len(message.constraint_region.primitive_poses)} poses for them"
+        )
     offset = message.target_point_offset
     frame = _frame(message.header.frame_id, scene, what)
-    return motion.PositionConstraint(message.link_name, region=list(zip(found, poses)),
-                                     offset=finite((offset.x, offset.y, offset.z), what), frame=frame,
-                                     weight=message.weight)
+    return motion.PositionConstraint(
+        message.link_name,
+        region=list(zip(found, poses)),
+        offset=finite((offset.x, offset.y, offset.z), what),
+        frame=frame,
+        weight=message.weight,
+    )
 
 
 def _orientation(message, scene) -> motion.OrientationConstraint:
@@ -242,22 +254,30 @@ def _orientation(message, scene) -> motion.OrientationConstraint:
     length = math.sqrt(sum(value * value for value in quaternion))
     if length < 1e-3:
         raise ValueError(f"{what} has the quaternion 0 0 0 0, which is no orientation; w = 1 is no rotation")
-    tolerance = finite((message.absolute_x_axis_tolerance, message.absolute_y_axis_tolerance,
-                        message.absolute_z_axis_tolerance), what)
+    tolerance = finite((message.absolute_x_axis_tolerance, message.absolute_y_axis_tolerance, message.absolute_z_axis_tolerance), what)
     return motion.OrientationConstraint(
-        message.link_name, tuple(value / length for value in quaternion), tolerance=tolerance,
+        message.link_name,
+        tuple(value / length for value in quaternion),
+        tolerance=tolerance,
         parameterization="rotation_vector" if message.parameterization == message.ROTATION_VECTOR else "euler",
-        frame=_frame(message.header.frame_id, scene, what), weight=message.weight)
+        frame=_frame(message.header.frame_id, scene, what),
+        weight=message.weight,
+    )
 
 
 def _visibility(message) -> motion.VisibilityConstraint:
     return motion.VisibilityConstraint(
         target_pose=pose(message.target_pose.pose, "a visibility target"),
-        target_frame=strip(message.target_pose.header.frame_id), target_radius=message.target_radius,
+        target_frame=strip(message.target_pose.header.frame_id),
+        target_radius=message.target_radius,
         sensor_pose=pose(message.sensor_pose.pose, "a visibility sensor"),
-        sensor_frame=strip(message.sensor_pose.header.frame_id), cone_sides=message.cone_sides,
-        max_view_angle=message.max_view_angle, max_range_angle=message.max_range_angle,
-        sensor_view={0: "z", 1: "y", 2: "x"}.get(message.sensor_view_direction, "z"), weight=message.weight)
+        sensor_frame=strip(message.sensor_pose.header.frame_id),
+        cone_sides=message.cone_sides,
+        max_view_angle=message.max_view_angle,
+        max_range_angle=message.max_range_angle,
+        sensor_view={0: "z", 1: "y", 2: "x"}.get(message.sensor_view_direction, "z"),
+        weight=message.weight,
+    )
 
 
 def _check_link(name: str, scene, what: str) -> None:

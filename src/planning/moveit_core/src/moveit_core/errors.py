@@ -14,6 +14,7 @@
 
 The library's own root is ``motion.MotionError``; capabilities answer it with a code. srdfdom stands alone.
 """
+
 from __future__ import annotations
 
 from moveit_msgs.msg import MoveItErrorCodes
@@ -42,4 +43,4 @@ class PlanningError(MoveItError):
 def one_line(text: object, limit: int = 200) -> str:
     """``text`` without line ends, shortened to ``limit`` characters: what a message may quote of an input."""
     line = " ".join(str(text).split())
-    return line if len(line) <= limit else line[:limit - 3] + "..."
+    return line if len(line) <= limit else line[: limit - 3] + "..."

@@ -1,13 +1,23 @@
 """Planning scenes: messages to and from ``motion.PlanningScene``, with upstream's rules for objects, attached bodies
 and diffs."""
+
 from __future__ import annotations
 
 from typing import Callable, Iterable, List, Optional
 
 import motion
 from geometry_msgs.msg import TransformStamped
-from moveit_msgs.msg import (AllowedCollisionEntry, AllowedCollisionMatrix, AttachedCollisionObject, CollisionObject,
-                             LinkPadding, LinkScale, ObjectColor, PlanningScene, PlanningSceneComponents)
+from moveit_msgs.msg import (
+    AllowedCollisionEntry,
+    AllowedCollisionMatrix,
+    AttachedCollisionObject,
+    CollisionObject,
+    LinkPadding,
+    LinkScale,
+    ObjectColor,
+    PlanningScene,
+    PlanningSceneComponents,
+)
 from octomap_msgs.msg import Octomap, OctomapWithPose
 from std_msgs.msg import ColorRGBA
 
@@ -69,10 +79,8 @@ class SceneEditor:
         if len(shapes) == 1 and _is_zero(message.pose):  # messages of older clients: the pose is that of the only shape
             pose, poses = poses[0], [motion.Pose.identity()]
         if len(message.subframe_names) != len(message.subframe_poses):
-            raise ValueError(f"it has {len(message.subframe_names)} subframe_names and "
-                             f"{len(message.subframe_poses)} subframe_poses")
-        subframes = {name: convert.pose(one, f"subframe '{name}'")
-                     for name, one in zip(message.subframe_names, message.subframe_poses)}
+            raise ValueError(f"it has {len(message.subframe_names)} subframe_names and {len(message.subframe_poses)} subframe_poses")
+        subframes = {name: convert.pose(one, f"subframe '{name}'") for name, one in zip(message.subframe_names, message.subframe_poses)}
         return shapes, poses, pose, subframes
 
     def _remove(self, name: str) -> bool:
@@ -90,8 +98,9 @@ class SceneEditor:
             raise ValueError(f"it is not in the scene and cannot be moved; there are: {_list(self._scene.objects)}")
         if message.primitives or message.meshes or message.planes:
             self._warn(f"object '{message.id}': a MOVE message carries shapes, which are ignored")
-        given = [convert.pose(one, f"object '{message.id}'")
-                 for one in (*message.primitive_poses, *message.mesh_poses, *message.plane_poses)]
+        given = [
+            convert.pose(one, f"object '{message.id}'") for one in (*message.primitive_poses, *message.mesh_poses, *message.plane_poses)
+        ]
         present = self._scene.object(message.id)
         pose = convert.pose(message.pose, f"object '{message.id}'")
         if len(given) == 1 and len(present.shapes) == 1 and _is_zero(message.pose):
@@ -131,8 +140,7 @@ class SceneEditor:
         present = {body.id: body for body in state.attached}
         if message.object.operation == CollisionObject.ADD and not _has_shapes(message.object):
             if name not in self._scene.objects:
-                raise ValueError(f"the message has no shape and the scene no such object; there are: "
-                                 f"{_list(self._scene.objects)}")
+                raise ValueError(f"the message has no shape and the scene no such object; there are: {_list(self._scene.objects)}")
             self._attach_from_world(message)
             return
         body = attached_body(self._scene, state, message)
@@ -148,10 +156,17 @@ class SceneEditor:
         item = self._scene.object(message.object.id)
         state = self._scene.state
         body = motion.AttachedBody(
-            item.id, message.link_name, item.shapes, item.shape_poses,
+            item.id,
+            message.link_name,
+            item.shapes,
+            item.shape_poses,
             pose=state.pose(message.link_name).inverse() * item.pose,
-            touch_links=_touch(message), subframes={**item.subframes}, detach_posture=_posture(message),
-            weight=message.weight, type=_type(message.object) or item.type or "")
+            touch_links=_touch(message),
+            subframes={**item.subframes},
+            detach_posture=_posture(message),
+            weight=message.weight,
+            type=_type(message.object) or item.type or "",
+        )
         if any(present.id == item.id for present in state.attached):
             state.detach(item.id)
         state.attach(body)
@@ -162,8 +177,7 @@ class SceneEditor:
         name, link = message.object.id, message.link_name
         if link and not self._scene.model.has_link(link):
             raise ValueError(f"the robot '{self._scene.model.name}' has no link '{link}' to detach it from")
-        bodies = [body for body in self._scene.state.attached
-                  if (not link or body.link == link) and (not name or body.id == name)]
+        bodies = [body for body in self._scene.state.attached if (not link or body.link == link) and (not name or body.id == name)]
         if name and not bodies:
             held = {body.id: body.link for body in self._scene.state.attached}
             if name in held:
@@ -262,8 +276,7 @@ class SceneEditor:
             frame = message.header.frame_id or message.octomap.header.frame_id
             where = convert.in_model_frame(self._scene, frame, convert.pose(message.origin, "the octomap"))
             data = bytes(value & 0xFF for value in message.octomap.data)
-            tree = motion.OcTree.from_message_data(data, message.octomap.resolution, message.octomap.binary,
-                                                   message.octomap.id)
+            tree = motion.OcTree.from_message_data(data, message.octomap.resolution, message.octomap.binary, message.octomap.id)
             self._scene.set_octomap(tree, where)
             return True
         except (ValueError, motion.MotionError) as error:
@@ -282,17 +295,26 @@ def attached_body(scene, state, message: AttachedCollisionObject) -> motion.Atta
     if frame == message.link_name:
         in_link = motion.Pose(*pose)
     else:
-        in_model = motion.Pose(*pose) if frame in ("", scene.frame) else scene.frame_pose(frame,
-                                                                                          state) * motion.Pose(*pose)
+        in_model = motion.Pose(*pose) if frame in ("", scene.frame) else scene.frame_pose(frame, state) * motion.Pose(*pose)
         in_link = state.pose(message.link_name).inverse() * in_model
-    return motion.AttachedBody(message.object.id, message.link_name, shapes, poses, pose=in_link,
-                               touch_links=_touch(message), subframes=subframes, detach_posture=_posture(message),
-                               weight=message.weight, type=_type(message.object))
+    return motion.AttachedBody(
+        message.object.id,
+        message.link_name,
+        shapes,
+        poses,
+        pose=in_link,
+        touch_links=_touch(message),
+        subframes=subframes,
+        detach_posture=_posture(message),
+        weight=message.weight,
+        type=_type(message.object),
+    )
 
 
 def attach_to_state(scene) -> Callable:
     """A function ``f(state, AttachedCollisionObject)`` for :func:`states.apply_robot_state`: bodies of a request's
     state."""
+
     def attach(state, message: AttachedCollisionObject) -> None:
         present = {body.id for body in state.attached}
         if message.object.operation == CollisionObject.REMOVE:
@@ -306,6 +328,7 @@ def attach_to_state(scene) -> Callable:
         if message.object.id in present:
             state.detach(message.object.id)
         state.attach(attached_body(scene, state, message))
+
     return attach
 
 
@@ -313,10 +336,17 @@ def _joined(old: motion.AttachedBody, new: motion.AttachedBody) -> motion.Attach
     """``old`` with the shapes of ``new`` added."""
     shift = old.pose.inverse() * new.pose
     return motion.AttachedBody(
-        old.id, old.link, [*old.shapes, *new.shapes], [*old.shape_poses, *(shift * pose for pose in new.shape_poses)],
-        pose=old.pose, touch_links=sorted({*old.touch_links, *new.touch_links}), subframes={**old.subframes,
-                                                                                            **new.subframes},
-        detach_posture=new.detach_posture or old.detach_posture, weight=new.weight, type=new.type or old.type)
+        old.id,
+        old.link,
+        [*old.shapes, *new.shapes],
+        [*old.shape_poses, *(shift * pose for pose in new.shape_poses)],
+        pose=old.pose,
+        touch_links=sorted({*old.touch_links, *new.touch_links}),
+        subframes={**old.subframes, **new.subframes},
+        detach_posture=new.detach_posture or old.detach_posture,
+        weight=new.weight,
+        type=new.type or old.type,
+    )
 
 
 def _refuse_octomap(name: str) -> None:
@@ -354,6 +384,7 @@ def _list(names: Iterable[str]) -> str:
 
 # --- to messages ---
 
+
 def acm_from_message(message: AllowedCollisionMatrix) -> motion.AllowedCollisionMatrix:
     """An AllowedCollisionMatrix message as a matrix.
 
@@ -375,8 +406,11 @@ def acm_message(matrix: motion.AllowedCollisionMatrix) -> AllowedCollisionMatrix
     if defaults:  # a pair without an entry of its own has what its defaults say: in a message every pair has an entry
         rows = [[matrix.allowed(a, b) if i != j else rows[i][j] for j, b in enumerate(names)] for i, a in enumerate(names)]
     return AllowedCollisionMatrix(
-        entry_names=list(names), entry_values=[AllowedCollisionEntry([bool(value) for value in row]) for row in rows],
-        default_entry_names=sorted(defaults), default_entry_values=[bool(defaults[name]) for name in sorted(defaults)])
+        entry_names=list(names),
+        entry_values=[AllowedCollisionEntry([bool(value) for value in row]) for row in rows],
+        default_entry_names=sorted(defaults),
+        default_entry_values=[bool(defaults[name]) for name in sorted(defaults)],
+    )
 
 
 def object_message(scene, name: str, geometry: bool = True) -> CollisionObject:
@@ -400,8 +434,9 @@ def octomap_message(scene) -> OctomapWithPose:
     message.header.frame_id = message.octomap.header.frame_id = scene.frame
     message.origin = convert.pose_message(scene.octomap_pose)
     data = scene.octomap.message_data(True)
-    message.octomap = Octomap(binary=True, id="OcTree", resolution=scene.octomap.resolution,
-                              data=[value - 256 if value > 127 else value for value in data])
+    message.octomap = Octomap(
+        binary=True, id="OcTree", resolution=scene.octomap.resolution, data=[value - 256 if value > 127 else value for value in data]
+    )
     message.octomap.header.frame_id = scene.frame
     return message
 
@@ -446,8 +481,7 @@ def scene_message(scene, components: Optional[int] = None) -> PlanningScene:
         message.object_colors = colour_messages(scene)
     if bits & (want.WORLD_OBJECT_GEOMETRY | want.WORLD_OBJECT_NAMES):
         geometry = bool(bits & want.WORLD_OBJECT_GEOMETRY)
-        message.world.collision_objects = [object_message(scene, name, geometry) for name in sorted(scene.objects)
-                                           if name != OCTOMAP]
+        message.world.collision_objects = [object_message(scene, name, geometry) for name in sorted(scene.objects) if name != OCTOMAP]
     if bits & want.OCTOMAP:
         message.world.octomap = octomap_message(scene)
     return message

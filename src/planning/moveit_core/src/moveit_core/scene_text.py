@@ -4,6 +4,7 @@ A scene's name; then for each object ``* name``, its pose (a line of x y z, a li
 shapes, for each of them its kind, size, pose and colour, and the number of subframes with their names and poses; a line ``.``
 ends it. Files of before Noetic have neither object poses nor subframes. Metres.
 """
+
 from __future__ import annotations
 
 import math
@@ -15,8 +16,12 @@ from shape_msgs.msg import Mesh, MeshTriangle, Plane, SolidPrimitive
 from std_msgs.msg import ColorRGBA
 
 # kind: primitive type, and where in its dimensions the numbers of the file go
-_KINDS = {"box": (SolidPrimitive.BOX, (0, 1, 2)), "sphere": (SolidPrimitive.SPHERE, (0,)),
-          "cylinder": (SolidPrimitive.CYLINDER, (1, 0)), "cone": (SolidPrimitive.CONE, (1, 0))}
+_KINDS = {
+    "box": (SolidPrimitive.BOX, (0, 1, 2)),
+    "sphere": (SolidPrimitive.SPHERE, (0,)),
+    "cylinder": (SolidPrimitive.CYLINDER, (1, 0)),
+    "cone": (SolidPrimitive.CONE, (1, 0)),
+}
 _NAMES = {kind: (name, order) for name, (kind, order) in _KINDS.items()}
 
 
@@ -106,8 +111,9 @@ def _read_shape(reader: "_Reader", item: CollisionObject) -> None:
     elif kind == "mesh":
         vertices, triangles = reader.count("vertices"), reader.count("triangles")
         mesh = Mesh(vertices=[Point(*reader.floats(3, "a vertex")) for _ in range(vertices)])
-        mesh.triangles = [MeshTriangle(tuple(reader.count("vertices of a triangle", vertices - 1) for _ in range(3)))
-                          for _ in range(triangles)]
+        mesh.triangles = [
+            MeshTriangle(tuple(reader.count("vertices of a triangle", vertices - 1) for _ in range(3))) for _ in range(triangles)
+        ]
         item.meshes.append(mesh)
         item.mesh_poses.append(reader.pose())
     else:
@@ -127,7 +133,7 @@ class _Reader:
         """The rest of the line."""
         end = self._text.find("\n", self._at)
         end = len(self._text) if end < 0 else end
-        line, self._at = self._text[self._at:end], min(end + 1, len(self._text))
+        line, self._at = self._text[self._at : end], min(end + 1, len(self._text))
         return line
 
     def word(self, what: str) -> str:
@@ -165,6 +171,6 @@ class _Reader:
 
     def has_object_poses(self) -> bool:
         """Whether the first object has a pose: its line has several numbers."""
-        lines = self._text[self._at:].splitlines()
+        lines = self._text[self._at :].splitlines()
         first = next((i for i, line in enumerate(lines) if line.startswith("*")), None)
         return first is None or first + 1 >= len(lines) or " " in lines[first + 1].strip()

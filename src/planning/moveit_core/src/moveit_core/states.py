@@ -1,4 +1,5 @@
 """Robot states and trajectories: messages to and from the types of the ``motion`` library."""
+
 from __future__ import annotations
 
 from typing import Callable, List, Optional
@@ -19,8 +20,12 @@ _FLOATING = ("trans_x", "trans_y", "trans_z", "rot_x", "rot_y", "rot_z", "rot_w"
 
 def is_empty(message: RobotState) -> bool:
     """True when a RobotState says nothing about joints or attached bodies (upstream's rule for "the current state")."""
-    return not (message.joint_state.name or message.joint_state.position or message.multi_dof_joint_state.joint_names
-                or message.attached_collision_objects)
+    return not (
+        message.joint_state.name
+        or message.joint_state.position
+        or message.multi_dof_joint_state.joint_names
+        or message.attached_collision_objects
+    )
 
 
 def apply_robot_state(scene, state: motion.RobotState, message: RobotState, attach: Optional[Callable] = None) -> None:
@@ -61,8 +66,11 @@ def _frame_of_joints(scene, state: motion.RobotState, multi: MultiDOFJointState)
             return convert.in_model_frame(scene, multi.header.frame_id, here)
     except motion.UnknownNameError:
         pass
-    rospy.logwarn("The transform for multi-dof joints was specified in frame '%s' but it was not possible to transform that to frame '%s'",
-                  multi.header.frame_id, state.model.frame)
+    rospy.logwarn(
+        "The transform for multi-dof joints was specified in frame '%s' but it was not possible to transform that to frame '%s'",
+        multi.header.frame_id,
+        state.model.frame,
+    )
     return here
 
 
@@ -76,8 +84,13 @@ def set_multi_dof(state: motion.RobotState, joint: str, pose: motion.Pose) -> No
             state.set(f"{joint}/{suffix}", float(value))
     elif kind == "planar":
         x, y, z, w = pose.quaternion
-        state.set({f"{joint}/x": float(pose.position[0]), f"{joint}/y": float(pose.position[1]),
-                   f"{joint}/theta": float(np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)))})
+        state.set(
+            {
+                f"{joint}/x": float(pose.position[0]),
+                f"{joint}/y": float(pose.position[1]),
+                f"{joint}/theta": float(np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))),
+            }
+        )
 
 
 def multi_dof_pose(state: motion.RobotState, joint: str) -> motion.Pose:
@@ -151,8 +164,7 @@ def trajectory_message(trajectory: Optional[motion.Trajectory]) -> RobotTrajecto
         return message
     model = trajectory.start.model
     single = [(i, name) for i, name in enumerate(trajectory.variables) if "/" not in name]
-    multi = [name for name in model.group(trajectory.group).active_joints if model.joint(name).type in ("planar",
-                                                                                                        "floating")]
+    multi = [name for name in model.group(trajectory.group).active_joints if model.joint(name).type in ("planar", "floating")]
     joints = message.joint_trajectory
     joints.header.frame_id = message.multi_dof_joint_trajectory.header.frame_id = model.frame
     joints.joint_names = [name for _, name in single]
@@ -162,23 +174,30 @@ def trajectory_message(trajectory: Optional[motion.Trajectory]) -> RobotTrajecto
     if columns:
         positions, velocities, accelerations = (
             None if rows is None else np.asarray(rows)[:, columns].tolist()
-            for rows in (trajectory.positions, trajectory.velocities, trajectory.accelerations))
+            for rows in (trajectory.positions, trajectory.velocities, trajectory.accelerations)
+        )
         for i, stamp in enumerate(stamps):
-            joints.points.append(JointTrajectoryPoint(
-                positions=positions[i] if positions else [], velocities=velocities[i] if velocities else [],
-                accelerations=accelerations[i] if accelerations else [], time_from_start=stamp))
+            joints.points.append(
+                JointTrajectoryPoint(
+                    positions=positions[i] if positions else [],
+                    velocities=velocities[i] if velocities else [],
+                    accelerations=accelerations[i] if accelerations else [],
+                    time_from_start=stamp,
+                )
+            )
     if multi:
         message.multi_dof_joint_trajectory.joint_names = multi
         for i, stamp in enumerate(stamps):
             state = trajectory.state(i)
-            message.multi_dof_joint_trajectory.points.append(MultiDOFJointTrajectoryPoint(
-                transforms=[convert.transform_message(multi_dof_pose(state, name)) for name in multi],
-                time_from_start=stamp))
+            message.multi_dof_joint_trajectory.points.append(
+                MultiDOFJointTrajectoryPoint(
+                    transforms=[convert.transform_message(multi_dof_pose(state, name)) for name in multi], time_from_start=stamp
+                )
+            )
     return message
 
 
-def trajectory_from_message(model, group: str, reference: motion.RobotState,
-                            message: RobotTrajectory) -> motion.Trajectory:
+def trajectory_from_message(model, group: str, reference: motion.RobotState, message: RobotTrajectory) -> motion.Trajectory:
     """A trajectory of ``group`` from a message; joints that the message lacks stay as in ``reference``.
 
     :raises ValueError: points without the positions of all named joints, a joint that the group lacks, times that run
@@ -197,8 +216,7 @@ def trajectory_from_message(model, group: str, reference: motion.RobotState,
     times = np.zeros(count)
     for i, point in enumerate(joints.points):
         if len(point.positions) != len(columns):
-            raise ValueError(f"point {i} of the trajectory has {len(point.positions)} positions for {len(columns)} "
-                             f"joints")
+            raise ValueError(f"point {i} of the trajectory has {len(point.positions)} positions for {len(columns)} joints")
         positions[i, columns] = convert.finite(point.positions, f"point {i} of the trajectory")
         times[i] = point.time_from_start.to_sec()
         has_velocities = has_velocities and len(point.velocities) == len(columns)
@@ -219,9 +237,15 @@ def trajectory_from_message(model, group: str, reference: motion.RobotState,
     start = reference.copy()
     if count:
         start.set_group(group, positions[0])
-    return motion.Trajectory(model, group, start, positions, times=times,
-                             velocities=velocities if has_velocities else None,
-                             accelerations=accelerations if has_accelerations else None)
+    return motion.Trajectory(
+        model,
+        group,
+        start,
+        positions,
+        times=times,
+        velocities=velocities if has_velocities else None,
+        accelerations=accelerations if has_accelerations else None,
+    )
 
 
 def is_empty_trajectory(message: RobotTrajectory) -> bool:
@@ -231,6 +255,7 @@ def is_empty_trajectory(message: RobotTrajectory) -> bool:
 
 def duration(message: RobotTrajectory) -> float:
     """Seconds from start to the last point."""
-    ends = [part.points[-1].time_from_start.to_sec()
-            for part in (message.joint_trajectory, message.multi_dof_joint_trajectory) if part.points]
+    ends = [
+        part.points[-1].time_from_start.to_sec() for part in (message.joint_trajectory, message.multi_dof_joint_trajectory) if part.points
+    ]
     return max(ends, default=0.0)

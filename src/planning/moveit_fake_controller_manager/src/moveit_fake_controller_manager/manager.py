@@ -1,16 +1,16 @@
 """Controllers that only publish the joint states which a robot would have, for joint_state_publisher's source_list."""
+
 from __future__ import annotations
 
 import threading
 from typing import Dict, Optional, Sequence
 
 import rospy
-from moveit_msgs.msg import RobotTrajectory
-from sensor_msgs.msg import JointState
-
 from moveit_core.controller_manager import Completion, ControllerHandle, ExecutionStatus
+from moveit_msgs.msg import RobotTrajectory
 from moveit_simple_controller_manager.manager import ListedControllers, read_controller_list
 from node_signals.parameters import number_or
+from sensor_msgs.msg import JointState
 
 _LAST_POINT_TIME = 0.5
 
@@ -35,11 +35,10 @@ class FakeHandle(ControllerHandle):
             self._thread.join(1.0)
         self._stop, self._completion = threading.Event(), Completion()
         self._completion.begin()
-        run = {"interpolate": self._interpolate, "via points": self._via_points,
-               "last point": self._last_point}[self._kind]
-        self._thread = threading.Thread(target=self._run, args=(run, trajectory.joint_trajectory, self._stop,
-                                                                self._completion),
-                                        name=self.name, daemon=True)
+        run = {"interpolate": self._interpolate, "via points": self._via_points, "last point": self._last_point}[self._kind]
+        self._thread = threading.Thread(
+            target=self._run, args=(run, trajectory.joint_trajectory, self._stop, self._completion), name=self.name, daemon=True
+        )
         rospy.loginfo("Fake execution of trajectory")
         self._thread.start()
         return True
@@ -122,16 +121,17 @@ class FakeControllerManager(ListedControllers):
 
     def __init__(self, model, namespace: str = "~"):
         super().__init__(model, namespace)
-        self._publisher = rospy.Publisher(namespace + "fake_controller_joint_states", JointState, queue_size=100,
-                                          latch=True)
+        self._publisher = rospy.Publisher(namespace + "fake_controller_joint_states", JointState, queue_size=100, latch=True)
         name = namespace + "fake_interpolating_controller_rate"
         rate = number_or(name, rospy.get_param(name, 10.0), 10.0)
         for entry in read_controller_list(namespace):
             kind = str(entry.get("type", "last point"))
             if kind not in ("interpolate", "via points", "last point"):
-                rospy.logerr("Unknown fake controller type: %s of '%s'; there are: interpolate, via points, last "
-                             "point. last point is "
-                             "used", kind, entry["name"])
+                rospy.logerr(
+                    "Unknown fake controller type: %s of '%s'; there are: interpolate, via points, last point. last point is used",
+                    kind,
+                    entry["name"],
+                )
                 kind = "last point"
             self.add(entry, FakeHandle(entry["name"], entry["joints"], self._publisher, kind, rate))
         self._initial()
@@ -142,13 +142,16 @@ class FakeControllerManager(ListedControllers):
         state = self.model.state()
         entries = rospy.get_param(self.namespace + "initial", [])
         for entry in entries if isinstance(entries, list) else ():
-            group, pose = (str(entry.get("group", "")), str(entry.get("pose", ""))) if isinstance(entry, dict) else ("",
-                                                                                                                     "")
+            group, pose = (str(entry.get("group", "")), str(entry.get("pose", ""))) if isinstance(entry, dict) else ("", "")
             if not self.model.has_group(group):
                 rospy.logwarn("initial: the robot has no group '%s'", group)
             elif not state.set_named(group, pose):
-                rospy.logwarn("initial: group '%s' has no pose '%s'; it has: %s", group, pose,
-                              ", ".join(self.model.group(group).named_states) or "none")
+                rospy.logwarn(
+                    "initial: group '%s' has no pose '%s'; it has: %s",
+                    group,
+                    pose,
+                    ", ".join(self.model.group(group).named_states) or "none",
+                )
             else:
                 rospy.loginfo("Set joints of group '%s' to pose '%s'.", group, pose)
                 for joint in self.model.group(group).named_state(pose):

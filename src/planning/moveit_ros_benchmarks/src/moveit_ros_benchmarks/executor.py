@@ -1,4 +1,5 @@
 """Runs a benchmark: every planner on every problem, as often as asked for."""
+
 from __future__ import annotations
 
 import copy
@@ -9,19 +10,18 @@ import time
 from dataclasses import dataclass
 from typing import Dict, List, Optional
 
+import motion
 import numpy as np
 import rospy
-from moveit_msgs.msg import Constraints, JointConstraint, MotionPlanRequest, PlanningScene
-from tf.transformations import quaternion_from_euler
-
-import motion
 from moveit_core import convert, states
 from moveit_core.errors import PlanningError
 from moveit_core.scene_messages import SceneEditor, scene_message
+from moveit_msgs.msg import Constraints, JointConstraint, MotionPlanRequest, PlanningScene
 from moveit_ros_planning import robot_model
 from moveit_ros_planning.planning_pipeline import Pipeline, PipelineError
 from moveit_ros_warehouse.location import connect
 from moveit_ros_warehouse.storage import Warehouse
+from tf.transformations import quaternion_from_euler
 
 from . import log, metrics
 from .options import Options, OptionsError
@@ -60,8 +60,10 @@ class Executor:
                 if not rospy.has_param("~planning_plugin"):
                     rospy.set_param("~planning_plugin", "ompl_interface/OMPLPlanner")
             else:
-                raise OptionsError(f"Planning pipeline '{name}' does NOT exist: {rospy.resolve_name(namespace)}planning_plugin is not "
-                                   f"set; include planning_pipeline.launch.xml with ns=\"{rospy.get_name().lstrip('/')}\"")
+                raise OptionsError(
+                    f"Planning pipeline '{name}' does NOT exist: {rospy.resolve_name(namespace)}planning_plugin is not "
+                    f'set; include planning_pipeline.launch.xml with ns="{rospy.get_name().lstrip("/")}"'
+                )
         try:
             pipeline = Pipeline(name, namespace, self._description)
         except PipelineError as error:
@@ -69,9 +71,11 @@ class Executor:
         known = pipeline.planner_ids()
         for planner in planners:
             if planner not in known and f"{self.options.group}[{planner}]" not in known:
-                mine = [entry[len(self.options.group) + 1:-1] for entry in known if entry.startswith(self.options.group + "[")]
-                raise OptionsError(f"Planner '{planner}' does NOT exist for group '{self.options.group}' in pipeline '{name}'; "
-                                   f"there are: {', '.join(mine or known)}")
+                mine = [entry[len(self.options.group) + 1 : -1] for entry in known if entry.startswith(self.options.group + "[")]
+                raise OptionsError(
+                    f"Planner '{planner}' does NOT exist for group '{self.options.group}' in pipeline '{name}'; "
+                    f"there are: {', '.join(mine or known)}"
+                )
         return pipeline
 
     # --- problems ---
@@ -98,8 +102,10 @@ class Executor:
         for name, goal in self._stored(warehouse, "trajectory_constraints", options.trajectory_constraints).items():
             found += self._combined(name, self._request(trajectory_constraints=goal), starts, {})
         if not found:
-            raise OptionsError(f"there is nothing to solve: scene '{options.scene}' has no query that fits '{options.queries}', and "
-                               f"goal_constraints names none")
+            raise OptionsError(
+                f"there is nothing to solve: scene '{options.scene}' has no query that fits '{options.queries}', and "
+                f"goal_constraints names none"
+            )
         return found
 
     def combine_poses(self) -> List[Problem]:
@@ -128,9 +134,7 @@ class Executor:
                 first = self._model.state()
                 first.set_named(group, start)
                 found.append(
-                    Problem(
-                        f"{start}_{goal}", self._request(goal_constraints=[wanted], start_state=states.robot_state_message(first))
-                    )
+                    Problem(f"{start}_{goal}", self._request(goal_constraints=[wanted], start_state=states.robot_state_message(first)))
                 )
         return found
 
@@ -143,8 +147,9 @@ class Executor:
         elif warehouse.worlds.has(name):
             message = PlanningScene(name=name, world=warehouse.worlds.load(name), is_diff=True)
         else:
-            raise OptionsError(f"Failed to find planning scene '{name}' in {warehouse.path}; there are: "
-                               f"{', '.join(warehouse.scenes.names()) or 'none'}")
+            raise OptionsError(
+                f"Failed to find planning scene '{name}' in {warehouse.path}; there are: {', '.join(warehouse.scenes.names()) or 'none'}"
+            )
         SceneEditor(self._scene, rospy.logwarn).planning_scene(message)
 
     @staticmethod
@@ -180,14 +185,19 @@ class Executor:
 
     def _shifted(self, goal: Constraints) -> Constraints:
         """A goal with one pose, moved by the goal offset in its own frame."""
-        if not any(self.options.goal_offset) or len(goal.position_constraints) != 1 or len(goal.orientation_constraints) != 1 \
-                or not goal.position_constraints[0].constraint_region.primitive_poses:
+        if (
+            not any(self.options.goal_offset)
+            or len(goal.position_constraints) != 1
+            or len(goal.orientation_constraints) != 1
+            or not goal.position_constraints[0].constraint_region.primitive_poses
+        ):
             return goal
         goal = copy.deepcopy(goal)
         place, turn = goal.position_constraints[0].constraint_region.primitive_poses[0], goal.orientation_constraints[0]
         place.orientation, at = turn.orientation, place.position
-        pose = convert.pose(place) * motion.Pose(np.array(self.options.goal_offset[:3]),
-                                                 np.array(quaternion_from_euler(*self.options.goal_offset[3:], axes="rxyz")))
+        pose = convert.pose(place) * motion.Pose(
+            np.array(self.options.goal_offset[:3]), np.array(quaternion_from_euler(*self.options.goal_offset[3:], axes="rxyz"))
+        )
         at.x, at.y, at.z = pose.position
         turn.orientation.x, turn.orientation.y, turn.orientation.z, turn.orientation.w = pose.quaternion
         return goal
@@ -217,8 +227,9 @@ class Executor:
             setup = f"Motion plan request:\n{problem.request}\nPlanning scene: \n{scene_message(self._scene)}"
             started = datetime.datetime.now().isoformat()
             begun = time.monotonic()
-            entry = log.Log(problem.name.replace(" ", "_"), socket.gethostname() or "UNKNOWN", started, setup, self.options.timeout,
-                            self.options.runs)
+            entry = log.Log(
+                problem.name.replace(" ", "_"), socket.gethostname() or "UNKNOWN", started, setup, self.options.timeout, self.options.runs
+            )
             for name, planners in self.options.pipelines.items():
                 for planner in planners:
                     entry.planners[f"{planner} ({name})"] = self._runs(self._pipelines[name], planner, problem)
@@ -245,8 +256,14 @@ class Executor:
             trajectories.append(result.trajectory if result else None)
         metrics.add_similarity(runs, trajectories)
         solved = sum(trajectory is not None for trajectory in trajectories)
-        rospy.loginfo("%s (%s): %d of %d solved, %.3f s in the middle", planner, pipeline.name, solved, len(runs),
-                      float(np.median(times)) if times else 0.0)
+        rospy.loginfo(
+            "%s (%s): %d of %d solved, %.3f s in the middle",
+            planner,
+            pipeline.name,
+            solved,
+            len(runs),
+            float(np.median(times)) if times else 0.0,
+        )
         return runs
 
     def _write(self, entry: log.Log) -> str:

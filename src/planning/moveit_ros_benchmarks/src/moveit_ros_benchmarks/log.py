@@ -1,4 +1,5 @@
 """Logs in the form of OMPL's benchmarks, which Planner Arena and moveit_benchmark_statistics.py read."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -24,10 +25,22 @@ class Log:
 
 def write(log: Log) -> str:
     """The text of a log."""
-    lines = [f"MoveIt version {log.version}", f"Experiment {log.name}", f"Running on {log.host}", f"Starting at {log.started}",
-             "<<<|", log.setup, "|>>>", "0 is the random seed", f"{log.timeout:g} seconds per run", "-1 MB per run",
-             f"{log.runs} runs per planner", f"{log.duration:g} seconds spent to collect the data", "0 enum types",
-             f"{len(log.planners)} planners"]
+    lines = [
+        f"MoveIt version {log.version}",
+        f"Experiment {log.name}",
+        f"Running on {log.host}",
+        f"Starting at {log.started}",
+        "<<<|",
+        log.setup,
+        "|>>>",
+        "0 is the random seed",
+        f"{log.timeout:g} seconds per run",
+        "-1 MB per run",
+        f"{log.runs} runs per planner",
+        f"{log.duration:g} seconds spent to collect the data",
+        "0 enum types",
+        f"{len(log.planners)} planners",
+    ]
     for planner, runs in log.planners.items():
         properties = sorted({key for run in runs for key in run})
         lines += [planner, "0 common properties", f"{len(properties)} properties for each run", *properties, f"{len(runs)} runs"]
@@ -47,7 +60,7 @@ def read(text: str) -> Log:
         line = next(lines, "")
         if not line.startswith(word):
             raise ValueError(f"'{line[:40]}' stands where '{word}' is expected")
-        return line[len(word):].strip()
+        return line[len(word) :].strip()
 
     def number(ending: str) -> float:
         line = next(lines, "")

@@ -1,4 +1,5 @@
 """What is said of a path: its length, how smooth it is, how far from obstacles, whether it may be used at all."""
+
 from __future__ import annotations
 
 from typing import List, Optional
@@ -17,8 +18,10 @@ def steps(trajectory: motion.Trajectory) -> np.ndarray:
 
 
 def _short(rows: np.ndarray, model: motion.RobotModel, group: str) -> np.ndarray:
-    endless = np.array([model.joint(name).type == "continuous" for name in model.group(group).active_joints
-                        for _ in model.joint(name).variables], dtype=bool)
+    endless = np.array(
+        [model.joint(name).type == "continuous" for name in model.group(group).active_joints for _ in model.joint(name).variables],
+        dtype=bool,
+    )
     rows = np.array(rows)
     rows[..., endless] -= 2 * np.pi * np.round(rows[..., endless] / (2 * np.pi))
     return rows
@@ -48,9 +51,13 @@ def of_run(scene: motion.PlanningScene, result: Optional[motion.PlanResult], too
     states = [trajectory.state(k) for k in range(len(trajectory))]
     clearances = [max(0.0, scene.distance(state, group=trajectory.group).distance) for state in states]
     correct = all(state.in_bounds() and not scene.check(state, padded=False) for state in states)
-    values = {"correct BOOLEAN": str(int(correct)), "length REAL": f"{np.abs(steps(trajectory)).sum():.9g}",
-              "clearance REAL": f"{np.mean(clearances):.9g}", "smoothness REAL": f"{smoothness(trajectory):.9g}",
-              "time REAL": f"{planning:.9g}"}
+    values = {
+        "correct BOOLEAN": str(int(correct)),
+        "length REAL": f"{np.abs(steps(trajectory)).sum():.9g}",
+        "clearance REAL": f"{np.mean(clearances):.9g}",
+        "smoothness REAL": f"{smoothness(trajectory):.9g}",
+        "time REAL": f"{planning:.9g}",
+    }
     for prefix in ("path_plan", "final_path"):
         run.update({f"{prefix}_{key}": value for key, value in values.items()})
     run["process_time REAL"] = f"{max(0.0, took - planning):.9g}"

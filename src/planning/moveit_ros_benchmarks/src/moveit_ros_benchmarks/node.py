@@ -1,9 +1,9 @@
 """The nodes ``moveit_run_benchmark`` and ``moveit_combine_predefined_poses_benchmark``."""
+
 from __future__ import annotations
 
-import rospy
-
 import node_signals
+import rospy
 from moveit_ros_planning.robot_model import DescriptionError
 from moveit_ros_warehouse.storage import StorageError
 
@@ -19,8 +19,10 @@ def _options() -> Options:
         return options_module.load(files[0])
     config = rospy.get_param("~benchmark_config", None)
     if config is None:
-        raise OptionsError(f"No benchmark_config found on param server: load a YAML file into {rospy.resolve_name('~benchmark_config')}, "
-                           f"or name one (cfg:=FILE)")
+        raise OptionsError(
+            f"No benchmark_config found on param server: load a YAML file into {rospy.resolve_name('~benchmark_config')}, "
+            f"or name one (cfg:=FILE)"
+        )
     return options_module.read(config, rospy.resolve_name("~benchmark_config"))
 
 
@@ -30,8 +32,14 @@ def _run(poses: bool) -> int:
         executor = Executor(options)
         warehouse = open_warehouse(options)
         problems = executor.load(warehouse) if not poses else executor.combine_poses()
-        rospy.loginfo("Benchmark '%s': %d problems, %d planners, %d runs each, %.3g s at most", options.name, len(problems),
-                      sum(map(len, options.pipelines.values())), options.runs, options.timeout)
+        rospy.loginfo(
+            "Benchmark '%s': %d problems, %d planners, %d runs each, %.3g s at most",
+            options.name,
+            len(problems),
+            sum(map(len, options.pipelines.values())),
+            options.runs,
+            options.timeout,
+        )
         executor.run(problems)
     except (OptionsError, DescriptionError, StorageError, OSError) as error:
         rospy.logfatal("%s", " ".join(str(error).split()))

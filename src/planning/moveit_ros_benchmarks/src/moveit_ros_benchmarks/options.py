@@ -1,4 +1,5 @@
 """What a benchmark runs, from ``~benchmark_config``, a YAML file of the same form, or a .cfg file of old configurations."""
+
 from __future__ import annotations
 
 import configparser
@@ -55,8 +56,17 @@ def read(config: Any, where: str) -> Options:
         raise OptionsError(f"{where} holds no benchmark: a table with warehouse, parameters and planning_pipelines is expected")
     warehouse, parameters = _table(config, "warehouse", where), _table(config, "parameters", where)
     options = Options(scene=str(warehouse.get("scene_name", "")), host=str(warehouse.get("host", "")))
-    for key in ("name", "group", "output_directory", "queries", "start_states", "goal_constraints", "path_constraints",
-                "trajectory_constraints", "predefined_poses_group"):
+    for key in (
+        "name",
+        "group",
+        "output_directory",
+        "queries",
+        "start_states",
+        "goal_constraints",
+        "path_constraints",
+        "trajectory_constraints",
+        "predefined_poses_group",
+    ):
         if key in parameters:
             setattr(options, key, str(parameters[key] or ""))
     options.runs = int(_number(parameters, "runs", 10, where, 1))
@@ -68,8 +78,7 @@ def read(config: Any, where: str) -> Options:
     space = _table(parameters, "workspace", where)
     if space:
         corners = [
-            tuple(_number(_table(space, corner, where), axis, 0.0, where) for axis in "xyz")
-            for corner in ("min_corner", "max_corner")
+            tuple(_number(_table(space, corner, where), axis, 0.0, where) for axis in "xyz") for corner in ("min_corner", "max_corner")
         ]
         options.workspace = (str(space.get("frame_id", "")), *corners)
     options.pipelines = _pipelines(config.get("planning_pipelines", []), where)

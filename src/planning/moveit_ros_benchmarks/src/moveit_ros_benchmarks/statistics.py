@@ -1,4 +1,5 @@
 """Logs of benchmarks into an SQLite database, in the form that Planner Arena reads, and plots of them."""
+
 from __future__ import annotations
 
 import argparse
@@ -29,8 +30,18 @@ def store(base: sqlite3.Connection, entry: log.Log) -> None:
     base.executescript(_TABLES)
     experiment = base.execute(
         "INSERT INTO experiments (name, totaltime, timelimit, memorylimit, runcount, version, hostname, date, seed, setup) "
-        "VALUES (?, ?, ?, -1, ?, ?, ?, ?, 0, ?)", (entry.name, entry.duration, entry.timeout, entry.runs, f"MoveIt {entry.version}",
-                                                   entry.host, entry.started.replace("T", " "), entry.setup)).lastrowid
+        "VALUES (?, ?, ?, -1, ?, ?, ?, ?, 0, ?)",
+        (
+            entry.name,
+            entry.duration,
+            entry.timeout,
+            entry.runs,
+            f"MoveIt {entry.version}",
+            entry.host,
+            entry.started.replace("T", " "),
+            entry.setup,
+        ),
+    ).lastrowid
     for planner, runs in entry.planners.items():
         row = base.execute("SELECT id FROM plannerConfigs WHERE name = ?", (planner,)).fetchone()
         number = row[0] if row else base.execute("INSERT INTO plannerConfigs (name, settings) VALUES (?, '')", (planner,)).lastrowid
@@ -54,8 +65,10 @@ def summary(entry: log.Log) -> List[str]:
     lines = [f"{entry.name}: {entry.runs} runs each"]
     for planner, runs in entry.planners.items():
         solved = [run for run in runs if run.get("solved BOOLEAN") == "1"]
-        middle = [float(np.median([float(run.get(key, "nan")) for run in solved])) if solved else float("nan")
-                  for key in ("time REAL", "final_path_length REAL")]
+        middle = [
+            float(np.median([float(run.get(key, "nan")) for run in solved])) if solved else float("nan")
+            for key in ("time REAL", "final_path_length REAL")
+        ]
         lines.append(f"  {planner:50} solved {len(solved)} of {len(runs)}, time {middle[0]:.4g} s, length {middle[1]:.4g}")
     return lines
 
@@ -63,9 +76,11 @@ def summary(entry: log.Log) -> List[str]:
 def plot(entries: List[log.Log], file: str) -> None:
     """Box plots of the real-valued properties of all runs, a page each."""
     import matplotlib
+
     matplotlib.use("pdf")
     from matplotlib import pyplot
     from matplotlib.backends.backend_pdf import PdfPages
+
     planners = sorted({planner for entry in entries for planner in entry.planners})
     runs = {planner: [run for entry in entries for run in entry.planners.get(planner, [])] for planner in planners}
     keys = sorted({key for some in runs.values() for run in some for key in run if key.endswith(" REAL")})

@@ -1,4 +1,5 @@
 """The controllers of one or of several running controller_managers, found and switched through their services."""
+
 from __future__ import annotations
 
 import time
@@ -7,7 +8,6 @@ from typing import Any, Dict, List, Optional, Sequence
 import rosgraph
 import rospy
 from controller_manager_msgs.srv import ListControllers, SwitchController, SwitchControllerRequest
-
 from moveit_core.controller_manager import ControllerHandle, ControllerManager
 from moveit_simple_controller_manager.actions import FollowJointTrajectoryHandle, GripperCommandHandle
 
@@ -29,8 +29,7 @@ class ControlManager(ControllerManager):
 
     def __init__(self, model, namespace: str = "~", control_namespace: Optional[str] = None):
         super().__init__(model, namespace)
-        given = rospy.get_param(namespace + "ros_control_namespace",
-                                "/") if control_namespace is None else control_namespace
+        given = rospy.get_param(namespace + "ros_control_namespace", "/") if control_namespace is None else control_namespace
         self._ns = "/" + given.strip("/") + ("/" if given.strip("/") else "")
         self._known: Dict[str, Any] = {}
         self._read = 0.0
@@ -83,8 +82,8 @@ class ControlManager(ControllerManager):
 
     def switch(self, activate: Sequence[str], deactivate: Sequence[str]) -> bool:
         request = SwitchControllerRequest(strictness=SwitchControllerRequest.STRICT)
-        request.start_controllers = [name[len(self._ns):] for name in activate if not self.is_active(name)]
-        request.stop_controllers = [name[len(self._ns):] for name in deactivate if self.is_active(name)]
+        request.start_controllers = [name[len(self._ns) :] for name in activate if not self.is_active(name)]
+        request.stop_controllers = [name[len(self._ns) :] for name in deactivate if self.is_active(name)]
         if not request.start_controllers and not request.stop_controllers:
             return True
         try:
@@ -124,7 +123,7 @@ class MultiControlManager(ControllerManager):
         suffix = "controller_manager/list_controllers"
         for name, _ in services:
             if name.endswith("/" + suffix):
-                found = name[:-len(suffix)]
+                found = name[: -len(suffix)]
                 if found not in self._managers:
                     self._managers[found] = ControlManager(self.model, self.namespace, found)
 
@@ -149,9 +148,12 @@ class MultiControlManager(ControllerManager):
         return owner.handle(controller) if owner else None
 
     def switch(self, activate: Sequence[str], deactivate: Sequence[str]) -> bool:
-        return all(manager.switch([name for name in activate if name in manager.controllers()],
-                                  [name for name in deactivate if name in manager.controllers()])
-                   for manager in self._managers.values())
+        return all(
+            manager.switch(
+                [name for name in activate if name in manager.controllers()], [name for name in deactivate if name in manager.controllers()]
+            )
+            for manager in self._managers.values()
+        )
 
     def reload(self) -> None:
         self._read = 0.0

@@ -1,4 +1,5 @@
 """The actions ``pickup`` and ``place``."""
+
 from __future__ import annotations
 
 import sys
@@ -6,28 +7,48 @@ from typing import Callable, List, Sequence, Tuple
 
 import motion
 import rospy
-from moveit_msgs.msg import (AttachedCollisionObject, CollisionObject, Constraints, Grasp, JointConstraint,
-                             MotionPlanRequest,
-                             MoveItErrorCodes, PickupAction, PlaceAction, PlaceLocation, RobotState)
-from trajectory_msgs.msg import JointTrajectoryPoint
-
 from dynamic_parameters import Parameter, Server
 from moveit_core import states
 from moveit_core.errors import PlanningError
+from moveit_msgs.msg import (
+    AttachedCollisionObject,
+    CollisionObject,
+    Constraints,
+    Grasp,
+    JointConstraint,
+    MotionPlanRequest,
+    MoveItErrorCodes,
+    PickupAction,
+    PlaceAction,
+    PlaceLocation,
+    RobotState,
+)
 from moveit_ros_move_group.capability import ActionCapability, Capability, result_text
 from moveit_ros_planning.plan_execution import Plan
 from moveit_ros_planning.robot_model import scaling_factors
+from trajectory_msgs.msg import JointTrajectoryPoint
 
-from .planner import (Manipulation, Outcome, Settings, Task, allowing, check_motion, check_posture, hand_pose)
-
+from .planner import Manipulation, Outcome, Settings, Task, allowing, check_motion, check_posture, hand_pose
 
 _PARAMETERS = [
     Parameter("max_attempted_states_per_pose", int, 5, 1, 100, "Joint configurations that are tried per pose"),
-    Parameter("max_consecutive_fail_attempts", int, 3, 1, 10, "Poses in a row without a configuration after which the "
-              "search for more ends (all poses are tried here)"),
+    Parameter(
+        "max_consecutive_fail_attempts",
+        int,
+        3,
+        1,
+        10,
+        "Poses in a row without a configuration after which the search for more ends (all poses are tried here)",
+    ),
     Parameter("cartesian_motion_step_size", float, 0.02, 0.005, 0.1, "Step of straight approaches and retreats, m"),
-    Parameter("jump_factor", float, 2.0, 0.0, 10.0, "A straight motion ends before a step above this many times its mean "
-              "one in joint space; 0 allows any"),
+    Parameter(
+        "jump_factor",
+        float,
+        2.0,
+        0.0,
+        10.0,
+        "A straight motion ends before a step above this many times its mean one in joint space; 0 allows any",
+    ),
 ]
 
 
@@ -68,8 +89,15 @@ class _Manipulate(ActionCapability):
             plan = self.plan(self.context.monitor.copy(options.planning_scene_diff), goal, result)
         else:
             plan = self.plan_execution.plan_and_execute(
-                lambda scene: self.plan(scene, goal, result), options.planning_scene_diff, self.stop, options.replan,
-                options.replan_attempts, options.replan_delay, before=lambda: self.feedback("MONITOR"), stops=self.stops)
+                lambda scene: self.plan(scene, goal, result),
+                options.planning_scene_diff,
+                self.stop,
+                options.replan,
+                options.replan_attempts,
+                options.replan_delay,
+                before=lambda: self.feedback("MONITOR"),
+                stops=self.stops,
+            )
         result.error_code.val, result.planning_time = plan.code, plan.planning_time
         stages = [(segment.trajectory, segment.description) for segment in plan.segments if segment.trajectory is not None]
         trajectories = [trajectory for trajectory, _ in stages]
@@ -91,35 +119,50 @@ class _Manipulate(ActionCapability):
         model = self.context.model
         if group:
             self.context.group(group)
-        found = [eef for eef in model.end_effectors if (name and name in (eef.name, eef.group)) or (
-            not name
-            and group and (eef.parent_group == group or eef.name in model.group(group).attached_end_effectors))]
+        found = [
+            eef
+            for eef in model.end_effectors
+            if (name and name in (eef.name, eef.group))
+            or (not name and group and (eef.parent_group == group or eef.name in model.group(group).attached_end_effectors))
+        ]
         if not found or not (group or found[0].parent_group):
             known = ", ".join(f"{eef.name} (on {eef.parent_group or 'no group'})" for eef in model.end_effectors) or "none"
-            raise PlanningError(MoveItErrorCodes.INVALID_GROUP_NAME, f"which hand is meant by end effector '{name}' "
-                                f"and group '{group}' is not "
-                                f"clear; the SRDF has the end effectors: {known}")
+            raise PlanningError(
+                MoveItErrorCodes.INVALID_GROUP_NAME,
+                f"which hand is meant by end effector '{name}' and group '{group}' is not clear; the SRDF has the end effectors: {known}",
+            )
         eef = found[0]
         if len(found) > 1:
-            rospy.logwarn("group '%s' has the end effectors %s: '%s' is taken; name another in end_effector", group,
-                          ", ".join(each.name for each in found), eef.name)
+            rospy.logwarn(
+                "group '%s' has the end effectors %s: '%s' is taken; name another in end_effector",
+                group,
+                ", ".join(each.name for each in found),
+                eef.name,
+            )
         return (group or eef.parent_group), eef.group, eef.parent_link
 
     def manipulation(self, goal) -> Manipulation:
         """A planner for the time that the goal allows."""
         seconds = goal.allowed_planning_time if goal.allowed_planning_time > 0 else 5.0
-        return Manipulation(lambda scene, group, values, left: self._free(scene, goal, group, values, left), seconds,
-                            self.stop.is_set, self._settings)
+        return Manipulation(
+            lambda scene, group, values, left: self._free(scene, goal, group, values, left), seconds, self.stop.is_set, self._settings
+        )
 
     def _free(self, scene, goal, group: str, values, seconds: float) -> motion.PlanResult:
-        request = MotionPlanRequest(group_name=group, planner_id=goal.planner_id, allowed_planning_time=seconds,
-                                    num_planning_attempts=1,
-                                    path_constraints=goal.path_constraints, start_state=RobotState(is_diff=True))
+        request = MotionPlanRequest(
+            group_name=group,
+            planner_id=goal.planner_id,
+            allowed_planning_time=seconds,
+            num_planning_attempts=1,
+            path_constraints=goal.path_constraints,
+            start_state=RobotState(is_diff=True),
+        )
         velocity, acceleration = scaling_factors(self.context.description)
         request.max_velocity_scaling_factor, request.max_acceleration_scaling_factor = velocity, acceleration
         names = list(self.context.model.group(group).variables)
-        request.goal_constraints = [Constraints(joint_constraints=[JointConstraint(name, float(value), 1e-4, 1e-4, 1.0)
-                                                                   for name, value in zip(names, values)])]
+        request.goal_constraints = [
+            Constraints(joint_constraints=[JointConstraint(name, float(value), 1e-4, 1e-4, 1.0) for name, value in zip(names, values)])
+        ]
         return self.context.pipelines.find("").generate(scene, request, self.stop.token)
 
     def first_that_works(self, scene, goal, entries: Sequence, make: Callable, result, field: str) -> Plan:
@@ -139,8 +182,7 @@ class _Manipulate(ActionCapability):
             if planner.left <= 0 or self.stop.is_set():
                 last.code = planner.ended().code
                 break
-        return Plan(last.code, f"none of the {len(entries)} ways can be planned; the last one: {last.message}", [],
-                    started - planner.left)
+        return Plan(last.code, f"none of the {len(entries)} ways can be planned; the last one: {last.message}", [], started - planner.left)
 
     @staticmethod
     def _try(planner: Manipulation, scene, make: Callable, entry) -> Outcome:
@@ -170,26 +212,30 @@ class Pickup(_Manipulate):
 
     def plan(self, scene, goal, result) -> Plan:
         if goal.target_name and goal.target_name not in scene.objects:
-            raise PlanningError(MoveItErrorCodes.INVALID_OBJECT_NAME, f"the scene has no object '{goal.target_name}' "
-                                f"to pick; it has: "
-                                + (", ".join(scene.objects) or "none"))
+            raise PlanningError(
+                MoveItErrorCodes.INVALID_OBJECT_NAME,
+                f"the scene has no object '{goal.target_name}' to pick; it has: " + (", ".join(scene.objects) or "none"),
+            )
         arm, hand, link = self.effector(goal.end_effector, goal.group_name)
         closer = goal.minimize_object_distance or not goal.possible_grasps
-        grasps = sorted(goal.possible_grasps or [self._default(scene, goal.target_name, hand)],
-                        key=lambda grasp: -grasp.grasp_quality)
-        return self.first_that_works(scene, goal, grasps,
-                                     lambda grasp: self._task(scene, goal, grasp, (arm, hand, link), closer), result, "grasp")
+        grasps = sorted(goal.possible_grasps or [self._default(scene, goal.target_name, hand)], key=lambda grasp: -grasp.grasp_quality)
+        return self.first_that_works(
+            scene, goal, grasps, lambda grasp: self._task(scene, goal, grasp, (arm, hand, link), closer), result, "grasp"
+        )
 
     def _task(self, scene, goal, grasp: Grasp, effector: Tuple[str, str, str], closer: bool) -> Task:
         arm, hand, link = effector
         target = goal.target_name
-        self.check([(grasp.pre_grasp_approach, "pre_grasp_approach"), (grasp.post_grasp_retreat, "post_grasp_retreat")],
-                   [(grasp.pre_grasp_posture, "pre_grasp_posture"), (grasp.grasp_posture, "grasp_posture")])
+        self.check(
+            [(grasp.pre_grasp_approach, "pre_grasp_approach"), (grasp.post_grasp_retreat, "post_grasp_retreat")],
+            [(grasp.pre_grasp_posture, "pre_grasp_posture"), (grasp.grasp_posture, "grasp_posture")],
+        )
         links = sorted({*self.context.model.group(hand).links, link})
         touch = sorted({*goal.attached_object_touch_links}) or links
         support = [goal.support_surface_name] if goal.support_surface_name else []
-        others = allowing(links, [*goal.allowed_touch_objects, *grasp.allowed_touch_objects,
-                                  *(support if goal.allow_gripper_support_collision else [])])
+        others = allowing(
+            links, [*goal.allowed_touch_objects, *grasp.allowed_touch_objects, *(support if goal.allow_gripper_support_collision else [])]
+        )
         gripping = allowing([target], [*touch, *support]) if target else allowing([], [])
 
         def both(matrix) -> None:
@@ -204,9 +250,21 @@ class Pickup(_Manipulate):
         def effect() -> bool:
             return not target or self._attach(target, link, touch, grasp)
 
-        return Task(arm, link, hand, hand_pose(scene, grasp.grasp_pose, target), grasp.pre_grasp_approach,
-                    grasp.post_grasp_retreat, grasp.pre_grasp_posture, grasp.grasp_posture, both, both, change, effect,
-                    others if closer else None)
+        return Task(
+            arm,
+            link,
+            hand,
+            hand_pose(scene, grasp.grasp_pose, target),
+            grasp.pre_grasp_approach,
+            grasp.post_grasp_retreat,
+            grasp.pre_grasp_posture,
+            grasp.grasp_posture,
+            both,
+            both,
+            change,
+            effect,
+            others if closer else None,
+        )
 
     def _attach(self, name: str, link: str, touch: List[str], grasp: Grasp) -> bool:
         message = AttachedCollisionObject(link_name=link, touch_links=touch, detach_posture=grasp.pre_grasp_posture)
@@ -241,9 +299,9 @@ class Place(_Manipulate):
             raise PlanningError(MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS, f"no place for '{body.id}' was given")
         effector = self._hand(goal, body)
         locations = sorted(goal.place_locations, key=lambda location: -location.quality)
-        return self.first_that_works(scene, goal, locations,
-                                     lambda location: self._task(scene, goal, location, body, effector), result,
-                                     "place_location")
+        return self.first_that_works(
+            scene, goal, locations, lambda location: self._task(scene, goal, location, body, effector), result, "place_location"
+        )
 
     def _body(self, scene, goal):
         """The held object that the goal names; without a name, the only one that its group holds.
@@ -256,8 +314,12 @@ class Place(_Manipulate):
             found = [held[named]] if named in held else []
         else:
             hands = {body.id: self._holder(body) for body in held.values()}
-            found = [body for body in held.values() if hands[body.id] is not None and goal.group_name in (
-                hands[body.id].name, hands[body.id].group, hands[body.id].parent_group)] or list(held.values())
+            found = [
+                body
+                for body in held.values()
+                if hands[body.id] is not None
+                and goal.group_name in (hands[body.id].name, hands[body.id].group, hands[body.id].parent_group)
+            ] or list(held.values())
         if len(found) != 1:
             what = f"no object '{named}' is held" if named else "which object is to be placed is not clear"
             raise PlanningError(MoveItErrorCodes.INVALID_OBJECT_NAME, f"{what}; held are: {', '.join(held) or 'none'}")
@@ -266,8 +328,7 @@ class Place(_Manipulate):
     def _holder(self, body):
         """The end effector that holds a body; None if none does."""
         model = self.context.model
-        return next((eef for eef in model.end_effectors
-                     if body.link == eef.parent_link or body.link in model.group(eef.group).links), None)
+        return next((eef for eef in model.end_effectors if body.link == eef.parent_link or body.link in model.group(eef.group).links), None)
 
     def _hand(self, goal, body) -> Tuple[str, str, str]:
         """The hand that holds the body."""
@@ -277,14 +338,15 @@ class Place(_Manipulate):
             arm = group if model.has_group(group) and group not in (eef.name, eef.group) else eef.parent_group
             return arm, eef.group, eef.parent_link
         if not model.has_group(group):
-            raise PlanningError(MoveItErrorCodes.INVALID_GROUP_NAME, f"no end effector holds '{body.id}' (it hangs on "
-                                f"'{body.link}')")
+            raise PlanningError(MoveItErrorCodes.INVALID_GROUP_NAME, f"no end effector holds '{body.id}' (it hangs on '{body.link}')")
         return group, "", body.link
 
     def _task(self, scene, goal, location: PlaceLocation, body, effector: Tuple[str, str, str]) -> Task:
         arm, hand, link = effector
-        self.check([(location.pre_place_approach, "pre_place_approach"), (location.post_place_retreat, "post_place_retreat")],
-                   [(location.post_place_posture, "post_place_posture")])
+        self.check(
+            [(location.pre_place_approach, "pre_place_approach"), (location.post_place_retreat, "post_place_retreat")],
+            [(location.post_place_posture, "post_place_posture")],
+        )
         state = scene.state
         target = hand_pose(scene, location.place_pose)
         if not goal.place_eef:  # the pose is where the object goes; the hand is where it holds it
@@ -302,9 +364,20 @@ class Place(_Manipulate):
         posture = location.post_place_posture
         if not posture.points and body.detach_posture is not None:
             posture = body.detach_posture
-        return Task(arm, link, hand, target, location.pre_place_approach, location.post_place_retreat, type(posture)(),
-                    posture, both, both,
-                    lambda other: other.detach_object(body.id), lambda: self._detach(body.id, body.link))
+        return Task(
+            arm,
+            link,
+            hand,
+            target,
+            location.pre_place_approach,
+            location.post_place_retreat,
+            type(posture)(),
+            posture,
+            both,
+            both,
+            lambda other: other.detach_object(body.id),
+            lambda: self._detach(body.id, body.link),
+        )
 
     def _detach(self, name: str, link: str) -> bool:
         message = AttachedCollisionObject(link_name=link)

@@ -1,4 +1,5 @@
 """Plans how an object is picked up and put down: free motion, straight approach, gripper, straight retreat."""
+
 from __future__ import annotations
 
 import math
@@ -9,12 +10,11 @@ from typing import Callable, Dict, List, Optional, Sequence, Tuple
 import motion
 import numpy as np
 from geometry_msgs.msg import PoseStamped
-from moveit_msgs.msg import GripperTranslation, MoveItErrorCodes
-from trajectory_msgs.msg import JointTrajectory
-
 from moveit_core import convert
 from moveit_core.errors import PlanningError
+from moveit_msgs.msg import GripperTranslation, MoveItErrorCodes
 from moveit_ros_planning.plan_execution import Segment
+from trajectory_msgs.msg import JointTrajectory
 
 _GRIPPER_TIME = 1.0  # s that a gripper gets when its posture has no times
 _CLOSER = 1.0  # m that a hand may come closer to what it is to grip
@@ -73,8 +73,9 @@ class Manipulation:
     :param free_motion: plans a motion to joint values: ``(scene, group, values, seconds) -> PlanResult``.
     """
 
-    def __init__(self, free_motion: Callable, time_limit: float, cancelled: Callable[[], bool] = lambda: False,
-                 settings: Optional[Settings] = None):
+    def __init__(
+        self, free_motion: Callable, time_limit: float, cancelled: Callable[[], bool] = lambda: False, settings: Optional[Settings] = None
+    ):
         self._settings = settings or Settings()
         self._free_motion = free_motion
         self._end = time.monotonic() + time_limit
@@ -107,8 +108,16 @@ class Manipulation:
     def _configurations(self, scene, task: Task) -> Sequence[np.ndarray]:
         loose = self._loosened(scene, task.allow_approach)
         self._set_posture(loose, task.open)
-        found = motion.ik(loose, task.group, task.target, link=task.link, seed=loose.state, avoid_collisions=True,
-                          timeout=min(0.5, max(0.05, self.left)), solutions=self._settings.tries)
+        found = motion.ik(
+            loose,
+            task.group,
+            task.target,
+            link=task.link,
+            seed=loose.state,
+            avoid_collisions=True,
+            timeout=min(0.5, max(0.05, self.left)),
+            solutions=self._settings.tries,
+        )
         return list(found.solutions) if found else []
 
     @staticmethod
@@ -173,8 +182,7 @@ class Manipulation:
         trajectory, gone = self._line(scene, task, state, move, sign * distance)
         return trajectory if trajectory is not None and gone >= move.min_distance - 1e-6 else None
 
-    def _line(self, scene, task: Task, state, move: GripperTranslation,
-              distance: float) -> Tuple[Optional[motion.Trajectory], float]:
+    def _line(self, scene, task: Task, state, move: GripperTranslation, distance: float) -> Tuple[Optional[motion.Trajectory], float]:
         """The hand's motion along the direction of ``move`` (against it below zero), and the metres that it gets."""
         direction = move.direction.vector
         vector = np.array((direction.x, direction.y, direction.z), dtype=float)
@@ -183,14 +191,19 @@ class Manipulation:
             return None, 0.0
         here = state.pose(task.link)
         frame = convert.strip(move.direction.header.frame_id)
-        rotation = here if frame == task.link else scene.frame_pose(frame,
-                                                                    state) if frame else motion.Pose.identity()
-        step = motion.Pose(np.zeros(3), rotation.quaternion) * motion.Pose(vector / length * distance,
-                                                                           motion.Pose.identity().quaternion)
+        rotation = here if frame == task.link else scene.frame_pose(frame, state) if frame else motion.Pose.identity()
+        step = motion.Pose(np.zeros(3), rotation.quaternion) * motion.Pose(vector / length * distance, motion.Pose.identity().quaternion)
         goal = motion.Pose(np.asarray(here.position) + np.asarray(step.position), here.quaternion)
-        found = motion.cartesian_path(scene, task.group, [goal], link=task.link, start=state, max_step=self._settings.step,
-                                      jump_threshold=self._settings.jump,
-                                      avoid_collisions=True)
+        found = motion.cartesian_path(
+            scene,
+            task.group,
+            [goal],
+            link=task.link,
+            start=state,
+            max_step=self._settings.step,
+            jump_threshold=self._settings.jump,
+            avoid_collisions=True,
+        )
         return found.trajectory, found.fraction * abs(distance)
 
     @staticmethod
@@ -230,20 +243,22 @@ def check_posture(model, posture: JointTrajectory, what: str) -> None:
     """:raises PlanningError: a joint is unknown, or a point's positions do not fit the joints."""
     unknown = [name for name in posture.joint_names if not model.has_joint(name)]
     if unknown:
-        raise PlanningError(MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS, f"{what} names joint '{unknown[0]}', which the "
-                            f"robot '{model.name}' does not have")
+        raise PlanningError(
+            MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS, f"{what} names joint '{unknown[0]}', which the robot '{model.name}' does not have"
+        )
     for point in posture.points:
         if len(point.positions) != len(posture.joint_names) or np.isnan(point.positions).any():
-            raise PlanningError(MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS, f"a point of {what} needs one number for each of "
-                                f"its {len(posture.joint_names)} joints; it has: {list(point.positions)}")
+            raise PlanningError(
+                MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS,
+                f"a point of {what} needs one number for each of its {len(posture.joint_names)} joints; it has: {list(point.positions)}",
+            )
 
 
 def timed(model, trajectory: motion.Trajectory) -> motion.Trajectory:
     """With times, at a fifth of the robot's speed: the hand is close to things."""
     if len(trajectory) < 2:
         return trajectory
-    return motion.time_parameterize(model, trajectory, "iterative_parabolic", velocity_scaling=0.2,
-                                    acceleration_scaling=0.2)
+    return motion.time_parameterize(model, trajectory, "iterative_parabolic", velocity_scaling=0.2, acceleration_scaling=0.2)
 
 
 def clamped(model, posture: JointTrajectory, point: int) -> Dict[str, float]:
@@ -286,17 +301,18 @@ def hand_pose(scene, stamped: PoseStamped, default: str = "") -> motion.Pose:
         pose = convert.pose(stamped.pose, "a grasp or place", empty_is_identity=False)
         return convert.in_model_frame(scene, stamped.header.frame_id or default, pose)
     except motion.UnknownNameError as error:
-        raise PlanningError(MoveItErrorCodes.FRAME_TRANSFORM_FAILURE,
-                            f"frame '{stamped.header.frame_id}': {error}") from error
+        raise PlanningError(MoveItErrorCodes.FRAME_TRANSFORM_FAILURE, f"frame '{stamped.header.frame_id}': {error}") from error
     except ValueError as error:
         raise PlanningError(MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS, str(error)) from error
 
 
 def allowing(firsts: Sequence[str], seconds: Sequence[str]) -> Allow:
     """A change of a collision matrix: each of ``firsts`` may touch each of ``seconds``."""
+
     def change(matrix: motion.AllowedCollisionMatrix) -> None:
         for first in firsts:
             for second in seconds:
                 if first != second:
                     matrix.set(first, second, True)
+
     return change

@@ -1,4 +1,5 @@
 """What the capabilities of one move_group share."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -6,18 +7,17 @@ from typing import Optional, Sequence
 
 import motion
 import rospy
-from moveit_msgs.msg import DisplayTrajectory, MotionPlanRequest, MoveItErrorCodes
-from std_msgs.msg import ColorRGBA
-from visualization_msgs.msg import Marker, MarkerArray
-
 from moveit_core import convert, states
 from moveit_core.errors import PlanningError
+from moveit_msgs.msg import DisplayTrajectory, MotionPlanRequest, MoveItErrorCodes
 from moveit_ros_occupancy_map_monitor.monitor import OccupancyMapMonitor
-from moveit_ros_planning.plan_execution import PlanExecution
 from moveit_ros_planning.pipelines import Pipelines
+from moveit_ros_planning.plan_execution import PlanExecution
 from moveit_ros_planning.robot_model import RobotDescription
 from moveit_ros_planning.scene_monitor import SceneMonitor
 from moveit_ros_planning.trajectory_execution import TrajectoryExecution
+from std_msgs.msg import ColorRGBA
+from visualization_msgs.msg import Marker, MarkerArray
 
 
 @dataclass
@@ -37,8 +37,9 @@ class Context:
     def model(self) -> motion.RobotModel:
         return self.description.model
 
-    def plan(self, scene: motion.PlanningScene, request: MotionPlanRequest,
-             cancel: Optional[motion.CancelToken] = None) -> motion.PlanResult:
+    def plan(
+        self, scene: motion.PlanningScene, request: MotionPlanRequest, cancel: Optional[motion.CancelToken] = None
+    ) -> motion.PlanResult:
         """Plan with the pipeline that the request names, and show the result.
 
         :raises PlanningError: the request cannot be served.
@@ -57,9 +58,10 @@ class Context:
         :raises PlanningError: INVALID_GROUP_NAME.
         """
         if not self.model.has_group(name):
-            raise PlanningError(MoveItErrorCodes.INVALID_GROUP_NAME, f"the robot '{self.model.name}' has no group "
-                                f"'{name}'; it has: "
-                                + (", ".join(self.model.groups) or "none"))
+            raise PlanningError(
+                MoveItErrorCodes.INVALID_GROUP_NAME,
+                f"the robot '{self.model.name}' has no group '{name}'; it has: " + (", ".join(self.model.groups) or "none"),
+            )
         return self.model.group(name)
 
 
@@ -71,8 +73,7 @@ class Display:
         self._path = rospy.Publisher("~display_planned_path", DisplayTrajectory, queue_size=10, latch=True)
         self._contacts = rospy.Publisher("~display_contacts", MarkerArray, queue_size=100, latch=True)
         self._costs = rospy.Publisher("~display_cost_sources", MarkerArray, queue_size=100, latch=True)
-        self._requests = rospy.Publisher("~motion_plan_request", MotionPlanRequest, queue_size=100,
-                                         latch=True) if debug else None
+        self._requests = rospy.Publisher("~motion_plan_request", MotionPlanRequest, queue_size=100, latch=True) if debug else None
 
     def request(self, message: MotionPlanRequest) -> None:
         if self._requests is not None:
@@ -92,8 +93,13 @@ class Display:
         """Publish points of contact as red spheres."""
         markers = [Marker(action=Marker.DELETEALL)]
         for number, contact in enumerate(contacts):
-            marker = Marker(ns=f"{contact.body_1}={contact.body_2}", id=number, type=Marker.SPHERE, action=Marker.ADD,
-                            color=ColorRGBA(1.0, 0.0, 0.0, 0.8))
+            marker = Marker(
+                ns=f"{contact.body_1}={contact.body_2}",
+                id=number,
+                type=Marker.SPHERE,
+                action=Marker.ADD,
+                color=ColorRGBA(1.0, 0.0, 0.0, 0.8),
+            )
             marker.header.frame_id = self._model.frame
             marker.header.stamp = rospy.Time.now()
             marker.pose = convert.pose_message((contact.position, convert.IDENTITY[1]))

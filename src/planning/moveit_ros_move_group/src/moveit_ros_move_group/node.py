@@ -1,20 +1,20 @@
 """The node ``move_group``: from parameters to a running planner."""
+
 from __future__ import annotations
 
 import sys
 from typing import List, Optional
 
-import rospy
-import tf2_ros
-from moveit_msgs.srv import LoadMap, SaveMap
-
 import motion
 import node_signals
+import rospy
+import tf2_ros
 from moveit_core.errors import one_line
+from moveit_msgs.srv import LoadMap, SaveMap
 from moveit_ros_occupancy_map_monitor.monitor import OccupancyMapMonitor
 from moveit_ros_planning import robot_model
-from moveit_ros_planning.plan_execution import PlanExecution
 from moveit_ros_planning.pipelines import Pipelines
+from moveit_ros_planning.plan_execution import PlanExecution
 from moveit_ros_planning.planning_pipeline import PipelineError
 from moveit_ros_planning.scene_monitor import SceneMonitor
 from moveit_ros_planning.trajectory_execution import TrajectoryExecution
@@ -23,12 +23,19 @@ from plugin_loader import PluginError, find_plugins
 from .capability import Capability
 from .context import Context, Display
 
-_DEFAULT = ("move_group/MoveGroupCartesianPathService", "move_group/MoveGroupKinematicsService",
-            "move_group/MoveGroupExecuteTrajectoryAction", "move_group/MoveGroupMoveAction",
-            "move_group/MoveGroupPickPlaceAction",
-            "move_group/MoveGroupPlanService", "move_group/MoveGroupQueryPlannersService",
-            "move_group/MoveGroupStateValidationService", "move_group/MoveGroupGetPlanningSceneService",
-            "move_group/ApplyPlanningSceneService", "move_group/ClearOctomapService")
+_DEFAULT = (
+    "move_group/MoveGroupCartesianPathService",
+    "move_group/MoveGroupKinematicsService",
+    "move_group/MoveGroupExecuteTrajectoryAction",
+    "move_group/MoveGroupMoveAction",
+    "move_group/MoveGroupPickPlaceAction",
+    "move_group/MoveGroupPlanService",
+    "move_group/MoveGroupQueryPlannersService",
+    "move_group/MoveGroupStateValidationService",
+    "move_group/MoveGroupGetPlanningSceneService",
+    "move_group/ApplyPlanningSceneService",
+    "move_group/ClearOctomapService",
+)
 # Clients wait for these two alone, and call everything else at once then.
 _LAST = ("move_group/MoveGroupExecuteTrajectoryAction", "move_group/MoveGroupMoveAction")
 _GREEN, _CYAN, _BLUE, _PLAIN = "\033[32m", "\033[36m", "\033[34m", "\033[0m"
@@ -63,8 +70,7 @@ class MoveGroup:
         description = robot_model.load(name, compiled_solvers=True)
         rospy.loginfo("Loading robot model '%s'...", description.model.name)
         if rospy.get_param("~collision_detector", "FCL") not in ("", "FCL"):
-            rospy.logwarn("collision_detector '%s' does not exist here; FCL is used",
-                          rospy.get_param("~collision_detector"))
+            rospy.logwarn("collision_detector '%s' does not exist here; FCL is used", rospy.get_param("~collision_detector"))
         buffer = tf2_ros.Buffer(rospy.Duration(10.0), debug=False)
         self._listener = tf2_ros.TransformListener(buffer)
         dynamics = bool(rospy.get_param("~monitor_dynamics", False))
@@ -77,10 +83,10 @@ class MoveGroup:
             execution = TrajectoryExecution(description.model, monitor.states)
             plan_execution = PlanExecution(monitor, execution)
         octomap = OccupancyMapMonitor(monitor, buffer)
-        self.context = Context(description, monitor, pipelines, execution, plan_execution, Display(description.model, debug),
-                               octomap, debug)
-        self._map_services = [rospy.Service("~load_map", LoadMap, self._load_map), rospy.Service("~save_map", SaveMap,
-                                                                                                 self._save_map)]
+        self.context = Context(
+            description, monitor, pipelines, execution, plan_execution, Display(description.model, debug), octomap, debug
+        )
+        self._map_services = [rospy.Service("~load_map", LoadMap, self._load_map), rospy.Service("~save_map", SaveMap, self._save_map)]
         self.capabilities: List[Capability] = []
         self._load_capabilities()
 
@@ -97,17 +103,16 @@ class MoveGroup:
         for name in sorted(self._wanted(), key=_LAST.__contains__):
             _print(f"{_CYAN}Loading '{name}'...{_PLAIN}")
             if name not in found:
-                rospy.logerr("Exception while loading move_group capability '%s': nobody exports it; there are: %s",
-                             name,
-                             ", ".join(sorted(found)))
+                rospy.logerr(
+                    "Exception while loading move_group capability '%s': nobody exports it; there are: %s", name, ", ".join(sorted(found))
+                )
                 continue
             try:
                 self.capabilities.append(found[name].load()(self.context))
             except PluginError as error:
                 rospy.logerr("Exception while loading move_group capability '%s': %s", name, error)
             except Exception as error:  # a third party's capability; the others are still of use
-                rospy.logerr("Exception while loading move_group capability '%s': %s: %s", name, type(error).__name__,
-                             one_line(error))
+                rospy.logerr("Exception while loading move_group capability '%s': %s: %s", name, type(error).__name__, one_line(error))
         bar = "********************************************************"
         rows = "\n".join(f"*     - {capability.title}" for capability in self.capabilities)
         rospy.loginfo("\n\n%s\n* MoveGroup using: \n%s\n%s\n", bar, rows, bar)

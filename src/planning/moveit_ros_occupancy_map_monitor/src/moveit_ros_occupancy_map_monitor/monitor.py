@@ -1,4 +1,5 @@
 """Keeps the octomap of the planning scene."""
+
 from __future__ import annotations
 
 import ctypes
@@ -9,7 +10,6 @@ from typing import Any, Callable, Dict, List, Optional, Tuple
 import motion
 import numpy as np
 import rospy
-
 from moveit_core import convert
 from node_signals.parameters import is_number
 from plugin_loader import PluginError, find_plugins
@@ -98,8 +98,16 @@ class OccupancyMapMonitor:
             self._map.assign(tree)
         self._publish()
 
-    def see(self, frame: str, stamp: rospy.Time, ends: np.ndarray, beyond: np.ndarray, scale: float,
-            padding: Callable[[float], float], shadow: float = 0.0) -> np.ndarray:
+    def see(
+        self,
+        frame: str,
+        stamp: rospy.Time,
+        ends: np.ndarray,
+        beyond: np.ndarray,
+        scale: float,
+        padding: Callable[[float], float],
+        shadow: float = 0.0,
+    ) -> np.ndarray:
         """Put what a sensor saw into the map, but for the robot, what it holds and the objects of the scene.
 
         :param frame: the sensor's frame; its origin is where rays begin.
@@ -117,8 +125,11 @@ class OccupancyMapMonitor:
         labels = motion.label_points(known, ends, origin, scale, shadow)
         with self._lock:
             if len(self._map) > _MOST_CELLS:
-                rospy.logerr("the octomap has more than %d cells and begins anew: make octomap_resolution (%g m) coarser, or "
-                             "max_range shorter", _MOST_CELLS, self._map.resolution)
+                rospy.logerr(
+                    "the octomap has more than %d cells and begins anew: make octomap_resolution (%g m) coarser, or max_range shorter",
+                    _MOST_CELLS,
+                    self._map.resolution,
+                )
                 self._map.clear()
             self._map.insert(origin, ends[labels == 0], ends[labels == INSIDE], beyond)
         self._publish()
@@ -145,14 +156,14 @@ class OccupancyMapMonitor:
             pose = self._transform(name, stamp)
             placed += [(shape, pose * motion.Pose(*at)) for shape, at in zip(link.shapes, link.shape_poses)]
             for body in held.get(name, ()):
-                placed += [(shape, pose * motion.Pose(*body.pose) * motion.Pose(*at))
-                           for shape, at in zip(body.shapes, body.shape_poses)]
+                placed += [(shape, pose * motion.Pose(*body.pose) * motion.Pose(*at)) for shape, at in zip(body.shapes, body.shape_poses)]
         names = [name for name in scene.objects if name != "<octomap>"]
         if names:
             frame = self._transform(scene.frame, stamp)
             for thing in map(scene.object, names):
-                placed += [(shape, frame * motion.Pose(*thing.pose) * motion.Pose(*at))
-                           for shape, at in zip(thing.shapes, thing.shape_poses)]
+                placed += [
+                    (shape, frame * motion.Pose(*thing.pose) * motion.Pose(*at)) for shape, at in zip(thing.shapes, thing.shape_poses)
+                ]
         return placed
 
     def _transform(self, frame: str, stamp: rospy.Time, target: Optional[str] = None) -> motion.Pose:
@@ -166,8 +177,10 @@ class OccupancyMapMonitor:
                 return convert.pose(found.transform, f"frame '{frame}'")
             except Exception as error:  # tf2 has many kinds
                 if time.monotonic() > end or rospy.is_shutdown():
-                    raise UpdaterError(f"what the sensor saw cannot be used: TF does not connect '{frame}' to '{target}' at "
-                                       f"{stamp.to_sec():.3f} s ({' '.join(str(error).split())[:100]})") from None
+                    raise UpdaterError(
+                        f"what the sensor saw cannot be used: TF does not connect '{frame}' to '{target}' at "
+                        f"{stamp.to_sec():.3f} s ({' '.join(str(error).split())[:100]})"
+                    ) from None
             time.sleep(0.01)
 
 

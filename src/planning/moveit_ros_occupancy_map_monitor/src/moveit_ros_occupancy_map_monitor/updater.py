@@ -4,6 +4,7 @@ A package that depends on ``moveit_ros_occupancy_map_monitor`` exports its updat
 ``<export><moveit_ros_occupancy_map_monitor plugin="${prefix}/plugins.xml"/></export>``; ``sensor_plugin`` of an entry in
 ``~sensors`` (sensors_3d.yaml) names the one.
 """
+
 from __future__ import annotations
 
 import threading
@@ -12,9 +13,9 @@ from typing import Any, Dict
 
 import motion
 import rospy
+from moveit_core.errors import MoveItError
 from node_signals.parameters import is_number
 from node_signals.rates import Spaced
-from moveit_core.errors import MoveItError
 
 #: points of one message that are looked at; of more, every second, third ... is taken
 MOST_POINTS = 60000

@@ -1,4 +1,5 @@
 """``occupancy_map_monitor/DepthImageOctomapUpdater``: an octomap from a depth camera's images."""
+
 from __future__ import annotations
 
 import math
@@ -25,7 +26,7 @@ def depths(message: Image) -> np.ndarray:
     if message.step < message.width * kind.itemsize or len(message.data) < message.step * message.height:
         raise UpdaterError(f"an image of {message.width} x {message.height} pixels with {len(message.data)} bytes is not whole")
     rows = np.frombuffer(message.data, np.uint8, message.step * message.height).reshape(message.height, message.step)
-    values = np.ascontiguousarray(rows[:, :message.width * kind.itemsize]).view(kind).astype(float) * scale
+    values = np.ascontiguousarray(rows[:, : message.width * kind.itemsize]).view(kind).astype(float) * scale
     values[~(values > 0) | ~np.isfinite(values)] = np.nan
     return values
 
@@ -70,8 +71,10 @@ class DepthImageUpdater(OccupancyMapUpdater):
         self._filtered = rospy.Publisher("~" + space + (self.text("filtered_cloud_topic") or "filtered_depth"), Image, queue_size=1)
         self._info: Optional[CameraInfo] = None
         self._info_topic = self._topic.rsplit("/", 1)[0] + "/camera_info"
-        self._subscribers = [rospy.Subscriber(self._info_topic, CameraInfo, self._on_info, queue_size=1),
-                             rospy.Subscriber(self._topic, Image, self.put, queue_size=1, buff_size=1 << 24)]
+        self._subscribers = [
+            rospy.Subscriber(self._info_topic, CameraInfo, self._on_info, queue_size=1),
+            rospy.Subscriber(self._topic, Image, self.put, queue_size=1, buff_size=1 << 24),
+        ]
         rospy.loginfo("Listening to '%s' for the octomap", self._topic)
 
     @property
@@ -85,7 +88,7 @@ class DepthImageUpdater(OccupancyMapUpdater):
 
     def _grown(self, distance: float) -> float:
         """m that known things are grown by at a distance."""
-        return self.padding + self.scale * _NOISE * distance ** 2
+        return self.padding + self.scale * _NOISE * distance**2
 
     def _on_info(self, message: CameraInfo) -> None:
         self._info = message
@@ -106,5 +109,6 @@ class DepthImageUpdater(OccupancyMapUpdater):
         u = np.rint(ends[:, 0] / ends[:, 2] * k[0] + k[2]).astype(int)
         v = np.rint(ends[:, 1] / ends[:, 2] * k[4] + k[5]).astype(int)
         image[np.clip(v, 0, shape[0] - 1), np.clip(u, 0, shape[1] - 1)] = np.clip(ends[:, 2] * 1e3 + 0.5, 0, 65535)
-        self._filtered.publish(Image(header=message.header, height=shape[0], width=shape[1], encoding="16UC1", step=2 * shape[1],
-                                     data=image.tobytes()))
+        self._filtered.publish(
+            Image(header=message.header, height=shape[0], width=shape[1], encoding="16UC1", step=2 * shape[1], data=image.tobytes())
+        )

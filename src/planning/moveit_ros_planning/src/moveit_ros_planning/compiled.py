@@ -1,4 +1,5 @@
 """Planners and request adapters of other packages that are compiled: planned with in this process."""
+
 from __future__ import annotations
 
 import io
@@ -8,10 +9,9 @@ from typing import Dict, List, Optional, Sequence
 import motion
 import rosgraph
 import rospy
-from moveit_msgs.msg import MotionPlanRequest, MotionPlanResponse, MoveItErrorCodes
-
 from moveit_core import scene_messages, states
 from moveit_core.errors import code_name
+from moveit_msgs.msg import MotionPlanRequest, MotionPlanResponse, MoveItErrorCodes
 from plugin_loader import PluginClass, find_plugins
 
 _PLANNER = "planning_interface::PlannerManager"
@@ -40,10 +40,17 @@ class CompiledPipeline:
 
     def __init__(self, description, namespace: str):
         from . import _pipelines  # type: ignore[attr-defined]  # compiled, and heavy: for those who need it only
+
         self._description = description
         self._pipeline = _pipelines.CompiledPipeline(
-            description.model, description.urdf, description.srdf, description=description.name,
-            pipeline=namespace.rstrip("/") or "/", node=rospy.get_name(), master=rosgraph.get_master_uri())
+            description.model,
+            description.urdf,
+            description.srdf,
+            description=description.name,
+            pipeline=namespace.rstrip("/") or "/",
+            node=rospy.get_name(),
+            master=rosgraph.get_master_uri(),
+        )
 
     @property
     def title(self) -> str:
@@ -53,8 +60,9 @@ class CompiledPipeline:
         """What the planner says it can do."""
         return list(self._pipeline.algorithms)
 
-    def generate(self, scene: motion.PlanningScene, message: MotionPlanRequest,
-                 cancel: Optional[motion.CancelToken] = None) -> motion.PlanResult:
+    def generate(
+        self, scene: motion.PlanningScene, message: MotionPlanRequest, cancel: Optional[motion.CancelToken] = None
+    ) -> motion.PlanResult:
         """Plan with all adapters. Never raises for what a request says: see the result's status."""
         done = threading.Event()
         if cancel is not None:
@@ -72,22 +80,33 @@ class CompiledPipeline:
             if cancel.cancelled:
                 self._pipeline.terminate()  # again and again: the planner may not have begun yet
 
-    def _result(self, scene, message: MotionPlanRequest, response: MotionPlanResponse, added: Sequence[int],
-                cancel: Optional[motion.CancelToken]) -> motion.PlanResult:
+    def _result(
+        self, scene, message: MotionPlanRequest, response: MotionPlanResponse, added: Sequence[int], cancel: Optional[motion.CancelToken]
+    ) -> motion.PlanResult:
         start, code = scene.state, response.error_code.val
         if cancel is not None and cancel.cancelled:
             return motion.PlanResult("cancelled", "planning was cancelled", start=start)
         if code != MoveItErrorCodes.SUCCESS:
-            return motion.PlanResult(_STATUS.get(code, "failed"), f"planner '{self.title}' answers {code_name(code)}",
-                                     start=start, planner=self.title, planning_time=response.planning_time)
+            return motion.PlanResult(
+                _STATUS.get(code, "failed"),
+                f"planner '{self.title}' answers {code_name(code)}",
+                start=start,
+                planner=self.title,
+                planning_time=response.planning_time,
+            )
         try:
             states.apply_robot_state(scene, start, response.trajectory_start, scene_messages.attach_to_state(scene))
             trajectory = states.trajectory_from_message(scene.model, message.group_name, start, response.trajectory)
         except (ValueError, motion.MotionError) as error:
-            return motion.PlanResult("failed", f"planner '{self.title}' answers what cannot be used: {error}",
-                                     start=start)
-        return motion.PlanResult("solved", trajectory=trajectory, start=trajectory.start, planner=self.title,
-                                 planning_time=response.planning_time, added_prefix=list(added))
+            return motion.PlanResult("failed", f"planner '{self.title}' answers what cannot be used: {error}", start=start)
+        return motion.PlanResult(
+            "solved",
+            trajectory=trajectory,
+            start=trajectory.start,
+            planner=self.title,
+            planning_time=response.planning_time,
+            added_prefix=list(added),
+        )
 
 
 def _bytes(message) -> bytes:

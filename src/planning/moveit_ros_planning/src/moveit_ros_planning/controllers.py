@@ -1,20 +1,23 @@
 """Which controllers execute a trajectory, and each one's share of it."""
+
 from __future__ import annotations
 
 import itertools
 from typing import Dict, List, Optional, Sequence, Set
 
 import rospy
-from moveit_msgs.msg import RobotTrajectory
-from trajectory_msgs.msg import JointTrajectoryPoint, MultiDOFJointTrajectoryPoint
-
 from moveit_core.controller_manager import ControllerManager
 from moveit_core.errors import one_line
+from moveit_msgs.msg import RobotTrajectory
 from plugin_loader import PluginError, find_plugins
+from trajectory_msgs.msg import JointTrajectoryPoint, MultiDOFJointTrajectoryPoint
 
 _SIMPLE = "moveit_simple_controller_manager/MoveItSimpleControllerManager"
-_WORDS = {"simple": _SIMPLE, "fake": "moveit_fake_controller_manager/MoveItFakeControllerManager",
-          "ros_control": "moveit_ros_control_interface::MoveItControllerManager"}
+_WORDS = {
+    "simple": _SIMPLE,
+    "fake": "moveit_fake_controller_manager/MoveItFakeControllerManager",
+    "ros_control": "moveit_ros_control_interface::MoveItControllerManager",
+}
 
 
 def load_manager(model, namespace: str = "~") -> Optional[ControllerManager]:
@@ -24,21 +27,31 @@ def load_manager(model, namespace: str = "~") -> Optional[ControllerManager]:
     name = rospy.get_param(namespace + "moveit_controller_manager", "")
     managers = {known: plugin for known, plugin in found.items() if plugin.base.endswith("MoveItControllerManager")}
     if name and not isinstance(name, str):
-        rospy.logerr("parameter %s is %s, where the name of a controller manager is expected: trajectories are planned, "
-                     "but cannot be executed", parameter, one_line(repr(name), 60))
+        rospy.logerr(
+            "parameter %s is %s, where the name of a controller manager is expected: trajectories are planned, but cannot be executed",
+            parameter,
+            one_line(repr(name), 60),
+        )
         return None
     if not name:
-        rospy.logerr("Failed to load any controller manager: parameter %s is not set (trajectory_execution.launch.xml "
-                     "sets it). "
-                     "Trajectories are planned, but cannot be executed", parameter)
+        rospy.logerr(
+            "Failed to load any controller manager: parameter %s is not set (trajectory_execution.launch.xml "
+            "sets it). "
+            "Trajectories are planned, but cannot be executed",
+            parameter,
+        )
         return None
     if name not in managers and _meant(name, namespace) in managers:
-        rospy.logwarn("parameter %s is '%s', which is no controller manager; it is taken for the word by which "
-                      "trajectory_execution.launch.xml chooses a file: %s is used", parameter, name, _meant(name, namespace))
+        rospy.logwarn(
+            "parameter %s is '%s', which is no controller manager; it is taken for the word by which "
+            "trajectory_execution.launch.xml chooses a file: %s is used",
+            parameter,
+            name,
+            _meant(name, namespace),
+        )
         name = _meant(name, namespace)
     if name not in managers:
-        rospy.logerr("Exception while loading controller manager '%s': nobody exports it; there are: %s", name,
-                     ", ".join(sorted(managers)))
+        rospy.logerr("Exception while loading controller manager '%s': nobody exports it; there are: %s", name, ", ".join(sorted(managers)))
         for problem in problems:
             rospy.logwarn("%s", problem)
         return None
@@ -81,8 +94,7 @@ class ControllerChoice:
         useful = [name for name in names if joints[name] & wanted]
         fallback: List[str] = []
         for count in range(1, len(useful) + 1):
-            options = [list(option) for option in itertools.combinations(useful, count) if self._covers(option, joints,
-                                                                                                        wanted)]
+            options = [list(option) for option in itertools.combinations(useful, count) if self._covers(option, joints, wanted)]
             options.sort(key=lambda option: self._rank(option, joints))
             if options and self._manage:
                 return options[0]
@@ -102,8 +114,12 @@ class ControllerChoice:
         return wanted <= covered
 
     def _rank(self, option: Sequence[str], joints: Dict[str, Set[str]]):
-        return (-sum(self._manager.is_default(name) for name in option), sum(len(joints[name]) for name in option),
-                -sum(self._manager.is_active(name) for name in option), list(option))
+        return (
+            -sum(self._manager.is_default(name) for name in option),
+            sum(len(joints[name]) for name in option),
+            -sum(self._manager.is_active(name) for name in option),
+            list(option),
+        )
 
     def activate(self, controllers: Sequence[str]) -> bool:
         """Make ``controllers`` active, and inactive those that hold their joints, where this node may switch at all."""
@@ -113,8 +129,9 @@ class ControllerChoice:
         if not self._manage:
             return False
         joints = {joint for name in idle for joint in self._manager.joints(name)}
-        holders = [name for name in self._manager.active_controllers()
-                   if name not in controllers and joints & set(self._manager.joints(name))]
+        holders = [
+            name for name in self._manager.active_controllers() if name not in controllers and joints & set(self._manager.joints(name))
+        ]
         return self._manager.switch(idle, holders)
 
 
@@ -133,8 +150,10 @@ def share(trajectory: RobotTrajectory, joints: Sequence[str], scaling: float = 1
     if mine:
         columns = [source.joint_names.index(name) for name in mine]
         target.header, target.joint_names = source.header, mine
-        target.points = [MultiDOFJointTrajectoryPoint(transforms=[point.transforms[i] for i in columns],
-                                                      time_from_start=point.time_from_start) for point in source.points]
+        target.points = [
+            MultiDOFJointTrajectoryPoint(transforms=[point.transforms[i] for i in columns], time_from_start=point.time_from_start)
+            for point in source.points
+        ]
     return part
 
 
@@ -142,5 +161,6 @@ def _point(point: JointTrajectoryPoint, columns: Sequence[int], scaling: float) 
     def pick(values, factor=1.0):
         return [values[i] * factor for i in columns] if len(values) else []
 
-    return JointTrajectoryPoint(pick(point.positions), pick(point.velocities, scaling), pick(point.accelerations),
-                                pick(point.effort), point.time_from_start)
+    return JointTrajectoryPoint(
+        pick(point.positions), pick(point.velocities, scaling), pick(point.accelerations), pick(point.effort), point.time_from_start
+    )

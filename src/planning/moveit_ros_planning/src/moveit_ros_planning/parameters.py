@@ -1,12 +1,12 @@
 """Parameters of a kind: what is of another kind is told in one line, and the default is used."""
+
 from __future__ import annotations
 
 from typing import Any, Dict
 
 import rospy
-from node_signals.parameters import is_number
-
 from moveit_core.errors import one_line
+from node_signals.parameters import is_number
 
 
 def table(name: str) -> Dict[str, Any]:
@@ -27,8 +27,9 @@ def _limits(name: str, entries: Dict[str, Any]) -> Dict[str, Dict[str, Any]]:
     usable: Dict[str, Dict[str, Any]] = {}
     for joint, entry in entries.items():
         if not isinstance(entry, dict):
-            rospy.logerr("parameter %s/%s is %s, where a table of limits is expected: the URDF's count", name, joint,
-                         one_line(repr(entry), 60))
+            rospy.logerr(
+                "parameter %s/%s is %s, where a table of limits is expected: the URDF's count", name, joint, one_line(repr(entry), 60)
+            )
             continue
         variables = {key: value for key, value in entry.items() if isinstance(value, dict)}
         usable.update((f"{joint}/{key}", value) for key, value in _limits(f"{name}/{joint}", variables).items())
@@ -42,6 +43,12 @@ def _limits(name: str, entries: Dict[str, Any]) -> Dict[str, Dict[str, Any]]:
             if isinstance(value, bool) if flag else is_number(value):
                 usable[joint][key] = value
             elif flag or key.startswith(("max_", "min_")):
-                rospy.logerr("parameter %s/%s/%s is %s, where %s is expected: it is ignored", name, joint, key,
-                             one_line(repr(value), 40), "true or false" if flag else "a number")
+                rospy.logerr(
+                    "parameter %s/%s/%s is %s, where %s is expected: it is ignored",
+                    name,
+                    joint,
+                    key,
+                    one_line(repr(value), 40),
+                    "true or false" if flag else "a number",
+                )
     return usable

@@ -1,12 +1,12 @@
 """All planning pipelines of a node."""
+
 from __future__ import annotations
 
 from typing import Dict, List, Optional
 
 import rospy
-from moveit_msgs.msg import MoveItErrorCodes
-
 from moveit_core.errors import PlanningError
+from moveit_msgs.msg import MoveItErrorCodes
 
 from .planning_pipeline import Pipeline, PipelineError
 from .robot_model import RobotDescription
@@ -42,8 +42,9 @@ class Pipelines:
     def _configured(namespace: str) -> List[str]:
         entries = rospy.get_param(namespace + "planning_pipelines", {})
         if not isinstance(entries, dict):
-            rospy.logerr("Parameter '%splanning_pipelines' is expected to be a dictionary of pipeline configurations.",
-                         rospy.resolve_name(namespace))
+            rospy.logerr(
+                "Parameter '%splanning_pipelines' is expected to be a dictionary of pipeline configurations.", rospy.resolve_name(namespace)
+            )
             return []
         names = []
         for name, entry in sorted(entries.items()):
@@ -58,12 +59,13 @@ class Pipelines:
         if wanted in names:
             return wanted
         if wanted:
-            rospy.logwarn("MoveGroup launched with ~default_planning_pipeline '%s' not configured in "
-                          "~planning_pipelines", wanted)
+            rospy.logwarn("MoveGroup launched with ~default_planning_pipeline '%s' not configured in ~planning_pipelines", wanted)
         elif len(names) > 1:
-            rospy.logwarn("MoveGroup launched without ~default_planning_pipeline specifying the namespace for the "
-                          "default planning "
-                          "pipeline configuration")
+            rospy.logwarn(
+                "MoveGroup launched without ~default_planning_pipeline specifying the namespace for the "
+                "default planning "
+                "pipeline configuration"
+            )
         if not names:
             rospy.logwarn("Falling back to using the move_group node's namespace (deprecated Melodic behavior).")
             return ""
@@ -80,5 +82,4 @@ class Pipelines:
             return self.pipelines[name]
         known = ", ".join(f"'{known}'" for known in self.pipelines)
         why = self.refused.get(name, "")
-        raise PlanningError(MoveItErrorCodes.FAILURE,
-                            why or f"Couldn't find requested planning pipeline '{name}'; there are: {known}")
+        raise PlanningError(MoveItErrorCodes.FAILURE, why or f"Couldn't find requested planning pipeline '{name}'; there are: {known}")

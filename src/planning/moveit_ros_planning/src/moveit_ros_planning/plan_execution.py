@@ -1,4 +1,5 @@
 """Plan, execute while watching the scene, and plan again where that was asked for."""
+
 from __future__ import annotations
 
 import threading
@@ -8,21 +9,27 @@ from typing import Any, Callable, Dict, List, Optional
 
 import motion
 import rospy
-from moveit_msgs.msg import MoveItErrorCodes, PlanningScene, RobotTrajectory
-from trajectory_msgs.msg import JointTrajectoryPoint
-
 from dynamic_parameters import Parameter, Server
 from moveit_core import states
 from moveit_core.controller_manager import ExecutionStatus
 from moveit_core.errors import PlanningError
+from moveit_msgs.msg import MoveItErrorCodes, PlanningScene, RobotTrajectory
+from trajectory_msgs.msg import JointTrajectoryPoint
 
 from .scene_monitor import GEOMETRY, TRANSFORMS, SceneMonitor
 from .trajectory_execution import ExecutionError, TrajectoryExecution
 
 _PARAMETERS = [
     Parameter("max_replan_attempts", int, 5, 0, 1000, "Set the maximum number of times a motion is planned again", 1),
-    Parameter("record_trajectory_state_frequency", float, 0.0, 0.0, 1000.0,
-              "The frequency at which to record states when monitoring trajectories", 6),
+    Parameter(
+        "record_trajectory_state_frequency",
+        float,
+        0.0,
+        0.0,
+        1000.0,
+        "The frequency at which to record states when monitoring trajectories",
+        6,
+    ),
 ]
 #: of looking around before a motion: known to clients, but no sensor here can be turned to look
 _SENSING = [
@@ -32,8 +39,12 @@ _SENSING = [
     Parameter("discard_overlapping_cost_sources", float, 0.8, 0.01, 1.0, "Places that overlap by more count as one"),
 ]
 #: outcomes after which planning again may help
-_AGAIN = (MoveItErrorCodes.PLANNING_FAILED, MoveItErrorCodes.INVALID_MOTION_PLAN,
-          MoveItErrorCodes.UNABLE_TO_AQUIRE_SENSOR_DATA, MoveItErrorCodes.MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE)
+_AGAIN = (
+    MoveItErrorCodes.PLANNING_FAILED,
+    MoveItErrorCodes.INVALID_MOTION_PLAN,
+    MoveItErrorCodes.UNABLE_TO_AQUIRE_SENSOR_DATA,
+    MoveItErrorCodes.MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE,
+)
 
 
 @dataclass
@@ -86,10 +97,17 @@ class PlanExecution:
     def _reconfigure(self, config, _level) -> None:
         self.config = config
 
-    def plan_and_execute(self, make: Callable[[motion.PlanningScene], Plan], diff: PlanningScene, stop: Stop,
-                         replan: bool = False,
-                         attempts: int = 0, delay: float = 0.0, before: Callable[[], None] = lambda: None,
-                         stops: Optional[int] = None) -> Plan:
+    def plan_and_execute(
+        self,
+        make: Callable[[motion.PlanningScene], Plan],
+        diff: PlanningScene,
+        stop: Stop,
+        replan: bool = False,
+        attempts: int = 0,
+        delay: float = 0.0,
+        before: Callable[[], None] = lambda: None,
+        stops: Optional[int] = None,
+    ) -> Plan:
         """Plan with ``make(scene)`` and execute; with ``replan``, again after failures that planning again may mend.
 
         :param delay: wall seconds between attempts.
@@ -140,8 +158,7 @@ class PlanExecution:
 class _Run:
     """One execution of a plan, watched."""
 
-    def __init__(self, monitor: SceneMonitor, execution: TrajectoryExecution, plan: Plan, diff, stop: Stop,
-                 stops: Optional[int]):
+    def __init__(self, monitor: SceneMonitor, execution: TrajectoryExecution, plan: Plan, diff, stop: Stop, stops: Optional[int]):
         self._monitor = monitor
         self._execution = execution
         self._plan = plan
@@ -197,8 +214,9 @@ class _Run:
             plan.code, plan.message = codes.TIMED_OUT, execution.reason
         else:
             plan.code = codes.CONTROL_FAILED
-            plan.message = execution.reason or ("it was said to stop" if execution.status is ExecutionStatus.PREEMPTED
-                                                else f"the execution ended {execution.status.value}")
+            plan.message = execution.reason or (
+                "it was said to stop" if execution.status is ExecutionStatus.PREEMPTED else f"the execution ended {execution.status.value}"
+            )
 
     def _segment_done(self, index: int) -> bool:
         segment = self._plan.segments[index]
@@ -238,9 +256,11 @@ class _Run:
     @staticmethod
     def _describe(segment: Segment, number: int, count: int, found) -> str:
         between = f" ('{found.contacts[0].body_1}' meets '{found.contacts[0].body_2}')" if found.contacts else ""
-        return (f"Trajectory component '{segment.description}' is invalid after scene update: way point {number} of "
-                f"{count} is in "
-                f"collision{between}. Stopping the execution")
+        return (
+            f"Trajectory component '{segment.description}' is invalid after scene update: way point {number} of "
+            f"{count} is in "
+            f"collision{between}. Stopping the execution"
+        )
 
 
 class _Recorder:
@@ -275,6 +295,7 @@ class _Recorder:
         message.joint_trajectory.header.frame_id = self._monitor.model.frame
         message.joint_trajectory.joint_names = names
         for seconds, state in self._rows:
-            message.joint_trajectory.points.append(JointTrajectoryPoint(
-                positions=[state.get(name) for name in names], time_from_start=rospy.Duration.from_sec(seconds)))
+            message.joint_trajectory.points.append(
+                JointTrajectoryPoint(positions=[state.get(name) for name in names], time_from_start=rospy.Duration.from_sec(seconds))
+            )
         return message

@@ -1,4 +1,5 @@
 """Planner configurations as ompl_planning.yaml gives them, per group, and changes to them at run time."""
+
 from __future__ import annotations
 
 import threading
@@ -6,12 +7,15 @@ from typing import Any, Dict, List, Sequence, Tuple
 
 import motion
 import rospy
-
 from moveit_core.errors import one_line
 
 #: settings of a group that every planner of it inherits
-_GROUP_KEYS = ("projection_evaluator", "longest_valid_segment_fraction", "enforce_joint_model_state_space",
-               "enforce_constrained_state_space")
+_GROUP_KEYS = (
+    "projection_evaluator",
+    "longest_valid_segment_fraction",
+    "enforce_joint_model_state_space",
+    "enforce_constrained_state_space",
+)
 _DEFAULT = "geometric::RRTConnect"
 
 
@@ -32,9 +36,11 @@ class PlannerConfigs:
         shared = rospy.get_param(namespace + "planner_configs", {})
         self._shared = shared if isinstance(shared, dict) else {}
         if not isinstance(shared, dict):
-            rospy.logerr("parameter %splanner_configs is %s, where a table is expected: planners have their defaults",
-                         namespace,
-                         one_line(repr(shared), 60))
+            rospy.logerr(
+                "parameter %splanner_configs is %s, where a table is expected: planners have their defaults",
+                namespace,
+                one_line(repr(shared), 60),
+            )
         for group in model.groups:
             self._load_group(group)
 
@@ -49,8 +55,7 @@ class PlannerConfigs:
         self._configs[group] = default
         names = entry.get("planner_configs", [])
         if not isinstance(names, list):
-            rospy.logerr("The planner_configs argument of a group configuration should be an array of strings (for "
-                         "group '%s')", group)
+            rospy.logerr("The planner_configs argument of a group configuration should be an array of strings (for group '%s')", group)
             return
         for name in names:
             config = self._config(group, str(name), common)
@@ -60,10 +65,14 @@ class PlannerConfigs:
     def _config(self, group: str, name: str, common: Dict[str, str]) -> Dict[str, str]:
         entry = self._shared.get(name)
         if not isinstance(entry, dict):
-            rospy.logerr("Could not find the planner configuration '%s' on the param server; group '%s' uses %s "
-                         "instead (harmless: "
-                         "%s has %s)", name, group, _DEFAULT, rospy.resolve_name(self._namespace + "planner_configs"),
-                         ", ".join(sorted(self._shared)) or "none")
+            rospy.logerr(
+                "Could not find the planner configuration '%s' on the param server; group '%s' uses %s instead (harmless: %s has %s)",
+                name,
+                group,
+                _DEFAULT,
+                rospy.resolve_name(self._namespace + "planner_configs"),
+                ", ".join(sorted(self._shared)) or "none",
+            )
             return {}
         if "type" not in entry:
             rospy.logerr("The planning configuration '%s' does not have a type", name)
@@ -82,18 +91,22 @@ class PlannerConfigs:
             if planner_id:
                 name = planner_id if group in planner_id else f"{group}[{planner_id}]"
                 if name not in self._configs:
-                    known = sorted(key[len(group) + 1:-1] for key in self._configs if key.startswith(group + "["))
-                    rospy.logwarn("Cannot find planning configuration for group '%s' using planner '%s'. Will use "
-                                  "defaults instead. "
-                                  "Known planners: %s", group, planner_id, ", ".join(known) or "none")
+                    known = sorted(key[len(group) + 1 : -1] for key in self._configs if key.startswith(group + "["))
+                    rospy.logwarn(
+                        "Cannot find planning configuration for group '%s' using planner '%s'. Will use "
+                        "defaults instead. "
+                        "Known planners: %s",
+                        group,
+                        planner_id,
+                        ", ".join(known) or "none",
+                    )
                     name = group
             return name, dict(self._configs.get(name, {"type": _DEFAULT}))
 
     def get(self, group: str, config: str) -> Dict[str, str]:
         """Settings for get_planner_params: of the planner, overlaid by those of ``group[config]``."""
         with self._lock:
-            settings = {str(key): as_text(value) for key, value in self._shared.get(config,
-                                                                                    {}).items()} if config else {}
+            settings = {str(key): as_text(value) for key, value in self._shared.get(config, {}).items()} if config else {}
             settings.update(self._configs.get(f"{group}[{config}]" if config and group else config or group, {}))
             return settings
 

@@ -1,5 +1,6 @@
 """Planning pipelines: a planner and the adapters around it, configured from parameters, for MotionPlanRequest
 messages."""
+
 from __future__ import annotations
 
 import time
@@ -9,13 +10,12 @@ from typing import Any, Callable, Dict, List, Optional, Set, Tuple
 
 import motion
 import rospy
-from moveit_msgs.msg import Constraints, MotionPlanRequest, MoveItErrorCodes
-from shape_msgs.msg import SolidPrimitive
-
 from dynamic_parameters import Parameter, Server
 from moveit_core import convert, states
 from moveit_core.errors import MoveItError, PlanningError, code_name, one_line
 from moveit_core.scene_messages import attach_to_state
+from moveit_msgs.msg import Constraints, MotionPlanRequest, MoveItErrorCodes
+from shape_msgs.msg import SolidPrimitive
 
 from .compiled import CompiledPipeline, exported
 from .planner_configs import PlannerConfigs
@@ -24,15 +24,18 @@ from .robot_model import RobotDescription
 _OMPL = "ompl_interface/OMPLPlanner"
 _PILZ = ("pilz_industrial_motion_planner::CommandPlanner", "pilz_industrial_motion_planner/CommandPlanner")
 _PARAMETERS = [
-    Parameter("simplify_solutions", bool, True, description="Flag indicating whether computed motion plans are also "
-              "simplified"),
-    Parameter("minimum_waypoint_count", int, 2, 2, 10000, "Set the minimum number of waypoints to include in a motion "
-              "plan"),
-    Parameter("maximum_waypoint_distance", float, 0.0, 0.0, 50.0,
-              "The maximum distance between consecutive waypoints along the solution path (0.0 means 'ignore')"),
+    Parameter("simplify_solutions", bool, True, description="Flag indicating whether computed motion plans are also simplified"),
+    Parameter("minimum_waypoint_count", int, 2, 2, 10000, "Set the minimum number of waypoints to include in a motion plan"),
+    Parameter(
+        "maximum_waypoint_distance",
+        float,
+        0.0,
+        0.0,
+        50.0,
+        "The maximum distance between consecutive waypoints along the solution path (0.0 means 'ignore')",
+    ),
     Parameter("link_for_exploration_tree", str, "", description="Show the exploration tree for a particular link"),
-    Parameter("display_random_valid_states", bool, False,
-              description="Flag indicating whether random valid states are to be published"),
+    Parameter("display_random_valid_states", bool, False, description="Flag indicating whether random valid states are to be published"),
 ]
 
 
@@ -87,8 +90,7 @@ class Pipeline:
         try:
             return CompiledPipeline(self._description, rospy.resolve_name(self.namespace.rstrip("/")))
         except Exception as error:  # a third party's code and its libraries: nothing of it may take the node down
-            raise PipelineError(f"Exception while loading planner '{self.plugin}': {one_line(error, 300)} "
-                                f"({parameter})") from error
+            raise PipelineError(f"Exception while loading planner '{self.plugin}': {one_line(error, 300)} ({parameter})") from error
 
     @property
     def title(self) -> str:
@@ -105,8 +107,9 @@ class Pipeline:
             return self.compiled.planner_ids()
         return ["CIRC", "LIN", "PTP"] if self.is_pilz else self.configs.names()
 
-    def generate(self, scene: motion.PlanningScene, message: MotionPlanRequest,
-                 cancel: Optional[motion.CancelToken] = None) -> motion.PlanResult:
+    def generate(
+        self, scene: motion.PlanningScene, message: MotionPlanRequest, cancel: Optional[motion.CancelToken] = None
+    ) -> motion.PlanResult:
         """Plan, with all adapters; the result's trajectory is timed.
 
         :param scene: the caller's own; its state is where the robot is.
@@ -121,13 +124,17 @@ class Pipeline:
         took = time.monotonic() - started
         self._warn(result.warnings)
         if result and result.trajectory is not None:
-            rospy.loginfo("Planned a motion of %.2f s with %d way points for group '%s' in %.3f s (%s)",
-                          result.trajectory.duration,
-                          len(result.trajectory), message.group_name, took, result.planner or self.title)
+            rospy.loginfo(
+                "Planned a motion of %.2f s with %d way points for group '%s' in %.3f s (%s)",
+                result.trajectory.duration,
+                len(result.trajectory),
+                message.group_name,
+                took,
+                result.planner or self.title,
+            )
         else:
             log = rospy.loginfo if result.code == MoveItErrorCodes.PREEMPTED else rospy.logerr
-            log("No motion plan for group '%s': %s (%s, after %.3f s)", message.group_name, result.message,
-                code_name(result.code), took)
+            log("No motion plan for group '%s': %s (%s, after %.3f s)", message.group_name, result.message, code_name(result.code), took)
         return result
 
     def _warn(self, warnings: List[str]) -> None:
@@ -149,8 +156,11 @@ class Pipeline:
         :raises PlanningError: one of the requests cannot be understood.
         """
         if self.compiled is not None:
-            raise PlanningError(MoveItErrorCodes.FAILURE, f"pipeline '{self.name}' is compiled ({self.title}): sequences are planned by "
-                                "pilz_industrial_motion_planner and ompl; name one of them in pipeline_id")
+            raise PlanningError(
+                MoveItErrorCodes.FAILURE,
+                f"pipeline '{self.name}' is compiled ({self.title}): sequences are planned by "
+                "pilz_industrial_motion_planner and ompl; name one of them in pipeline_id",
+            )
         requests = []
         for message, radius in items:
             request = self.request(scene, message)
@@ -185,43 +195,64 @@ class Pipeline:
         if not self.is_pilz:
             fields = self._planner_fields(settings)
         return motion.MotionRequest(
-            group, goals=goals, start=start, path_constraints=None if path.empty() else path,
-            planner=name if self.is_pilz else settings.pop("type"), planner_params=settings,
-            planning_time=self._planning_time(message), attempts=max(1, message.num_planning_attempts),
+            group,
+            goals=goals,
+            start=start,
+            path_constraints=None if path.empty() else path,
+            planner=name if self.is_pilz else settings.pop("type"),
+            planner_params=settings,
+            planning_time=self._planning_time(message),
+            attempts=max(1, message.num_planning_attempts),
             velocity_scaling=self._scaling(message.max_velocity_scaling_factor, "max_velocity_scaling_factor"),
-            acceleration_scaling=self._scaling(message.max_acceleration_scaling_factor,
-                                               "max_acceleration_scaling_factor"),
-            workspace=_workspace(message), cartesian_link=message.cartesian_speed_limited_link,
-            cartesian_speed=message.max_cartesian_speed, **fields)
+            acceleration_scaling=self._scaling(message.max_acceleration_scaling_factor, "max_acceleration_scaling_factor"),
+            workspace=_workspace(message),
+            cartesian_link=message.cartesian_speed_limited_link,
+            cartesian_speed=message.max_cartesian_speed,
+            **fields,
+        )
 
     def _unused(self, message: MotionPlanRequest) -> List[str]:
         """A line for each thing that the request says and nobody here looks at."""
-        lines = [f"the request has {name}, which planner '{self.title}' does not use: they are ignored"
-                 for name, given in (("trajectory_constraints", message.trajectory_constraints.constraints),
-                                     ("reference_trajectories", message.reference_trajectories)) if given]
+        lines = [
+            f"the request has {name}, which planner '{self.title}' does not use: they are ignored"
+            for name, given in (
+                ("trajectory_constraints", message.trajectory_constraints.constraints),
+                ("reference_trajectories", message.reference_trajectories),
+            )
+            if given
+        ]
         if message.max_cartesian_speed > 0 and "LimitMaxCartesianLinkSpeed" not in self._adapters.adapters:
-            lines.append("the request has max_cartesian_speed, which is ignored: there is no default_planner_request_adapters/"
-                         f"LimitMaxCartesianLinkSpeed in {rospy.resolve_name(self.namespace + 'request_adapters')}")
+            lines.append(
+                "the request has max_cartesian_speed, which is ignored: there is no default_planner_request_adapters/"
+                f"LimitMaxCartesianLinkSpeed in {rospy.resolve_name(self.namespace + 'request_adapters')}"
+            )
         return lines
 
     def _check_group(self, group: str) -> None:
         if not group:
             raise PlanningError(MoveItErrorCodes.INVALID_GROUP_NAME, "the request names no group")
         if not self.model.has_group(group):
-            raise PlanningError(MoveItErrorCodes.FAILURE, f"the robot '{self.model.name}' has no group '{group}'; it "
-                                f"has: "
-                                + (", ".join(self.model.groups) or "none"))
+            raise PlanningError(
+                MoveItErrorCodes.FAILURE,
+                f"the robot '{self.model.name}' has no group '{group}'; it has: " + (", ".join(self.model.groups) or "none"),
+            )
 
     def _planner_fields(self, settings: Dict[str, str]) -> Dict[str, Any]:
-        fields: Dict[str, Any] = {"simplify": self.config["simplify_solutions"],
-                                  "maximum_waypoint_distance": self.config["maximum_waypoint_distance"],
-                                  "minimum_waypoint_count": self.config["minimum_waypoint_count"]}
-        for key, name, make in (("longest_valid_segment_fraction", "longest_valid_segment_fraction", float),
-                                ("projection_evaluator", "projection", str), ("interpolate", "interpolate", _truth),
-                                ("simplify_solutions", "simplify", _truth), ("hybridize", "hybridize", _truth),
-                                ("maximum_waypoint_distance", "maximum_waypoint_distance", float),
-                                ("minimum_waypoint_count", "minimum_waypoint_count", int),
-                                ("enforce_joint_model_state_space", "enforce_joint_space", _truth)):
+        fields: Dict[str, Any] = {
+            "simplify": self.config["simplify_solutions"],
+            "maximum_waypoint_distance": self.config["maximum_waypoint_distance"],
+            "minimum_waypoint_count": self.config["minimum_waypoint_count"],
+        }
+        for key, name, make in (
+            ("longest_valid_segment_fraction", "longest_valid_segment_fraction", float),
+            ("projection_evaluator", "projection", str),
+            ("interpolate", "interpolate", _truth),
+            ("simplify_solutions", "simplify", _truth),
+            ("hybridize", "hybridize", _truth),
+            ("maximum_waypoint_distance", "maximum_waypoint_distance", float),
+            ("minimum_waypoint_count", "minimum_waypoint_count", int),
+            ("enforce_joint_model_state_space", "enforce_joint_space", _truth),
+        ):
             if key not in settings:
                 continue
             text = settings.pop(key)
@@ -236,8 +267,9 @@ class Pipeline:
     def _planning_time(message: MotionPlanRequest) -> float:
         if message.allowed_planning_time > 0:
             return message.allowed_planning_time
-        rospy.loginfo("The timeout for planning must be positive (%g specified). Assuming one second instead.",
-                      message.allowed_planning_time)
+        rospy.loginfo(
+            "The timeout for planning must be positive (%g specified). Assuming one second instead.", message.allowed_planning_time
+        )
         return 1.0
 
     @staticmethod
@@ -259,13 +291,13 @@ class Pipeline:
         return state
 
     def _goals(self, scene, message: MotionPlanRequest) -> List[motion.Constraints]:
-        goals = [self._constraints(scene, goal,
-                                   MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS) for goal in message.goal_constraints]
+        goals = [self._constraints(scene, goal, MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS) for goal in message.goal_constraints]
         goals = [goal for goal in goals if not goal.empty()]
         if not goals:
-            raise PlanningError(MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS,
-                                "the request has no goal: set a pose, joint or named target first (a target that was "
-                                "cleared is none)")
+            raise PlanningError(
+                MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS,
+                "the request has no goal: set a pose, joint or named target first (a target that was cleared is none)",
+            )
         group = self.model.group(message.group_name)
         self._loosen(message.group_name, goals)
         for constraint in {entry.joint: entry for goal in goals for entry in goal.joint}.values():
@@ -287,8 +319,14 @@ class Pipeline:
             return
         if constraint.position > bounds.max_position + 1e-9 or constraint.position < bounds.min_position - 1e-9:
             limit = bounds.max_position if constraint.position > bounds.max_position else bounds.min_position
-            rospy.logwarn("Joint %s is constrained to be at %.4g, beyond its limits %.4g to %.4g. Assuming %.4g instead.",
-                          constraint.joint, constraint.position, bounds.min_position, bounds.max_position, limit)
+            rospy.logwarn(
+                "Joint %s is constrained to be at %.4g, beyond its limits %.4g to %.4g. Assuming %.4g instead.",
+                constraint.joint,
+                constraint.position,
+                bounds.min_position,
+                bounds.max_position,
+                limit,
+            )
 
     def _loosen(self, group: str, goals: List[motion.Constraints]) -> None:
         """Where kinematics.yaml says position_only_ik, a pose goal is its position: such an arm cannot keep the rest."""
@@ -330,18 +368,26 @@ def _points(message: MotionPlanRequest) -> Tuple[MotionPlanRequest, Optional[mot
     for goal in message.goal_constraints:
         for position in goal.position_constraints:
             region = position.constraint_region
-            region.primitives = [region.primitives[i] if i < len(region.primitives) else SolidPrimitive(SolidPrimitive.SPHERE, [1e-4])
-                                 for i in range(len(region.primitive_poses))]
+            region.primitives = [
+                region.primitives[i] if i < len(region.primitives) else SolidPrimitive(SolidPrimitive.SPHERE, [1e-4])
+                for i in range(len(region.primitive_poses))
+            ]
     if message.planner_id != "CIRC":
         return message, None
     given = message.path_constraints
     if given.name not in ("interim", "center"):
-        raise PlanningError(MoveItErrorCodes.INVALID_MOTION_PLAN, "CIRC needs path constraints named 'interim' or 'center', whose "
-                            f"position constraint has its auxiliary point; these are named '{given.name[:40]}'")
+        raise PlanningError(
+            MoveItErrorCodes.INVALID_MOTION_PLAN,
+            "CIRC needs path constraints named 'interim' or 'center', whose "
+            f"position constraint has its auxiliary point; these are named '{given.name[:40]}'",
+        )
     poses = [pose for position in given.position_constraints for pose in position.constraint_region.primitive_poses]
     if len(given.position_constraints) != 1 or len(poses) != 1:
-        raise PlanningError(MoveItErrorCodes.INVALID_MOTION_PLAN, f"the path constraints '{given.name}' of CIRC need one position "
-                            f"constraint with one of primitive_poses: there are {len(given.position_constraints)} with {len(poses)}")
+        raise PlanningError(
+            MoveItErrorCodes.INVALID_MOTION_PLAN,
+            f"the path constraints '{given.name}' of CIRC need one position "
+            f"constraint with one of primitive_poses: there are {len(given.position_constraints)} with {len(poses)}",
+        )
     position, at = given.position_constraints[0], poses[0].position
     given.position_constraints = []
     try:
@@ -352,9 +398,11 @@ def _points(message: MotionPlanRequest) -> Tuple[MotionPlanRequest, Optional[mot
 
 
 def _no_kinematics(group: str, description: RobotDescription) -> str:
-    return (f"group '{group}' has no kinematics solver, so a pose cannot be its goal: kinematics.yaml "
-            f"({description.name}_kinematics/{group}/kinematics_solver) names none. Give it "
-            f"kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin, or set joint values as the goal")
+    return (
+        f"group '{group}' has no kinematics solver, so a pose cannot be its goal: kinematics.yaml "
+        f"({description.name}_kinematics/{group}/kinematics_solver) names none. Give it "
+        f"kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin, or set joint values as the goal"
+    )
 
 
 def _truth(text: str) -> bool:
@@ -371,13 +419,14 @@ def _cartesian_limits(description: RobotDescription) -> motion.CartesianLimits:
     given = description.planning("cartesian_limits", {})
     given = given if isinstance(given, dict) else {}
     names = ("max_trans_vel", "max_trans_acc", "max_trans_dec", "max_rot_vel")
-    return motion.CartesianLimits(**{key: float(given[key]) for key in names if isinstance(given.get(key), (int,
-                                                                                                            float))})
+    return motion.CartesianLimits(**{key: float(given[key]) for key in names if isinstance(given.get(key), (int, float))})
 
 
 def _refusal(plugin: str, parameter: str) -> str:
     if not plugin:
         return f"{parameter} is not set: this pipeline has no planner"
     there = ", ".join(sorted({_PILZ[0], *exported("planner")}))
-    return (f"Exception while loading planner '{plugin}': it does not exist here, no package exports it; there are: {there}. "
-            f"Requests for this pipeline fail; use pipeline:=ompl ({parameter})")
+    return (
+        f"Exception while loading planner '{plugin}': it does not exist here, no package exports it; there are: {there}. "
+        f"Requests for this pipeline fail; use pipeline:=ompl ({parameter})"
+    )

@@ -1,4 +1,5 @@
 """The robot from the parameter server: description, semantics, limits, kinematics, padding."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -7,7 +8,6 @@ from typing import Any, Dict, List, Optional, Tuple
 import motion
 import rospkg
 import rospy
-
 from moveit_core.errors import MoveItError, one_line
 from node_signals.parameters import number_or
 
@@ -62,8 +62,9 @@ def resolve(name: str) -> str:
     return found or rospy.resolve_name(name)
 
 
-def load(name: str = "robot_description", meshes: bool = True, own_namespace: Optional[str] = "~",
-         compiled_solvers: bool = False) -> RobotDescription:
+def load(
+    name: str = "robot_description", meshes: bool = True, own_namespace: Optional[str] = "~", compiled_solvers: bool = False
+) -> RobotDescription:
     """Read a robot from the parameter server.
 
     :param own_namespace: where ``<group>/kinematics_solver`` is looked up first.
@@ -73,19 +74,23 @@ def load(name: str = "robot_description", meshes: bool = True, own_namespace: Op
     where = resolve(name)
     urdf = rospy.get_param(where, None)
     if not urdf or not isinstance(urdf, str):
-        raise DescriptionError(f"Robot model parameter not found! Did you remap '{name}'? '{where}' is "
-                               f"{'empty' if urdf is not None else 'not set'}: load the robot first "
-                               f"(planning_context.launch "
-                               f"with load_robot_description:=true, or the launch file that starts the robot)")
+        raise DescriptionError(
+            f"Robot model parameter not found! Did you remap '{name}'? '{where}' is "
+            f"{'empty' if urdf is not None else 'not set'}: load the robot first "
+            f"(planning_context.launch "
+            f"with load_robot_description:=true, or the launch file that starts the robot)"
+        )
     srdf = rospy.get_param(f"{where}_semantic", None)
     if not srdf:
-        rospy.logerr("Could not find parameter '%s_semantic': the robot has no planning groups. Load the SRDF there, "
-                     "as "
-                     "planning_context.launch does", where)
+        rospy.logerr(
+            "Could not find parameter '%s_semantic': the robot has no planning groups. Load the SRDF there, "
+            "as "
+            "planning_context.launch does",
+            where,
+        )
     limits = joint_limits(f"{where}_planning/joint_limits")
     try:
-        model = motion.load_model(urdf, srdf or None, joint_limits=limits, find_package=Packages().directory,
-                                  meshes=meshes)
+        model = motion.load_model(urdf, srdf or None, joint_limits=limits, find_package=Packages().directory, meshes=meshes)
     except (motion.MotionError, ValueError, LookupError) as error:
         raise DescriptionError(f"the robot description in {where} cannot be used: {one_line(error, 400)}") from error
     for warning in model.warnings:
@@ -118,21 +123,33 @@ def _kinematics(where: str, model: motion.RobotModel, own_namespace: Optional[st
         if own_namespace is not None and rospy.has_param(f"{own_namespace}{group}/kinematics_solver"):
             entry = rospy.get_param(f"{own_namespace}{group}")
         if not isinstance(entry, dict):
-            rospy.logerr("parameter %s_kinematics/%s is %s, where a table with kinematics_solver is expected: group "
-                         "'%s' has no "
-                         "kinematics", where, group, one_line(repr(entry), 60), group)
+            rospy.logerr(
+                "parameter %s_kinematics/%s is %s, where a table with kinematics_solver is expected: group '%s' has no kinematics",
+                where,
+                group,
+                one_line(repr(entry), 60),
+                group,
+            )
             continue
         if entry.get("kinematics_solver"):
             result[group] = _group_kinematics(f"{where}_kinematics/{group}", entry)
     unknown = [name for name in shared if name not in model.groups]
     if unknown:
-        rospy.logwarn("kinematics.yaml (%s_kinematics) names %s, which the robot '%s' has no group for; its groups: %s",
-                      where,
-                      ", ".join(f"'{name}'" for name in unknown), model.name, ", ".join(model.groups) or "none")
+        rospy.logwarn(
+            "kinematics.yaml (%s_kinematics) names %s, which the robot '%s' has no group for; its groups: %s",
+            where,
+            ", ".join(f"'{name}'" for name in unknown),
+            model.name,
+            ", ".join(model.groups) or "none",
+        )
     if model.groups and not result:
-        rospy.logwarn("No kinematics plugins defined. Fill and load kinematics.yaml! Goals given as poses will fail "
-                      "(%s_kinematics "
-                      "names no group of '%s')", where, model.name)
+        rospy.logwarn(
+            "No kinematics plugins defined. Fill and load kinematics.yaml! Goals given as poses will fail "
+            "(%s_kinematics "
+            "names no group of '%s')",
+            where,
+            model.name,
+        )
     return result
 
 
@@ -141,13 +158,17 @@ def _group_kinematics(where: str, entry: Dict[str, Any]) -> Kinematics:
         return number_or(f"{where}/{key}", entry.get(key, default), default)
 
     links = entry.get("kinematics_solver_ik_links", [])
-    return Kinematics(solver=_words(entry["kinematics_solver"]), timeout=read("kinematics_solver_timeout", 0.5),
-                      joint_tolerance=read("goal_joint_tolerance", 1e-4),
-                      position_tolerance=read("goal_position_tolerance", 1e-4),
-                      orientation_tolerance=read("goal_orientation_tolerance", 1e-3),
-                      position_only=bool(entry.get("position_only_ik", False)), epsilon=read("epsilon", 1e-5),
-                      links=[str(link) for link in links] if isinstance(links, list) else [],
-                      resolution=read("kinematics_solver_search_resolution", 0.1))
+    return Kinematics(
+        solver=_words(entry["kinematics_solver"]),
+        timeout=read("kinematics_solver_timeout", 0.5),
+        joint_tolerance=read("goal_joint_tolerance", 1e-4),
+        position_tolerance=read("goal_position_tolerance", 1e-4),
+        orientation_tolerance=read("goal_orientation_tolerance", 1e-3),
+        position_only=bool(entry.get("position_only_ik", False)),
+        epsilon=read("epsilon", 1e-5),
+        links=[str(link) for link in links] if isinstance(links, list) else [],
+        resolution=read("kinematics_solver_search_resolution", 0.1),
+    )
 
 
 def _words(value: Any) -> str:
@@ -177,8 +198,11 @@ def _numbers(description: RobotDescription, key: str, model) -> Dict[str, float]
     values = description.planning(key, {})
     if not isinstance(values, dict):
         return {}
-    return {name: number_or(f"{description.name}_planning/{key}/{name}", value, 0.0 if "padding" in key else 1.0)
-            for name, value in values.items() if model.has_link(name)}
+    return {
+        name: number_or(f"{description.name}_planning/{key}/{name}", value, 0.0 if "padding" in key else 1.0)
+        for name, value in values.items()
+        if model.has_link(name)
+    }
 
 
 def _planning_number(description: RobotDescription, key: str, default: float) -> float:
@@ -195,13 +219,14 @@ def _collision_operations(description: RobotDescription, scene) -> None:
         try:
             matrix.set(entry["object1"], entry["object2"], entry["operation"] == "disable")
         except (KeyError, TypeError):
-            rospy.logwarn("All collision operations must have two objects and an operation, not %s",
-                          one_line(repr(entry), 80))
+            rospy.logwarn("All collision operations must have two objects and an operation, not %s", one_line(repr(entry), 80))
     if operations:
         scene.set_acm(matrix)
 
 
 def scaling_factors(description: RobotDescription) -> Tuple[float, float]:
     """Default velocity and acceleration scaling of clients."""
-    return (_planning_number(description, "default_velocity_scaling_factor", 0.1),
-            _planning_number(description, "default_acceleration_scaling_factor", 0.1))
+    return (
+        _planning_number(description, "default_velocity_scaling_factor", 0.1),
+        _planning_number(description, "default_acceleration_scaling_factor", 0.1),
+    )

@@ -1,4 +1,5 @@
 """The scene around the robot, kept up to date from topics, TF and joint states, and published for others to see."""
+
 from __future__ import annotations
 
 import threading
@@ -8,11 +9,10 @@ from typing import AbstractSet, Callable, List, Optional, Set
 import motion
 import rospy
 import yaml
-from moveit_msgs.msg import AttachedCollisionObject, CollisionObject, PlanningScene, PlanningSceneWorld
-
 from dynamic_parameters import Parameter, Server
 from moveit_core import convert, scene_messages, states
 from moveit_core.scene_messages import SceneEditor
+from moveit_msgs.msg import AttachedCollisionObject, CollisionObject, PlanningScene, PlanningSceneWorld
 
 from .robot_model import RobotDescription, prepare_scene
 from .state_monitor import CurrentStateMonitor
@@ -22,15 +22,14 @@ STATE, TRANSFORMS, GEOMETRY, SCENE = 1, 2, 4, 8
 
 _PARAMETERS = [
     Parameter("publish_planning_scene", bool, False, description="Set to True to publish Planning Scenes", level=1),
-    Parameter("publish_planning_scene_hz", float, 4.0, 0.1, 100.0,
-              "Set the maximum frequency at which planning scene updates are published", 2),
-    Parameter("publish_geometry_updates", bool, True, description="Set to True to publish geometry updates of the "
-              "planning scene",
-              level=3),
-    Parameter("publish_state_updates", bool, False, description="Set to True to publish state updates of the planning "
-              "scene", level=4),
-    Parameter("publish_transforms_updates", bool, False,
-              description="Set to True to publish transform updates of the planning scene", level=5),
+    Parameter(
+        "publish_planning_scene_hz", float, 4.0, 0.1, 100.0, "Set the maximum frequency at which planning scene updates are published", 2
+    ),
+    Parameter("publish_geometry_updates", bool, True, description="Set to True to publish geometry updates of the planning scene", level=3),
+    Parameter("publish_state_updates", bool, False, description="Set to True to publish state updates of the planning scene", level=4),
+    Parameter(
+        "publish_transforms_updates", bool, False, description="Set to True to publish transform updates of the planning scene", level=5
+    ),
 ]
 
 
@@ -53,16 +52,18 @@ class SceneMonitor:
         self._octomap_gone: Callable[[], None] = lambda: None
         options = f"{namespace}planning_scene_monitor_options/"
         self.name = rospy.get_param(options + "name", "planning_scene_monitor")
-        self.states = CurrentStateMonitor(self.model, tf_buffer, rospy.get_param(options + "joint_state_topic",
-                                                                                 "joint_states"),
-                                          dynamics)
+        self.states = CurrentStateMonitor(self.model, tf_buffer, rospy.get_param(options + "joint_state_topic", "joint_states"), dynamics)
         self.states.on_update(self._state_changed)
         self._subscribe(options)
-        self._publishing = ScenePublisher(self, rospy.get_param(options + "publish_planning_scene_topic",
-                                                                namespace + "monitored_planning_scene"))
-        unset = {entry.name: True
-                 for entry in _PARAMETERS if entry.type is bool  # everything is published unless told not to
-                 and not rospy.has_param(f"{namespace}planning_scene_monitor/{entry.name}")}
+        self._publishing = ScenePublisher(
+            self, rospy.get_param(options + "publish_planning_scene_topic", namespace + "monitored_planning_scene")
+        )
+        unset = {
+            entry.name: True
+            for entry in _PARAMETERS
+            if entry.type is bool  # everything is published unless told not to
+            and not rospy.has_param(f"{namespace}planning_scene_monitor/{entry.name}")
+        }
         self._server = Server(namespace + "planning_scene_monitor", _PARAMETERS, self._reconfigure, unset)
 
     def _subscribe(self, options: str) -> None:
@@ -72,12 +73,15 @@ class SceneMonitor:
             rospy.Subscriber(scene_topic, PlanningScene, self._on_scene, queue_size=100),
             rospy.Subscriber("planning_scene_world", PlanningSceneWorld, self._on_world, queue_size=1),
             rospy.Subscriber("collision_object", CollisionObject, self._on_object, queue_size=1024),
-            rospy.Subscriber(attached, AttachedCollisionObject, self._on_attached, queue_size=1024)]
+            rospy.Subscriber(attached, AttachedCollisionObject, self._on_attached, queue_size=1024),
+        ]
 
     def _reconfigure(self, config, _level) -> None:
-        kinds = (GEOMETRY | SCENE if config["publish_geometry_updates"] else 0) | (
-            STATE
-            if config["publish_state_updates"] else 0) | (TRANSFORMS if config["publish_transforms_updates"] else 0)
+        kinds = (
+            (GEOMETRY | SCENE if config["publish_geometry_updates"] else 0)
+            | (STATE if config["publish_state_updates"] else 0)
+            | (TRANSFORMS if config["publish_transforms_updates"] else 0)
+        )
         self._publishing.configure(config["publish_planning_scene"], config["publish_planning_scene_hz"], kinds | SCENE)
 
     def shutdown(self) -> None:
@@ -142,8 +146,7 @@ class SceneMonitor:
 
     # --- writing ---
 
-    def edit(self, change: Callable[[SceneEditor], bool], kinds: int, objects: AbstractSet[str] = frozenset(),
-             whole: bool = False) -> bool:
+    def edit(self, change: Callable[[SceneEditor], bool], kinds: int, objects: AbstractSet[str] = frozenset(), whole: bool = False) -> bool:
         """Let ``change`` write into the scene, then tell everybody. ``objects`` are those of the world that it may
         touch."""
         with self._lock:
@@ -159,7 +162,8 @@ class SceneMonitor:
         if not message.is_diff:
             rospy.loginfo("a whole planning scene came: it replaces all objects and allowed collisions")
         names = {item.id for item in message.world.collision_objects} | {
-            body.object.id for body in message.robot_state.attached_collision_objects}
+            body.object.id for body in message.robot_state.attached_collision_objects
+        }
         octomap = message.world.octomap.octomap
         if octomap.data:
             names.add(scene_messages.OCTOMAP)
@@ -178,14 +182,15 @@ class SceneMonitor:
 
     def process_attached(self, message: AttachedCollisionObject) -> bool:
         """Apply one AttachedCollisionObject message."""
-        return self.edit(lambda editor: editor.attached_object(message), GEOMETRY | STATE, {message.object.id},
-                         whole=not message.object.id)
+        return self.edit(lambda editor: editor.attached_object(message), GEOMETRY | STATE, {message.object.id}, whole=not message.object.id)
 
     def set_octomap(self, tree, pose) -> None:
         """Put an octomap into the scene, or take it out (None)."""
+
         def change(editor) -> bool:
             self._scene.set_octomap(tree, pose)
             return True
+
         # Without one the whole scene is published: in a diff, no octomap means that nothing is said of it.
         self.edit(change, GEOMETRY, {scene_messages.OCTOMAP}, whole=tree is None)
 
@@ -229,6 +234,7 @@ class SceneMonitor:
 
     def _on_world(self, message: PlanningSceneWorld) -> None:
         """A world message replaces all objects and the octomap."""
+
         def change(editor) -> bool:
             before = list(self._scene.objects)
             self._scene.clear_objects()
@@ -239,6 +245,7 @@ class SceneMonitor:
             for name in set(before) - {scene_messages.OCTOMAP}:
                 self._scene.forget(name)
             return editor.octomap(message.octomap) and good
+
         if not message.octomap.octomap.data:
             self._octomap_gone()
         self.edit(change, GEOMETRY, whole=True)
@@ -365,5 +372,10 @@ def _frames(buffer) -> List[str]:
 def _is_empty_diff(message: PlanningScene) -> bool:
     return states.is_empty(message.robot_state) and not (
         message.world.collision_objects
-        or message.world.octomap.octomap.id or message.allowed_collision_matrix.entry_names
-        or message.link_padding or message.link_scale or message.fixed_frame_transforms or message.object_colors)
+        or message.world.octomap.octomap.id
+        or message.allowed_collision_matrix.entry_names
+        or message.link_padding
+        or message.link_scale
+        or message.fixed_frame_transforms
+        or message.object_colors
+    )

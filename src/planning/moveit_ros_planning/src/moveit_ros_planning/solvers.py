@@ -1,11 +1,11 @@
 """Compiled inverse kinematics (vendors' plugins, generated IKFast packages) in the robots of Python programs."""
+
 from __future__ import annotations
 
 from typing import Dict, List
 
 import rosgraph
 import rospy
-
 from moveit_core.errors import one_line
 from plugin_loader import PluginClass, find_plugins
 
@@ -45,13 +45,28 @@ def _group(description, group: str, names: List[str], exported: Dict[str, Plugin
         except Exception as error:  # a third party's code and its libraries: nothing of it may take the node down
             reasons.append(one_line(error, 300))
     if names:
-        rospy.logwarn("kinematics_solver '%s' of group '%s' cannot be used: the motion library's own takes its place (%s)",
-                      " ".join(names), group, reasons[0] if reasons else "")
+        rospy.logwarn(
+            "kinematics_solver '%s' of group '%s' cannot be used: the motion library's own takes its place (%s)",
+            " ".join(names),
+            group,
+            reasons[0] if reasons else "",
+        )
 
 
 def _install(description, group: str, name: str) -> None:
     from . import _solvers  # type: ignore[attr-defined]  # compiled, and heavy: for those who need it only
+
     settings = description.kinematics[group]
-    _solvers.install(description.model, description.urdf, description.srdf, group, name, description=description.name,
-                     tips=settings.links, resolution=settings.resolution, timeout=settings.timeout,
-                     node=rospy.get_name(), master=rosgraph.get_master_uri())
+    _solvers.install(
+        description.model,
+        description.urdf,
+        description.srdf,
+        group,
+        name,
+        description=description.name,
+        tips=settings.links,
+        resolution=settings.resolution,
+        timeout=settings.timeout,
+        node=rospy.get_name(),
+        master=rosgraph.get_master_uri(),
+    )

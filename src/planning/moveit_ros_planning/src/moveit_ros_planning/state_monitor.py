@@ -1,4 +1,5 @@
 """The current state of the robot, from joint states and TF, and what is wrong when it is not known."""
+
 from __future__ import annotations
 
 import threading
@@ -9,10 +10,9 @@ import motion
 import numpy as np
 import rosgraph
 import rospy
-from sensor_msgs.msg import JointState
-
 from moveit_core import convert, states
 from moveit_core.errors import one_line
+from sensor_msgs.msg import JointState
 
 #: clock jumps back by more than this (s): a simulation that was reset or a looping bag; all stamps are forgotten
 _JUMP = 0.5
@@ -52,15 +52,17 @@ class CurrentStateMonitor:
 
     def _received(self, message: JointState) -> None:
         if len(message.name) != len(message.position):
-            rospy.logerr_throttle(1, "State monitor received invalid joint state (number of joint names does not match "
-                                  "number of "
-                                     f"positions): {len(message.name)} names, {len(message.position)} positions on "
-                                     f"{self.topic}")
+            rospy.logerr_throttle(
+                1,
+                "State monitor received invalid joint state (number of joint names does not match "
+                "number of "
+                f"positions): {len(message.name)} names, {len(message.position)} positions on "
+                f"{self.topic}",
+            )
             return
         stamp = message.header.stamp
         if stamp.is_zero():
-            rospy.logwarn_once("joint states on %s carry no time; the time of their arrival is used instead",
-                               self.topic)
+            rospy.logwarn_once("joint states on %s carry no time; the time of their arrival is used instead", self.topic)
             stamp = rospy.Time.now()
         with self._lock:
             changed = self._take(message, stamp)
@@ -79,8 +81,7 @@ class CurrentStateMonitor:
             if name not in self._single or self._stamps.get(name, stamp) > stamp:
                 continue  # of another robot, or older than what is known: two publishers may repeat each other
             if not np.isfinite(message.position[i]):
-                rospy.logerr_throttle(5, f"joint '{name}' has the position {message.position[i]} on {self.topic}: "
-                                      f"ignored")
+                rospy.logerr_throttle(5, f"joint '{name}' has the position {message.position[i]} on {self.topic}: ignored")
                 continue
             self._stamps[name] = stamp
             values[name] = self._bounded(name, message.position[i])
@@ -102,8 +103,11 @@ class CurrentStateMonitor:
     def _take_dynamics(self, message: JointState, values) -> None:
         for field, values_of in (("velocities", message.velocity), ("efforts", message.effort)):
             if len(values_of) == len(message.name):
-                array = np.array(getattr(self._state, field)) if getattr(self._state, field) is not None else np.zeros(
-                    len(self._model.variables))
+                array = (
+                    np.array(getattr(self._state, field))
+                    if getattr(self._state, field) is not None
+                    else np.zeros(len(self._model.variables))
+                )
                 for i, name in enumerate(message.name):
                     if name in values:
                         array[self._index[name]] = values_of[i]
@@ -137,8 +141,7 @@ class CurrentStateMonitor:
         """Joints never heard of, or (``since``) not newer than that; of one group or of the whole robot."""
         wanted = self._wanted(group)
         with self._lock:
-            return [name for name in wanted
-                    if name not in self._stamps or (since is not None and self._stamps[name] < since)]
+            return [name for name in wanted if name not in self._stamps or (since is not None and self._stamps[name] < since)]
 
     def _frames_missing(self, group: str) -> Dict[str, str]:
         """Joints with several variables that TF has never told of, and why, but for those that were waited for already."""
@@ -169,8 +172,11 @@ class CurrentStateMonitor:
             left = end - time.monotonic()
             if left <= 0 or rospy.is_shutdown():
                 for name, why in frames.items():
-                    rospy.logwarn("Unable to update multi-DOF joint '%s': TF has no transform %s. It is taken to be where a state "
-                                  "begins by default", name, why)
+                    rospy.logwarn(
+                        "Unable to update multi-DOF joint '%s': TF has no transform %s. It is taken to be where a state begins by default",
+                        name,
+                        why,
+                    )
                 self._told.update(frames)
                 heard = any(name in self._stamps for name in self._single)
                 return not late or (heard and self._excuse(late))
@@ -206,10 +212,11 @@ class CurrentStateMonitor:
         if publishers == []:
             others = self._other_topics()
             if others:
-                return (text + f"Nobody publishes {self.topic}, but there is {' and '.join(others[:3])}: remap it "
-                        f"(joint_states:={others[0]} on the command line)")
-            return (text + f"Nobody publishes {self.topic}: start the robot, its joint_state_controller or "
-                    "joint_state_publisher")
+                return (
+                    text + f"Nobody publishes {self.topic}, but there is {' and '.join(others[:3])}: remap it "
+                    f"(joint_states:={others[0]} on the command line)"
+                )
+            return text + f"Nobody publishes {self.topic}: start the robot, its joint_state_controller or joint_state_publisher"
         by = f" ({self.topic} comes from {', '.join(publishers)})" if publishers else ""
         if never:
             return text + f"Never heard of {_names(never)}{by}"
@@ -218,12 +225,16 @@ class CurrentStateMonitor:
             behind = (rospy.Time.now() - self._stamps[oldest]).to_sec() if oldest else 0.0
         if abs(behind) > 1e6:
             mode = "simulated (/use_sim_time is true)" if rospy.get_param("/use_sim_time", False) else "wall time"
-            return text + (f"The stamps of {_names(late)} and the clock of this node, which is {mode}, are not of the "
-                           f"same kind: start "
-                           f"both with the same /use_sim_time{by}")
-        return text + (f"Newest value of {_names(late)} is {behind:.2f} s old{by}. Check clock synchronization if you "
-                       f"are running "
-                       f"ROS across multiple machines")
+            return text + (
+                f"The stamps of {_names(late)} and the clock of this node, which is {mode}, are not of the "
+                f"same kind: start "
+                f"both with the same /use_sim_time{by}"
+            )
+        return text + (
+            f"Newest value of {_names(late)} is {behind:.2f} s old{by}. Check clock synchronization if you "
+            f"are running "
+            f"ROS across multiple machines"
+        )
 
     def _publishers(self) -> Optional[List[str]]:
         try:
@@ -245,5 +256,4 @@ class CurrentStateMonitor:
 
 def _names(names: List[str]) -> str:
     shown = ", ".join(f"'{name}'" for name in names[:6])
-    return ("joint "
-            if len(names) == 1 else "joints ") + shown + (f" and {len(names) - 6} more" if len(names) > 6 else "")
+    return ("joint " if len(names) == 1 else "joints ") + shown + (f" and {len(names) - 6} more" if len(names) > 6 else "")

@@ -1,4 +1,5 @@
 """Executes trajectories through controllers, watches that they take the time they should, and stops them."""
+
 from __future__ import annotations
 
 import bisect
@@ -10,33 +11,55 @@ from dataclasses import dataclass
 from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple
 
 import rospy
-from moveit_msgs.msg import MoveItErrorCodes, RobotTrajectory
-from std_msgs.msg import String
-
 from dynamic_parameters import Parameter, Server
 from moveit_core import states
 from moveit_core.controller_manager import ControllerHandle, ControllerManager, ExecutionStatus
 from moveit_core.errors import MoveItError
+from moveit_msgs.msg import MoveItErrorCodes, RobotTrajectory
+from std_msgs.msg import String
 
 from .controllers import ControllerChoice, load_manager, share
 from .state_monitor import CurrentStateMonitor
 
 _PARAMETERS = [
-    Parameter("execution_duration_monitoring", bool, True, description="Monitor the execution duration of a "
-              "trajectory. If expected "
-              "duration is exceeded, the trajectory is canceled.", level=1),
-    Parameter("allowed_execution_duration_scaling", float, 1.1, 1.0, 10.0,
-              "Accept durations that take a little more time than specified", 2),
-    Parameter("allowed_goal_duration_margin", float, 0.5, 0.1, 30.0,
-              "Allow more than the expected execution time before triggering a trajectory cancel (applied after "
-              "scaling)", 3),
+    Parameter(
+        "execution_duration_monitoring",
+        bool,
+        True,
+        description="Monitor the execution duration of a trajectory. If expected duration is exceeded, the trajectory is canceled.",
+        level=1,
+    ),
+    Parameter(
+        "allowed_execution_duration_scaling", float, 1.1, 1.0, 10.0, "Accept durations that take a little more time than specified", 2
+    ),
+    Parameter(
+        "allowed_goal_duration_margin",
+        float,
+        0.5,
+        0.1,
+        30.0,
+        "Allow more than the expected execution time before triggering a trajectory cancel (applied after scaling)",
+        3,
+    ),
     Parameter("execution_velocity_scaling", float, 1.0, 0.1, 10.0, "Multiplicative factor for execution speed", 4),
-    Parameter("allowed_start_tolerance", float, 0.01, 0.0, None,
-              "Allowed joint-value tolerance for validation of trajectory's start point against current robot state",
-              5),
-    Parameter("wait_for_trajectory_completion", bool, True, description="Wait for trajectory completion. If set to "
-              "false, do not "
-              "wait for controllers to converge to last way point, before reporting success.", level=6),
+    Parameter(
+        "allowed_start_tolerance",
+        float,
+        0.01,
+        0.0,
+        None,
+        "Allowed joint-value tolerance for validation of trajectory's start point against current robot state",
+        5,
+    ),
+    Parameter(
+        "wait_for_trajectory_completion",
+        bool,
+        True,
+        description="Wait for trajectory completion. If set to "
+        "false, do not "
+        "wait for controllers to converge to last way point, before reporting success.",
+        level=6,
+    ),
 ]
 #: a line about the remaining time is printed this often (s)
 _REPORT = 5.0
@@ -131,8 +154,9 @@ class TrajectoryExecution:
         finally:
             self._on_stop.remove(call)
 
-    def start(self, trajectories: Sequence[RobotTrajectory],
-              on_segment: Optional[Callable[[int], bool]] = None, stops: Optional[int] = None) -> "Execution":
+    def start(
+        self, trajectories: Sequence[RobotTrajectory], on_segment: Optional[Callable[[int], bool]] = None, stops: Optional[int] = None
+    ) -> "Execution":
         """Start to execute trajectories one after the other.
 
         :param on_segment: called with the index of each that has ended well; False stops.
@@ -145,8 +169,7 @@ class TrajectoryExecution:
         first = next((step for step in steps if step.parts), None)
         with self._lock:
             if self.busy:
-                raise ExecutionError("Cannot push a new trajectory while another is being executed: wait for it, or "
-                                     "stop it")
+                raise ExecutionError("Cannot push a new trajectory while another is being executed: wait for it, or stop it")
             if first is not None:
                 self._check_start(first)
             execution = Execution(self, steps, on_segment)
@@ -158,9 +181,11 @@ class TrajectoryExecution:
         if states.is_empty_trajectory(trajectory) or self._takes_no_time(trajectory):
             return _Step([], [], [])
         if self.manager is None or self.choice is None:
-            raise ExecutionError(f"no controller manager is loaded: "
-                                 f"{rospy.resolve_name(self.namespace + 'moveit_controller_manager')} "
-                                 "names none that could be used, so nothing can be executed")
+            raise ExecutionError(
+                f"no controller manager is loaded: "
+                f"{rospy.resolve_name(self.namespace + 'moveit_controller_manager')} "
+                "names none that could be used, so nothing can be executed"
+            )
         self._check_points(trajectory)
         wanted = self.choice.actuated(trajectory)
         if not wanted:
@@ -170,9 +195,11 @@ class TrajectoryExecution:
             self.manager.reload()
             chosen = self.choice.choose(wanted)
         if not chosen:
-            raise ExecutionError("Unable to identify any set of controllers that can actuate the specified joints: "
-                                 f"[ {' '.join(sorted(wanted))} ]. Known controllers and their joints: "
-                                 f"{self.manager.describe()}")
+            raise ExecutionError(
+                "Unable to identify any set of controllers that can actuate the specified joints: "
+                f"[ {' '.join(sorted(wanted))} ]. Known controllers and their joints: "
+                f"{self.manager.describe()}"
+            )
         scaling = float(self.config["execution_velocity_scaling"])
         parts = [share(trajectory, self.manager.joints(name), scaling) for name in chosen]
         points = trajectory.joint_trajectory.points or trajectory.multi_dof_joint_trajectory.points
@@ -182,16 +209,19 @@ class TrajectoryExecution:
         joints, multi = trajectory.joint_trajectory, trajectory.multi_dof_joint_trajectory
         for name in (*joints.joint_names, *multi.joint_names):
             if not self.model.has_joint(name):
-                raise ExecutionError(f"the trajectory moves joint '{name}', which the robot '{self.model.name}' does "
-                                     f"not have")
+                raise ExecutionError(f"the trajectory moves joint '{name}', which the robot '{self.model.name}' does not have")
         for number, point in enumerate(joints.points):
             self._check_numbers(number, joints.joint_names, "positions", point.positions)
             for what in ("velocities", "accelerations", "effort"):
                 if getattr(point, what):
                     self._check_numbers(number, joints.joint_names, what, getattr(point, what))
         for number, point in enumerate(multi.points):
-            places = [value for place in point.transforms for vector in (place.translation, place.rotation)
-                      for value in (getattr(vector, axis) for axis in vector.__slots__)]
+            places = [
+                value
+                for place in point.transforms
+                for vector in (place.translation, place.rotation)
+                for value in (getattr(vector, axis) for axis in vector.__slots__)
+            ]
             self._check_numbers(number, multi.joint_names, "transforms", point.transforms, places)
         for points in (joints.points, multi.points):
             self._check_times([point.time_from_start.to_sec() for point in points])
@@ -221,10 +251,9 @@ class TrajectoryExecution:
     def _tolerances(self) -> Dict[str, float]:
         table = rospy.get_param(self.namespace + "trajectory_execution/joints_allowed_start_tolerance", {})
         result = {}
-        for name, value in (table.items() if isinstance(table, dict) else ()):
+        for name, value in table.items() if isinstance(table, dict) else ():
             if not isinstance(value, (int, float)) or value < 0:
-                rospy.logwarn("joints_allowed_start_tolerance/%s is %r: ignored, a number of 0 or more is expected",
-                              name, value)
+                rospy.logwarn("joints_allowed_start_tolerance/%s is %r: ignored, a number of 0 or more is expected", name, value)
             else:
                 result[name] = float(value)
         return result
@@ -240,8 +269,9 @@ class TrajectoryExecution:
         now = rospy.Time.now()
         joints = [name for part in step.parts for name in part.joint_trajectory.joint_names]
         if not self._heard_of(joints, now):
-            raise ExecutionError("Failed to validate trajectory: couldn't receive full current joint state within 1s. "
-                                 + self.monitor.explain(1.0, now))
+            raise ExecutionError(
+                "Failed to validate trajectory: couldn't receive full current joint state within 1s. " + self.monitor.explain(1.0, now)
+            )
         state = self.monitor.state()
         for part in step.parts:
             first = part.joint_trajectory.points[0] if part.joint_trajectory.points else None
@@ -249,11 +279,13 @@ class TrajectoryExecution:
                 allowed = self.tolerance(name, table)
                 off = self._distance(name, value, state.get(name))
                 if allowed and not off <= allowed:
-                    raise ExecutionError(f"Invalid Trajectory: start point deviates from current robot state more than "
-                                         f"{allowed:g}: "
-                                         f"joint '{name}' is {off:.4f} off (expected: {value:g}, current: "
-                                         f"{state.get(name):g}). "
-                                         f"Plan again from where the robot is now")
+                    raise ExecutionError(
+                        f"Invalid Trajectory: start point deviates from current robot state more than "
+                        f"{allowed:g}: "
+                        f"joint '{name}' is {off:.4f} off (expected: {value:g}, current: "
+                        f"{state.get(name):g}). "
+                        f"Plan again from where the robot is now"
+                    )
 
     def _heard_of(self, joints: Sequence[str], since: rospy.Time) -> bool:
         self.monitor.wait_for_current(since, 1.0)
@@ -382,8 +414,7 @@ class Execution:
                 return f"No controller handle for controller '{name}'. Aborting. {manager.describe()}"
             if not handle.send(part):
                 self._cancel()
-                return (f"Failed to send trajectory part {number} of {len(step.parts)} to controller {name}: "
-                        f"{handle.reason}")
+                return f"Failed to send trajectory part {number} of {len(step.parts)} to controller {name}: {handle.reason}"
             self._handles.append(handle)
         return ""
 
@@ -412,19 +443,23 @@ class Execution:
                     rospy.loginfo("Executing: %.1f s of %.1f s remain", planned - gone, planned)
                 if gone > allowed and self._owner.config["execution_duration_monitoring"]:
                     self._cancel()
-                    return self._fail("Controller is taking too long to execute trajectory (the expected upper bound "
-                                      "for the "
-                                      f"trajectory execution was {allowed:f} seconds). Stopping trajectory. Controller "
-                                      f"{handle.name} "
-                                      "has not said that it is done; parameter "
-                                      "trajectory_execution/allowed_execution_duration_scaling "
-                                      "gives it more time", ExecutionStatus.TIMED_OUT)
+                    return self._fail(
+                        "Controller is taking too long to execute trajectory (the expected upper bound "
+                        "for the "
+                        f"trajectory execution was {allowed:f} seconds). Stopping trajectory. Controller "
+                        f"{handle.name} "
+                        "has not said that it is done; parameter "
+                        "trajectory_execution/allowed_execution_duration_scaling "
+                        "gives it more time",
+                        ExecutionStatus.TIMED_OUT,
+                    )
             if self._stopped.is_set():
                 return ExecutionStatus.PREEMPTED
             if handle.status is not ExecutionStatus.SUCCEEDED:
                 self._cancel()
                 self.reason = f"Controller handle {handle.name} reports status {handle.status.value}" + (
-                    f": {handle.reason}" if handle.reason else "")
+                    f": {handle.reason}" if handle.reason else ""
+                )
                 rospy.logwarn("%s", self.reason)
                 return handle.status
         return ExecutionStatus.SUCCEEDED
@@ -450,5 +485,8 @@ class Execution:
 
 def error_code(status: ExecutionStatus) -> int:
     """The MoveItErrorCodes value of an execution that ended with ``status``."""
-    return {ExecutionStatus.SUCCEEDED: MoveItErrorCodes.SUCCESS, ExecutionStatus.PREEMPTED: MoveItErrorCodes.PREEMPTED,
-            ExecutionStatus.TIMED_OUT: MoveItErrorCodes.TIMED_OUT}.get(status, MoveItErrorCodes.CONTROL_FAILED)
+    return {
+        ExecutionStatus.SUCCEEDED: MoveItErrorCodes.SUCCESS,
+        ExecutionStatus.PREEMPTED: MoveItErrorCodes.PREEMPTED,
+        ExecutionStatus.TIMED_OUT: MoveItErrorCodes.TIMED_OUT,
+    }.get(status, MoveItErrorCodes.CONTROL_FAILED)

@@ -1,4 +1,5 @@
 """One group's commands, under the names of the compiled module."""
+
 from __future__ import annotations
 
 from typing import Callable, Iterable, List, Sequence, Tuple, Type, TypeVar, Union
@@ -15,7 +16,8 @@ from sensor_msgs.msg import JointState
 Message = TypeVar("Message")
 
 # What MoveGroupCommander does with the same arguments and the same answer.
-_SAME = frozenset("""
+_SAME = frozenset(
+    """
     allow_looking allow_replanning attach_object clear_max_cartesian_link_speed clear_path_constraints clear_pose_target
     clear_pose_targets clear_trajectory_constraints detach_object forget_joint_values get_active_joints
     get_current_joint_values get_current_rpy get_end_effector_link get_goal_joint_tolerance get_goal_orientation_tolerance
@@ -26,7 +28,8 @@ _SAME = frozenset("""
     set_goal_orientation_tolerance set_goal_position_tolerance set_goal_tolerance set_max_acceleration_scaling_factor
     set_max_velocity_scaling_factor set_num_planning_attempts set_planner_id set_planning_pipeline_id set_planning_time
     set_pose_reference_frame set_random_target set_start_state_to_current_state set_support_surface_name stop
-    """.split())
+    """.split()
+)
 
 
 def _message(kind: Type[Message], data: bytes) -> Message:
@@ -183,10 +186,16 @@ class MoveGroupInterface:
         trajectory, fraction = self._group.compute_cartesian_path(poses, eef_step, *rest)
         return msg_to_string(trajectory), fraction
 
-    def retime_trajectory(self, reference_state: bytes, trajectory: bytes, velocity_scaling_factor: float,
-                          acceleration_scaling_factor: float, algorithm: str) -> bytes:
-        timed = self._group.retime_trajectory(_message(RobotState, reference_state), _message(RobotTrajectory, trajectory),
-                                              velocity_scaling_factor, acceleration_scaling_factor, algorithm)
+    def retime_trajectory(
+        self, reference_state: bytes, trajectory: bytes, velocity_scaling_factor: float, acceleration_scaling_factor: float, algorithm: str
+    ) -> bytes:
+        timed = self._group.retime_trajectory(
+            _message(RobotState, reference_state),
+            _message(RobotTrajectory, trajectory),
+            velocity_scaling_factor,
+            acceleration_scaling_factor,
+            algorithm,
+        )
         return msg_to_string(timed)
 
     # --- objects ---

@@ -1,4 +1,5 @@
 """The objects of move_group's planning scene, under the names of the compiled module."""
+
 from __future__ import annotations
 
 from typing import Dict, Iterable, List
@@ -17,8 +18,9 @@ class PlanningSceneInterface:
     def get_known_object_names(self, with_type: bool = False) -> List[str]:
         return self._scene.get_known_object_names(with_type)
 
-    def get_known_object_names_in_roi(self, minx: float, miny: float, minz: float, maxx: float, maxy: float,
-                                      maxz: float, with_type: bool = False) -> List[str]:
+    def get_known_object_names_in_roi(
+        self, minx: float, miny: float, minz: float, maxx: float, maxy: float, maxz: float, with_type: bool = False
+    ) -> List[str]:
         return self._scene.get_known_object_names_in_roi(minx, miny, minz, maxx, maxy, maxz, with_type)
 
     def get_object_poses(self, object_ids: Iterable[str]) -> Dict[str, bytes]:

@@ -1,4 +1,5 @@
 """The robot as a whole, under the names of the compiled module."""
+
 from __future__ import annotations
 
 from typing import Dict, List, Tuple, Union
@@ -79,8 +80,7 @@ class RobotInterface:
         """Joint values of a named state."""
         if named_state not in self.get_group_default_states(group):
             return {}
-        return {joint: float(values[0]) for joint, values in self._model.group(group).named_state(named_state).items()
-                if len(values) == 1}
+        return {joint: float(values[0]) for joint, values in self._model.group(group).named_state(named_state).items() if len(values) == 1}
 
     def get_link_pose(self, name: str) -> List[float]:
         """[x, y, z, qx, qy, qz, qw] in the planning frame, now."""

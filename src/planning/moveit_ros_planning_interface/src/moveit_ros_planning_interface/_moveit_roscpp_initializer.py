@@ -1,4 +1,5 @@
 """Starting the ROS side of the clients, under the names of the compiled module."""
+
 from __future__ import annotations
 
 from typing import List, Optional, Union

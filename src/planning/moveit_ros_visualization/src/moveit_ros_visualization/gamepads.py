@@ -2,6 +2,7 @@
 
 Controls have the names of a PlayStation's pad. A pad is told by how many axes and buttons its messages have.
 """
+
 from __future__ import annotations
 
 from typing import Dict, NamedTuple, Optional, Tuple
@@ -43,9 +44,15 @@ _PS3 = "select start square triangle circle cross up down left right L1 R1 L2 R2
 PADS: Dict[Tuple[int, int], Pad] = {
     (8, 11): _XBOX,
     (27, 19): Pad(_numbered(_PS3, "0 3 15 12 13 14 4 6 7 5 10 11 8 9"), {}),
-    (20, 17): Pad(_numbered("select start", "0 3"), {
-        name: (axis, -1e-6) for name, axis in _numbered(
-            "square up down left right triangle cross circle L1 R1 L2 R2", "15 4 6 7 5 12 14 13 10 11 8 9").items()}),
+    (20, 17): Pad(
+        _numbered("select start", "0 3"),
+        {
+            name: (axis, -1e-6)
+            for name, axis in _numbered(
+                "square up down left right triangle cross circle L1 R1 L2 R2", "15 4 6 7 5 12 14 13 10 11 8 9"
+            ).items()
+        },
+    ),
     (6, 17): Pad(_numbered(_FACE + " L2 R2", "3 1 2 0 4 5 8 9 6 7"), {}),
     (14, 14): Pad(_numbered(_FACE + " L2 R2", "0 2 3 1 4 5 8 9 6 7"), _cross(9, 10, -1e-6, -1e-6)),
     (8, 13): Pad(_numbered(_FACE + " L2 R2", "3 1 2 0 4 5 8 9 6 7"), _cross(6, 7, -1e-6, -1e-6)),

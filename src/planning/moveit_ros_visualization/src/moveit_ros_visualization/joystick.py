@@ -7,12 +7,15 @@ L2, R2 (LT, RT)      along the hand's z axis, there and back; L1, R1 (LB, RB) tu
 square (X)           plan; circle (B): execute
 triangle, cross (Y, A)   the next and the last tip of the group; select, start: the next and the last group
 """
+
 from __future__ import annotations
 
 import threading
 from typing import Any, Dict, FrozenSet, List, Optional
 from xml.etree import ElementTree
 
+import lenient_xml
+import node_signals
 import numpy as np
 import rospy
 from geometry_msgs.msg import PoseStamped
@@ -21,8 +24,6 @@ from std_msgs.msg import Empty, String
 from tf.transformations import quaternion_from_euler, quaternion_matrix, quaternion_multiply
 from visualization_msgs.msg import InteractiveMarkerInit
 
-import lenient_xml
-import node_signals
 from moveit_ros_visualization import gamepads
 
 _SPEED, _TURN = 0.2, 0.4  # m/s, rad/s
@@ -61,16 +62,22 @@ class Joystick:
         self._time = self._moved = rospy.Time()
         self._lock = threading.Lock()
         self._poses: Dict[str, rospy.Publisher] = {}
-        self._commands = {name: rospy.Publisher("/rviz/moveit/" + name, Empty, queue_size=5)
-                          for name in ("plan", "execute", "update_start_state")}
+        self._commands = {
+            name: rospy.Publisher("/rviz/moveit/" + name, Empty, queue_size=5) for name in ("plan", "execute", "update_start_state")
+        }
         self._groups = rospy.Publisher("/rviz/moveit/select_planning_group", String, queue_size=5)
-        self._subscribers = [rospy.Subscriber(_MARKERS, InteractiveMarkerInit, self._on_markers, queue_size=1),
-                             rospy.Subscriber("joy", Joy, self._on_joy, queue_size=1)]
+        self._subscribers = [
+            rospy.Subscriber(_MARKERS, InteractiveMarkerInit, self._on_markers, queue_size=1),
+            rospy.Subscriber("joy", Joy, self._on_joy, queue_size=1),
+        ]
 
     def _on_markers(self, message: InteractiveMarkerInit) -> None:
         with self._lock:
-            self._markers = {marker.name[len(_GOAL):]: PoseStamped(header=marker.header, pose=marker.pose)
-                             for marker in message.markers if marker.name.startswith(_GOAL)}
+            self._markers = {
+                marker.name[len(_GOAL) :]: PoseStamped(header=marker.header, pose=marker.pose)
+                for marker in message.markers
+                if marker.name.startswith(_GOAL)
+            }
             for link in self._markers:  # now, for a publisher needs time to be known
                 if link not in self._poses:
                     self._poses[link] = rospy.Publisher("/rviz/moveit/move_marker/goal_" + link, PoseStamped, queue_size=1)
@@ -78,8 +85,11 @@ class Joystick:
     def _on_joy(self, message: Joy) -> None:
         controls = gamepads.read(message)
         if controls is None:
-            rospy.logerr_throttle(30, f"no gamepad with {len(message.axes)} axes and {len(message.buttons)} buttons is known; "
-                                      f"known are {', '.join(f'{a} and {b}' for a, b in sorted(gamepads.PADS))}")
+            rospy.logerr_throttle(
+                30,
+                f"no gamepad with {len(message.axes)} axes and {len(message.buttons)} buttons is known; "
+                f"known are {', '.join(f'{a} and {b}' for a, b in sorted(gamepads.PADS))}",
+            )
             return
         now = rospy.Time.now()
         passed = min(max((now - self._time).to_sec(), 0.0), 0.1)
@@ -109,8 +119,9 @@ class Joystick:
     def _choose_group(self, step: int) -> None:
         names = groups_with_solver()
         if not names:
-            rospy.logwarn("no group below the parameter %s: is move_group's launch file running?",
-                          rospy.resolve_name("robot_description_kinematics"))
+            rospy.logwarn(
+                "no group below the parameter %s: is move_group's launch file running?", rospy.resolve_name("robot_description_kinematics")
+            )
             return
         self._group = (self._group + step) % len(names)
         rospy.loginfo("Planning group: %s", names[self._group])
@@ -136,8 +147,9 @@ class Joystick:
         if not shift.any() and not turn.any():
             return
         if not self._markers:
-            rospy.logwarn_throttle(10, "RViz has no goal to move: is MotionPlanning shown there, with 'Query Goal State' and a group "
-                                       "that has a solver?")
+            rospy.logwarn_throttle(
+                10, "RViz has no goal to move: is MotionPlanning shown there, with 'Query Goal State' and a group that has a solver?"
+            )
             return
         link, now = self._tip(), rospy.Time.now()
         shown = self._markers[link]

@@ -1,4 +1,5 @@
 """The programs that fill a warehouse and empty it: from the running system, from and into text files, onto topics."""
+
 from __future__ import annotations
 
 import argparse
@@ -9,16 +10,14 @@ import threading
 import time
 from typing import Callable, List, Optional
 
+import motion
+import node_signals
 import rosgraph
 import rospy
 import tf2_ros
-from moveit_msgs.msg import (Constraints, MotionPlanRequest, OrientationConstraint, PlanningScene, RobotState,
-                             RobotTrajectory)
-
-import motion
-import node_signals
 from moveit_core import scene_text, states
 from moveit_core.scene_messages import UNNAMED, scene_message
+from moveit_msgs.msg import Constraints, MotionPlanRequest, OrientationConstraint, PlanningScene, RobotState, RobotTrajectory
 from moveit_ros_planning import robot_model
 from moveit_ros_planning.scene_monitor import SceneMonitor
 
@@ -32,6 +31,7 @@ _CONNECT = 10.0  # s that those have who already listen; a busy subscriber comes
 
 def program(name: str, description: str, run: Callable, options: Callable = lambda parser: None) -> Callable[[], int]:
     """The main function of a node: ``run(arguments, warehouse)``; what goes wrong is one line and the exit code 1."""
+
     def main() -> int:
         parser = argparse.ArgumentParser(prog=name, description=description)
         parser.add_argument("--host", default="", help="database file; any other name is that of upstream's server, and not needed")
@@ -48,18 +48,20 @@ def program(name: str, description: str, run: Callable, options: Callable = lamb
             rospy.logfatal("%s", " ".join(str(error).split()))
             return 1
         return code or 0
+
     return main
 
 
 def _tell_known(warehouse: Warehouse) -> None:
-    for title, collection in (("scenes", warehouse.scenes), ("constraints", warehouse.constraints),
-                              ("robot states", warehouse.states)):
+    for title, collection in (("scenes", warehouse.scenes), ("constraints", warehouse.constraints), ("robot states", warehouse.states)):
         names = collection.names()
-        rospy.loginfo("Previously stored %s:%s" if names else "There are no previously stored %s%s", title,
-                      "".join(f"\n * {name}" for name in names))
+        rospy.loginfo(
+            "Previously stored %s:%s" if names else "There are no previously stored %s%s", title, "".join(f"\n * {name}" for name in names)
+        )
 
 
 # --- moveit_save_to_warehouse ---
+
 
 class Listener:
     """Saves scenes, requests, constraints and states that are sent on topics."""
@@ -75,9 +77,12 @@ class Listener:
             self._guarded(self._scene)
         self._subscribers = [
             rospy.Subscriber(topic, kind, lambda message, handler=handler: self._guarded(handler, message), queue_size=100)
-            for topic, kind, handler in (("motion_plan_request", MotionPlanRequest, self._request),
-                                         ("constraints", Constraints, self._constraints),
-                                         ("robot_state", RobotState, self._state))]
+            for topic, kind, handler in (
+                ("motion_plan_request", MotionPlanRequest, self._request),
+                ("constraints", Constraints, self._constraints),
+                ("robot_state", RobotState, self._state),
+            )
+        ]
         names = ("planning requests", "named constraints", "states")
         rospy.loginfo("Listening for scene updates on topics %s", ", ".join(self._monitor.topics()))
         for name, subscriber in zip(names, self._subscribers):
@@ -143,6 +148,7 @@ save_to_warehouse = program("save_to_warehouse", "Save scenes, planning requests
 
 # --- moveit_init_demo_warehouse ---
 
+
 def _initialise(_arguments, warehouse: Warehouse) -> None:
     description = robot_model.load()
     scene = robot_model.prepare_scene(description)
@@ -159,8 +165,13 @@ def _initialise(_arguments, warehouse: Warehouse) -> None:
         group = model.group(name)
         if not group.is_chain or not group.links:
             continue
-        upright = OrientationConstraint(link_name=group.links[-1], absolute_x_axis_tolerance=0.1, absolute_y_axis_tolerance=0.1,
-                                        absolute_z_axis_tolerance=math.pi, weight=1.0)
+        upright = OrientationConstraint(
+            link_name=group.links[-1],
+            absolute_x_axis_tolerance=0.1,
+            absolute_y_axis_tolerance=0.1,
+            absolute_z_axis_tolerance=math.pi,
+            weight=1.0,
+        )
         upright.header.frame_id, upright.orientation.w = model.frame, 1.0
         constraints = Constraints(name=f"{group.links[-1]}:upright", orientation_constraints=[upright])
         warehouse.constraints.save(constraints.name, constraints, robot=model.name, planning_group=name)
@@ -173,6 +184,7 @@ init_demo = program("initialize_demo_db", "Empty the warehouse and put a default
 
 # --- texts ---
 
+
 def _as_text(_arguments, warehouse: Warehouse) -> None:
     model = robot_model.load().model
     for name in warehouse.scenes.names():
@@ -182,8 +194,9 @@ def _as_text(_arguments, warehouse: Warehouse) -> None:
         related = f".*{re.escape(name)}.*"
         for state in warehouse.states.names(related):
             rospy.loginfo("Saving start state %s for scene %s", state, name)
-            known = {joint: value for joint, value in queries.start_of(warehouse.states.load(state)).items()
-                     if joint in set(model.variables)}
+            known = {
+                joint: value for joint, value in queries.start_of(warehouse.states.load(state)).items() if joint in set(model.variables)
+            }
             found.starts[state] = known
         for goal in warehouse.constraints.names(related):
             entry = queries.goal_of(warehouse.constraints.load(goal))
@@ -204,8 +217,9 @@ def _write(name: str, text: str) -> None:
     rospy.loginfo("wrote %s", os.path.abspath(file))
 
 
-save_as_text = program("save_warehouse_as_text", "Write the scenes, start states and goals of the warehouse into text files "
-                       "of the present folder.", _as_text)
+save_as_text = program(
+    "save_warehouse_as_text", "Write the scenes, start states and goals of the warehouse into text files of the present folder.", _as_text
+)
 
 
 def _text_options(parser) -> None:
@@ -248,8 +262,13 @@ def _import_queries(file: str, scene: motion.PlanningScene, warehouse: Warehouse
         state = scene.state
         unknown = sorted(set(values) - set(scene.model.variables))
         if unknown:
-            rospy.logwarn("%s: start state '%s' names %s, which the robot '%s' does not have", file, name,
-                          ", ".join(f"'{joint}'" for joint in unknown), scene.model.name)
+            rospy.logwarn(
+                "%s: start state '%s' names %s, which the robot '%s' does not have",
+                file,
+                name,
+                ", ".join(f"'{joint}'" for joint in unknown),
+                scene.model.name,
+            )
         state.set({joint: value for joint, value in values.items() if joint not in unknown})
         warehouse.states.save(name, states.robot_state_message(state))
         rospy.loginfo("Parsed start state '%s'", name)
@@ -258,11 +277,13 @@ def _import_queries(file: str, scene: motion.PlanningScene, warehouse: Warehouse
         rospy.loginfo("Parsed link constraint '%s'", name)
 
 
-import_from_text = program("import_from_text_to_warehouse", "Put scenes, start states and goals of text files into the warehouse.",
-                           _from_text, _text_options)
+import_from_text = program(
+    "import_from_text_to_warehouse", "Put scenes, start states and goals of text files into the warehouse.", _from_text, _text_options
+)
 
 
 # --- moveit_warehouse_broadcast ---
+
 
 def _broadcast_options(parser) -> None:
     for name in ("scene", "constraint", "state"):
@@ -275,8 +296,9 @@ def _broadcast_options(parser) -> None:
 def _publisher(topic: str, kind: type) -> rospy.Publisher:
     """A publisher that all who listen now, as the master knows, have found; or some of them, where one does not come."""
     publisher = rospy.Publisher(topic, kind, queue_size=100)
-    listeners = next((len(nodes) for name, nodes in rosgraph.Master(rospy.get_name()).getSystemState()[1]
-                      if name == publisher.resolved_name), 0)
+    listeners = next(
+        (len(nodes) for name, nodes in rosgraph.Master(rospy.get_name()).getSystemState()[1] if name == publisher.resolved_name), 0
+    )
     end = time.monotonic() + (_CONNECT if listeners else _SEND)
     while publisher.get_num_connections() < max(listeners, 1) and time.monotonic() < end and not rospy.is_shutdown():
         time.sleep(0.02)
@@ -290,8 +312,9 @@ def _broadcast(arguments, warehouse: Warehouse) -> Optional[int]:
     if arguments.scene:
         _broadcast_scenes(arguments, warehouse)
     for pattern, collection, topic, kind, title in (
-            (arguments.constraint, warehouse.constraints, "constraints", Constraints, "constraints"),
-            (arguments.state, warehouse.states, "robot_states", RobotState, "state")):
+        (arguments.constraint, warehouse.constraints, "constraints", Constraints, "constraints"),
+        (arguments.state, warehouse.states, "robot_states", RobotState, "state"),
+    ):
         if not pattern:
             continue
         publisher = _publisher(topic, kind)

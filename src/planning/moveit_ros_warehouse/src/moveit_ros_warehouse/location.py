@@ -3,6 +3,7 @@
 Upstream's clients connect to a MongoDB server at ``warehouse_host``:``warehouse_port``. Here the server of
 ``warehouse.launch`` (:mod:`.server`) names its file in the parameter ``warehouse_file``, and clients open it themselves.
 """
+
 from __future__ import annotations
 
 import os
@@ -54,8 +55,10 @@ def database_file(host: str = "", patience: Optional[float] = None) -> str:
         if time.monotonic() > end:
             break
         time.sleep(0.1)
-    raise StorageError(f"Failed to connect to DB on {named or 'localhost'}:{_find('warehouse_port') or 33829}: nobody runs a "
-                       f"warehouse; start it first (roslaunch <your moveit_config> default_warehouse_db.launch, or db:=true)")
+    raise StorageError(
+        f"Failed to connect to DB on {named or 'localhost'}:{_find('warehouse_port') or 33829}: nobody runs a "
+        f"warehouse; start it first (roslaunch <your moveit_config> default_warehouse_db.launch, or db:=true)"
+    )
 
 
 def connect(host: str = "", patience: Optional[float] = None) -> Warehouse:

@@ -4,6 +4,7 @@ A scene's name; ``start``, the number of states and for each its name, lines ``j
 of goals and for each ``link_constraint``, its name, the link (or an empty line), ``xyz x y z``, ``rpy r p y`` and ``.``.
 Metres and radians, in the model frame; r, p, y are turns about the moving axes x, y, z.
 """
+
 from __future__ import annotations
 
 import math
@@ -98,16 +99,18 @@ def _floats(words: Iterable[str], count: int, number: int, line: str) -> List[fl
     return values
 
 
-def goal_constraints(name: str, link: str, xyz: Sequence[float], rpy: Sequence[float], frame: str,
-                     tolerance: float = 1e-3, angle: float = 1e-2) -> Constraints:
+def goal_constraints(
+    name: str, link: str, xyz: Sequence[float], rpy: Sequence[float], frame: str, tolerance: float = 1e-3, angle: float = 1e-2
+) -> Constraints:
     """A goal as constraints, with upstream's default tolerances (m, rad)."""
     region = BoundingVolume(primitives=[SolidPrimitive(SolidPrimitive.SPHERE, [tolerance])], primitive_poses=[Pose()])
     place = region.primitive_poses[0]
     place.position.x, place.position.y, place.position.z = xyz
     place.orientation.w = 1.0
     position = PositionConstraint(link_name=link, constraint_region=region, weight=1.0)
-    turn = OrientationConstraint(link_name=link, absolute_x_axis_tolerance=angle, absolute_y_axis_tolerance=angle,
-                                 absolute_z_axis_tolerance=angle, weight=1.0)
+    turn = OrientationConstraint(
+        link_name=link, absolute_x_axis_tolerance=angle, absolute_y_axis_tolerance=angle, absolute_z_axis_tolerance=angle, weight=1.0
+    )
     turn.orientation.x, turn.orientation.y, turn.orientation.z, turn.orientation.w = quaternion_from_euler(*rpy, axes="rxyz")
     position.header.frame_id = turn.header.frame_id = frame
     return Constraints(name=name, position_constraints=[position], orientation_constraints=[turn])

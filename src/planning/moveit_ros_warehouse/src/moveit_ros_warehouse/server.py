@@ -1,12 +1,12 @@
 """The node ``mongo_wrapper_ros.py`` of ``warehouse.launch``: says which database file is used, as long as it runs."""
+
 from __future__ import annotations
 
 import os
 
+import node_signals
 import rospkg
 import rospy
-
-import node_signals
 
 from .location import FILE_NAME, PARAMETER, file_of
 from .storage import StorageError, Warehouse

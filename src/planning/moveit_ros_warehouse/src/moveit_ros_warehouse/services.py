@@ -1,13 +1,19 @@
 """The node ``moveit_warehouse_services``: robot states by name, as services."""
+
 from __future__ import annotations
 
 from typing import Callable
 
-import rospy
-from moveit_msgs.srv import (CheckIfRobotStateExistsInWarehouse, DeleteRobotStateFromWarehouse, GetRobotStateFromWarehouse,
-                             ListRobotStatesInWarehouse, RenameRobotStateInWarehouse, SaveRobotStateToWarehouse)
-
 import node_signals
+import rospy
+from moveit_msgs.srv import (
+    CheckIfRobotStateExistsInWarehouse,
+    DeleteRobotStateFromWarehouse,
+    GetRobotStateFromWarehouse,
+    ListRobotStatesInWarehouse,
+    RenameRobotStateInWarehouse,
+    SaveRobotStateToWarehouse,
+)
 
 from .location import connect
 from .storage import StorageError, Warehouse
@@ -16,8 +22,7 @@ from .storage import StorageError, Warehouse
 def main() -> int:
     """Run the node; the exit code."""
     node_signals.init_node("moveit_warehouse_services")
-    patience = float(rospy.get_param("warehouse_db_connection_timeout", 5.0)) * int(rospy.get_param(
-        "warehouse_db_connection_retries", 5))
+    patience = float(rospy.get_param("warehouse_db_connection_timeout", 5.0)) * int(rospy.get_param("warehouse_db_connection_retries", 5))
     try:
         warehouse = connect(patience=patience)
         known = warehouse.states.names()
@@ -25,8 +30,11 @@ def main() -> int:
         rospy.logfatal("%s", error)
         return 1
     services = Services(warehouse)
-    rospy.loginfo("Robot states are kept in %s. %s", warehouse.path,
-                  f"Previously stored robot states: {', '.join(known)}" if known else "There are no previously stored robot states")
+    rospy.loginfo(
+        "Robot states are kept in %s. %s",
+        warehouse.path,
+        f"Previously stored robot states: {', '.join(known)}" if known else "There are no previously stored robot states",
+    )
     node_signals.spin()
     services.shutdown()
     return 0
@@ -37,14 +45,18 @@ class Services:
 
     def __init__(self, warehouse: Warehouse):
         self._warehouse, self._states = warehouse, warehouse.states
-        self._services = [self._serve(name, kind, handler) for name, kind, handler in (
-            ("save_robot_state", SaveRobotStateToWarehouse, self._save),
-            ("list_robot_states", ListRobotStatesInWarehouse, self._list),  # as Melodic calls it
-            ("list_robot_state", ListRobotStatesInWarehouse, self._list),  # Noetic
-            ("get_robot_state", GetRobotStateFromWarehouse, self._get),
-            ("has_robot_state", CheckIfRobotStateExistsInWarehouse, self._has),
-            ("rename_robot_state", RenameRobotStateInWarehouse, self._rename),
-            ("delete_robot_state", DeleteRobotStateFromWarehouse, self._delete))]
+        self._services = [
+            self._serve(name, kind, handler)
+            for name, kind, handler in (
+                ("save_robot_state", SaveRobotStateToWarehouse, self._save),
+                ("list_robot_states", ListRobotStatesInWarehouse, self._list),  # as Melodic calls it
+                ("list_robot_state", ListRobotStatesInWarehouse, self._list),  # Noetic
+                ("get_robot_state", GetRobotStateFromWarehouse, self._get),
+                ("has_robot_state", CheckIfRobotStateExistsInWarehouse, self._has),
+                ("rename_robot_state", RenameRobotStateInWarehouse, self._rename),
+                ("delete_robot_state", DeleteRobotStateFromWarehouse, self._delete),
+            )
+        ]
 
     def shutdown(self) -> None:
         """Withdraw the services and close the file."""
@@ -63,6 +75,7 @@ class Services:
                 if not hasattr(response, "success"):  # no field for it: the call fails, with the reason
                     raise rospy.ServiceException(str(error)) from error
             return response
+
         return rospy.Service(name, kind, answer)
 
     def _save(self, request, response) -> None:

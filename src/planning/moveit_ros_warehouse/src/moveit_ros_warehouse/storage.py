@@ -1,4 +1,5 @@
 """Messages by name, in an SQLite file that several nodes may use at the same time."""
+
 from __future__ import annotations
 
 import io
@@ -10,9 +11,16 @@ import threading
 from typing import Any, List, Optional
 
 import genpy
-from moveit_msgs.msg import (Constraints, MotionPlanRequest, PlanningScene, PlanningSceneWorld, RobotState,
-                             RobotTrajectory, TrajectoryConstraints)
 from moveit_core.errors import MoveItError
+from moveit_msgs.msg import (
+    Constraints,
+    MotionPlanRequest,
+    PlanningScene,
+    PlanningSceneWorld,
+    RobotState,
+    RobotTrajectory,
+    TrajectoryConstraints,
+)
 
 _PATIENCE = 10.0  # s that another node may hold the file
 
@@ -44,8 +52,9 @@ class Warehouse:
         self.scenes = Collection(self, "scenes", PlanningScene, "planning scene")
         self.worlds = Collection(self, "worlds", PlanningSceneWorld, "planning scene world")
         self.constraints = Collection(self, "constraints", Constraints, "constraints", "robot", "planning_group")
-        self.trajectory_constraints = Collection(self, "trajectory_constraints", TrajectoryConstraints,
-                                                 "trajectory constraints", "robot", "planning_group")
+        self.trajectory_constraints = Collection(
+            self, "trajectory_constraints", TrajectoryConstraints, "trajectory constraints", "robot", "planning_group"
+        )
         self.requests = Collection(self, "requests", MotionPlanRequest, "planning query", "scene")
         self.results = Collection(self, "results", RobotTrajectory, "planning result", "scene")
 
@@ -89,8 +98,7 @@ class Warehouse:
     def results_of(self, scene: str, request: str) -> List[RobotTrajectory]:
         """The trajectories that were kept for a request."""
         names = [name for name in self.results.names(scene=scene) if name.rpartition("#")[0] == request]
-        return [self.results.load(name, scene=scene)
-                for name in sorted(names, key=lambda name: int(name.rpartition("#")[2]))]
+        return [self.results.load(name, scene=scene) for name in sorted(names, key=lambda name: int(name.rpartition("#")[2]))]
 
     def remove_scene(self, name: str) -> None:
         """Forget a scene with its requests and results."""
@@ -106,8 +114,10 @@ class Collection:
     def __init__(self, warehouse: Warehouse, table: str, kind: type, title: str, *owners: str):
         self._warehouse, self._table, self._kind, self._title, self._owners = warehouse, table, kind, title, owners
         columns = ("name", *owners)
-        warehouse.run(f"CREATE TABLE IF NOT EXISTS {table} ({', '.join(f'{column} TEXT' for column in columns)}, "
-                      f"data BLOB, PRIMARY KEY ({', '.join(columns)}))")
+        warehouse.run(
+            f"CREATE TABLE IF NOT EXISTS {table} ({', '.join(f'{column} TEXT' for column in columns)}, "
+            f"data BLOB, PRIMARY KEY ({', '.join(columns)}))"
+        )
 
     def _where(self, owners) -> tuple:
         unknown = set(owners) - set(self._owners)
@@ -130,8 +140,7 @@ class Collection:
             raise StorageError(f"the {self._title} '{name}' cannot be written: {error}") from error
         values = [name, *(owners.get(owner, "") for owner in self._owners), data.getvalue()]
         columns = ", ".join(("name", *self._owners, "data"))
-        self._warehouse.run(f"INSERT OR REPLACE INTO {self._table} ({columns}) VALUES ({', '.join('?' * len(values))})",
-                            *values)
+        self._warehouse.run(f"INSERT OR REPLACE INTO {self._table} ({columns}) VALUES ({', '.join('?' * len(values))})", *values)
 
     def load(self, name: str, **owners: str):
         """The message of a name; its own field ``name``, if it has one, says it as well.
@@ -141,8 +150,7 @@ class Collection:
         where, values = self._where(owners)
         row = self._warehouse.run(f"SELECT data FROM {self._table} WHERE name = ?{where} LIMIT 1", name, *values).fetchone()
         if row is None:
-            raise StorageError(f"there is no {self._title} '{name}'{_of(owners)}; there are: "
-                               f"{', '.join(self.names(**owners)) or 'none'}")
+            raise StorageError(f"there is no {self._title} '{name}'{_of(owners)}; there are: {', '.join(self.names(**owners)) or 'none'}")
         try:
             message = self._kind().deserialize(row[0])
         except (genpy.MessageError, struct.error) as error:
@@ -162,8 +170,7 @@ class Collection:
         :raises StorageError: the pattern is no regular expression.
         """
         where, values = self._where(owners)
-        found = [row[0] for row in self._warehouse.run(
-            f"SELECT DISTINCT name FROM {self._table} WHERE 1{where} ORDER BY name", *values)]
+        found = [row[0] for row in self._warehouse.run(f"SELECT DISTINCT name FROM {self._table} WHERE 1{where} ORDER BY name", *values)]
         if not pattern:
             return found
         try:

@@ -1,4 +1,5 @@
 """Controllers that are reached through actions. An action server that comes late is found when it comes."""
+
 from __future__ import annotations
 
 import threading
@@ -8,18 +9,25 @@ from typing import Any, Dict, Optional
 import actionlib
 import rospy
 from actionlib_msgs.msg import GoalStatus
-from control_msgs.msg import (FollowJointTrajectoryAction, FollowJointTrajectoryGoal, FollowJointTrajectoryResult,
-                              GripperCommandAction, GripperCommandGoal, JointTolerance)
-from moveit_msgs.msg import RobotTrajectory
-
+from control_msgs.msg import (
+    FollowJointTrajectoryAction,
+    FollowJointTrajectoryGoal,
+    FollowJointTrajectoryResult,
+    GripperCommandAction,
+    GripperCommandGoal,
+    JointTolerance,
+)
 from moveit_core.controller_manager import Completion, ControllerHandle, ExecutionStatus
+from moveit_msgs.msg import RobotTrajectory
 
 #: a server whose connection is lost for this long (wall s) during a motion is taken for dead
 _GONE = 1.0
-_RESULTS = {value: name for name, value in vars(FollowJointTrajectoryResult).items()
-            if name.isupper() and isinstance(value, int)}
-_ENDS = {GoalStatus.SUCCEEDED: ExecutionStatus.SUCCEEDED, GoalStatus.ABORTED: ExecutionStatus.ABORTED,
-         GoalStatus.PREEMPTED: ExecutionStatus.PREEMPTED}
+_RESULTS = {value: name for name, value in vars(FollowJointTrajectoryResult).items() if name.isupper() and isinstance(value, int)}
+_ENDS = {
+    GoalStatus.SUCCEEDED: ExecutionStatus.SUCCEEDED,
+    GoalStatus.ABORTED: ExecutionStatus.ABORTED,
+    GoalStatus.PREEMPTED: ExecutionStatus.PREEMPTED,
+}
 
 
 def is_connected(inner: actionlib.ActionClient) -> bool:
@@ -28,9 +36,13 @@ def is_connected(inner: actionlib.ActionClient) -> bool:
     if status is None:
         return False
     server = status._connection_header["callerid"]
-    return (inner.pub_goal.impl is not None and inner.pub_goal.impl.has_connection(server)
-            and inner.pub_cancel.impl.has_connection(server)
-            and inner.result_sub.get_num_connections() > 0 and inner.feedback_sub.get_num_connections() > 0)
+    return (
+        inner.pub_goal.impl is not None
+        and inner.pub_goal.impl.has_connection(server)
+        and inner.pub_cancel.impl.has_connection(server)
+        and inner.result_sub.get_num_connections() > 0
+        and inner.feedback_sub.get_num_connections() > 0
+    )
 
 
 class ActionHandle(ControllerHandle):
@@ -56,9 +68,11 @@ class ActionHandle(ControllerHandle):
                 return
             if not told and time.monotonic() > end:
                 told = True
-                rospy.logwarn("Waiting for %s to come up: controller '%s' has no action server yet (it is used as soon "
-                              "as it is "
-                              "there)", rospy.resolve_name(self.topic), self.name)
+                rospy.logwarn(
+                    "Waiting for %s to come up: controller '%s' has no action server yet (it is used as soon as it is there)",
+                    rospy.resolve_name(self.topic),
+                    self.name,
+                )
             time.sleep(0.05)
 
     @property
@@ -76,9 +90,11 @@ class ActionHandle(ControllerHandle):
 
     def send(self, trajectory: RobotTrajectory) -> bool:
         if not self.wait_for_server(2.0):
-            self.reason = (f"Action client not connected to action server: {rospy.resolve_name(self.topic)}. Start the "
-                           f"controller "
-                           f"'{self.name}' (rosservice call /controller_manager/list_controllers shows those that run)")
+            self.reason = (
+                f"Action client not connected to action server: {rospy.resolve_name(self.topic)}. Start the "
+                f"controller "
+                f"'{self.name}' (rosservice call /controller_manager/list_controllers shows those that run)"
+            )
             return False
         goal = self._make_goal(trajectory)
         if goal is None:
@@ -120,9 +136,11 @@ class ActionHandle(ControllerHandle):
         if completion.wait(timeout):
             return True
         if not self.connected and not self._comes_back(completion):
-            self.reason = (f"the action server {rospy.resolve_name(self.topic)} has gone away during the motion; the "
-                           f"controller "
-                           f"'{self.name}' was stopped, or its node has ended")
+            self.reason = (
+                f"the action server {rospy.resolve_name(self.topic)} has gone away during the motion; the "
+                f"controller "
+                f"'{self.name}' was stopped, or its node has ended"
+            )
             return completion.finish(ExecutionStatus.ABORTED) or True
         return False
 
@@ -189,8 +207,9 @@ class GripperCommandHandle(ActionHandle):
                 self.reason = f"{self.name}: the last point has no position of joint '{names[index]}'"
                 return None
             goal.command.position += last.positions[index]
-        goal.command.max_effort = (last.effort[commanded[0]] if len(last.effort) > commanded[0]
-                                   else float(self._entry.get("max_effort", 0.0)))
+        goal.command.max_effort = (
+            last.effort[commanded[0]] if len(last.effort) > commanded[0] else float(self._entry.get("max_effort", 0.0))
+        )
         return goal
 
     def _commanded(self, names) -> list:
@@ -209,9 +228,11 @@ class GripperCommandHandle(ActionHandle):
 def _tolerances(given, names) -> list:
     """Tolerances from controller_list: a list of {name, position, ...}, or a table of numbers or lists."""
     if isinstance(given, list):
-        return [JointTolerance(str(entry.get("name", "")), *(float(entry.get(key, 0.0)) for key in
-                                                             ("position", "velocity", "acceleration")))
-                for entry in given if isinstance(entry, dict)]
+        return [
+            JointTolerance(str(entry.get("name", "")), *(float(entry.get(key, 0.0)) for key in ("position", "velocity", "acceleration")))
+            for entry in given
+            if isinstance(entry, dict)
+        ]
     if not isinstance(given, dict):
         return []
     rows = []
@@ -219,7 +240,8 @@ def _tolerances(given, names) -> list:
         values = []
         for key in ("position", "velocity", "acceleration"):
             value = given.get(key, 0.0)
-            values.append(float(value[index]) if isinstance(value, list) and index < len(value) else
-                          0.0 if isinstance(value, list) else float(value))
+            values.append(
+                float(value[index]) if isinstance(value, list) and index < len(value) else 0.0 if isinstance(value, list) else float(value)
+            )
         rows.append(JointTolerance(name, *values))
     return rows

@@ -1,10 +1,10 @@
 """The controllers of ``controller_list``."""
+
 from __future__ import annotations
 
 from typing import Any, Dict, List, Optional
 
 import rospy
-
 from moveit_core.controller_manager import ControllerHandle, ControllerManager
 from moveit_core.errors import one_line
 
@@ -18,25 +18,25 @@ def read_controller_list(namespace: str, required=("name", "joints")) -> List[Di
     parameter = rospy.resolve_name(namespace + "controller_list")
     entries = rospy.get_param(namespace + "controller_list", None)
     if entries is None:
-        rospy.logerr("No controller_list specified: parameter %s is not set; the controllers' YAML file is loaded "
-                     "there by "
-                     "the *_moveit_controller_manager.launch.xml that trajectory_execution.launch.xml includes",
-                     parameter)
+        rospy.logerr(
+            "No controller_list specified: parameter %s is not set; the controllers' YAML file is loaded "
+            "there by "
+            "the *_moveit_controller_manager.launch.xml that trajectory_execution.launch.xml includes",
+            parameter,
+        )
         return []
     if not isinstance(entries, list):
-        rospy.logerr("Parameter controller_list should be specified as an array: %s is %s", parameter,
-                     one_line(repr(entries), 60))
+        rospy.logerr("Parameter controller_list should be specified as an array: %s is %s", parameter, one_line(repr(entries), 60))
         return []
     usable = []
     for number, entry in enumerate(entries):
         missing = [key for key in required if not isinstance(entry, dict) or key not in entry]
         if missing:
-            rospy.logerr("Name and joints must be specified for each controller: entry %d of %s lacks %s", number,
-                         parameter,
-                         ", ".join(missing))
+            rospy.logerr(
+                "Name and joints must be specified for each controller: entry %d of %s lacks %s", number, parameter, ", ".join(missing)
+            )
         elif not isinstance(entry["joints"], list):
-            rospy.logerr("The list of joints for controller %s is not specified as an array (%s)", entry["name"],
-                         parameter)
+            rospy.logerr("The list of joints for controller %s is not specified as an array (%s)", entry["name"], parameter)
         else:
             usable.append({**entry, "joints": [str(joint) for joint in entry["joints"]], "name": str(entry["name"])})
     return usable
@@ -83,8 +83,7 @@ class SimpleControllerManager(ListedControllers):
         for entry in read_controller_list(namespace, ("name", "joints", "action_ns", "type")):
             kind = str(entry["type"])
             if kind not in HANDLES:
-                rospy.logerr("Unknown controller type: %s of controller '%s'; there are: %s", kind, entry["name"],
-                             ", ".join(HANDLES))
+                rospy.logerr("Unknown controller type: %s of controller '%s'; there are: %s", kind, entry["name"], ", ".join(HANDLES))
                 continue
             topic = action_topic(entry["name"], str(entry["action_ns"]))
             self.add(entry, HANDLES[kind](entry["name"], topic, entry))
@@ -92,8 +91,7 @@ class SimpleControllerManager(ListedControllers):
 
     def limits(self, controller: str) -> Dict[str, float]:
         entry, result = self._entries[controller], {}
-        for key, short in (("allowed_execution_duration_scaling", "scaling"), ("allowed_goal_duration_margin",
-                                                                               "margin")):
+        for key, short in (("allowed_execution_duration_scaling", "scaling"), ("allowed_goal_duration_margin", "margin")):
             if isinstance(entry.get(key), (int, float)):
                 result[short] = float(entry[key])
         return result

@@ -1,9 +1,10 @@
 """An SRDF document as objects: groups, states, end effectors, virtual joints, collisions that are never checked.
 
-    robot = SRDF.from_xml_string(text)
-    robot.group_map["arm"].chains[0].tip_link
-    robot.to_xml_string()
+robot = SRDF.from_xml_string(text)
+robot.group_map["arm"].chains[0].tip_link
+robot.to_xml_string()
 """
+
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
@@ -36,8 +37,7 @@ class Element:
         for name, required, field in cls._attributes:
             value = node.get(name)
             if value is None and required:
-                raise ParseError(f"<{node.tag}{' name=' + repr(node.get('name')) if node.get('name') else ''}> has no "
-                                 f"attribute '{name}'")
+                raise ParseError(f"<{node.tag}{' name=' + repr(node.get('name')) if node.get('name') else ''}> has no attribute '{name}'")
             if value is not None:
                 setattr(made, field, made._read(field, value))
         for tag, kind, field in cls._children:
@@ -136,11 +136,20 @@ class VirtualJoint(Element):
 
     TYPES = ["unknown", "fixed", "floating", "planar"]
     _tag = "virtual_joint"
-    _attributes = (("name", True, "name"), ("child_link", True, "child_link"), ("parent_frame", True, "parent_frame"),
-                   ("type", True, "type"))
+    _attributes = (
+        ("name", True, "name"),
+        ("child_link", True, "child_link"),
+        ("parent_frame", True, "parent_frame"),
+        ("type", True, "type"),
+    )
 
-    def __init__(self, name: Optional[str] = None, child_link: Optional[str] = None, parent_frame: Optional[str] = None,
-                 joint_type: Optional[str] = None):
+    def __init__(
+        self,
+        name: Optional[str] = None,
+        child_link: Optional[str] = None,
+        parent_frame: Optional[str] = None,
+        joint_type: Optional[str] = None,
+    ):
         self.name = cast(str, name)
         self.child_link = cast(str, child_link)
         self.parent_frame = cast(str, parent_frame)
@@ -160,8 +169,7 @@ class VirtualJoint(Element):
 
     def _loaded(self) -> None:
         if self.type not in self.TYPES:
-            raise ParseError(f"virtual_joint '{self.name}' has the type '{self.type}'; there are: "
-                             f"{', '.join(self.TYPES[1:])}")
+            raise ParseError(f"virtual_joint '{self.name}' has the type '{self.type}'; there are: {', '.join(self.TYPES[1:])}")
 
 
 class Chain(Element):
@@ -178,11 +186,16 @@ class EndEffector(Element):
     """A group that hangs on a link of another."""
 
     _tag = "end_effector"
-    _attributes = (("name", True, "name"), ("group", True, "group"), ("parent_link", True, "parent_link"),
-                   ("parent_group", False, "parent_group"))
+    _attributes = (
+        ("name", True, "name"),
+        ("group", True, "group"),
+        ("parent_link", True, "parent_link"),
+        ("parent_group", False, "parent_group"),
+    )
 
-    def __init__(self, name: Optional[str] = None, group: Optional[str] = None, parent_link: Optional[str] = None,
-                 parent_group: Optional[str] = None):
+    def __init__(
+        self, name: Optional[str] = None, group: Optional[str] = None, parent_link: Optional[str] = None, parent_group: Optional[str] = None
+    ):
         self.name = cast(str, name)
         self.group = cast(str, group)
         self.parent_link = cast(str, parent_link)
@@ -215,8 +228,7 @@ class Group(Element):
         self.subgroups = self.groups
 
 
-Group._children = (("link", Link, "links"), ("joint", Joint, "joints"), ("chain", Chain, "chains"), ("group", Group,
-                                                                                                     "groups"))
+Group._children = (("link", Link, "links"), ("joint", Joint, "joints"), ("chain", Chain, "chains"), ("group", Group, "groups"))
 
 
 class GroupState(Element):
@@ -246,11 +258,15 @@ class Robot(Element):
     """The whole document. The list of disabled collisions is called ``disable_collisionss``, as in urdfdom's Python."""
 
     _tag, _attributes = "robot", (("name", False, "name"),)
-    _children = (("group", Group, "groups"), ("group_state", GroupState, "group_states"), ("end_effector", EndEffector,
-                                                                                           "end_effectors"),
-                 ("virtual_joint", VirtualJoint, "virtual_joints"), ("passive_joint", PassiveJoint, "passive_joints"),
-                 ("disable_collisions", DisableCollisions, "disable_collisionss"),
-                 ("link_sphere_approximation", LinkSphereApproximation, "link_sphere_approximations"))
+    _children = (
+        ("group", Group, "groups"),
+        ("group_state", GroupState, "group_states"),
+        ("end_effector", EndEffector, "end_effectors"),
+        ("virtual_joint", VirtualJoint, "virtual_joints"),
+        ("passive_joint", PassiveJoint, "passive_joints"),
+        ("disable_collisions", DisableCollisions, "disable_collisionss"),
+        ("link_sphere_approximation", LinkSphereApproximation, "link_sphere_approximations"),
+    )
 
     def __init__(self, name: Optional[str] = None):
         self.name = name
@@ -316,6 +332,7 @@ class Robot(Element):
     def from_parameter_server(cls, key: str = "robot_description_semantic") -> "Robot":
         """Read the document that a parameter holds."""
         import rospy
+
         return cls.from_xml_string(rospy.get_param(key))
 
 

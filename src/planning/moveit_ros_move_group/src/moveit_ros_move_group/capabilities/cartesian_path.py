@@ -1,13 +1,13 @@
 """The service ``compute_cartesian_path``."""
+
 from __future__ import annotations
 
 import motion
 import rospy
-from moveit_msgs.msg import MoveItErrorCodes
-from moveit_msgs.srv import GetCartesianPath
-
 from moveit_core import convert, states
 from moveit_core.errors import PlanningError
+from moveit_msgs.msg import MoveItErrorCodes
+from moveit_msgs.srv import GetCartesianPath
 
 from ..capability import Capability, serve
 from .kinematics import merge_state
@@ -37,9 +37,12 @@ class CartesianPath(Capability):
             raise PlanningError(codes.FAILURE, f"the robot has no link '{link}' to move along a line") from error
         response.start_state = states.robot_state_message(state)
         if request.max_step < 1e-9:
-            raise PlanningError(codes.FAILURE, "Maximum step to take between consecutive configurations along "
-                                "Cartesian path was not "
-                                "specified (this value needs to be > 0): give eef_step, for example 0.01 m")
+            raise PlanningError(
+                codes.FAILURE,
+                "Maximum step to take between consecutive configurations along "
+                "Cartesian path was not "
+                "specified (this value needs to be > 0): give eef_step, for example 0.01 m",
+            )
         if not request.waypoints:
             response.fraction, response.error_code.val = 0.0, codes.SUCCESS
             return
@@ -47,17 +50,30 @@ class CartesianPath(Capability):
         relative = frame == link and frame != scene.frame
         poses = [self._pose(scene, "" if relative else frame, message) for message in request.waypoints]
         limits = convert.path_constraints(request.path_constraints, scene, rospy.logwarn)
-        rospy.loginfo("Attempting to follow %d waypoints for link '%s' using a step of %f m and jump threshold %f (in "
-                      "%s reference frame)",
-                      len(poses), link, request.max_step, request.jump_threshold, "link" if relative else "global")
+        rospy.loginfo(
+            "Attempting to follow %d waypoints for link '%s' using a step of %f m and jump threshold %f (in %s reference frame)",
+            len(poses),
+            link,
+            request.max_step,
+            request.jump_threshold,
+            "link" if relative else "global",
+        )
         settings = self.context.description.kinematics.get(request.group_name)
-        found = motion.cartesian_path(scene, request.group_name, poses, link=link, start=state,
-                                      max_step=request.max_step,
-                                      jump_threshold=request.jump_threshold,
-                                      prismatic_jump=request.prismatic_jump_threshold,
-                                      revolute_jump=request.revolute_jump_threshold, avoid_collisions=request.avoid_collisions,
-                                      constraints=None if limits.empty() else limits, relative=relative,
-                                      position_only=settings is not None and settings.position_only)
+        found = motion.cartesian_path(
+            scene,
+            request.group_name,
+            poses,
+            link=link,
+            start=state,
+            max_step=request.max_step,
+            jump_threshold=request.jump_threshold,
+            prismatic_jump=request.prismatic_jump_threshold,
+            revolute_jump=request.revolute_jump_threshold,
+            avoid_collisions=request.avoid_collisions,
+            constraints=None if limits.empty() else limits,
+            relative=relative,
+            position_only=settings is not None and settings.position_only,
+        )
         response.fraction, response.error_code.val = found.fraction, codes.SUCCESS
         self._finish(request, response, found, link)
 
@@ -77,9 +93,7 @@ class CartesianPath(Capability):
             return
         timed = motion.time_parameterize(self.context.model, trajectory, "iterative_parabolic")
         if request.max_cartesian_speed > 0:
-            timed = motion.limit_cartesian_speed(timed, request.cartesian_speed_limited_link or link,
-                                                 request.max_cartesian_speed)
+            timed = motion.limit_cartesian_speed(timed, request.cartesian_speed_limited_link or link, request.max_cartesian_speed)
         response.solution = states.trajectory_message(timed)
-        rospy.loginfo("Computed Cartesian path with %d points (followed %f%% of requested trajectory)", len(timed),
-                      found.fraction * 100.0)
+        rospy.loginfo("Computed Cartesian path with %d points (followed %f%% of requested trajectory)", len(timed), found.fraction * 100.0)
         self.context.display.trajectories([timed])

@@ -1,11 +1,11 @@
 """The action ``execute_trajectory``, and the service ``execute_kinematic_path`` of old configurations."""
+
 from __future__ import annotations
 
 import rospy
+from moveit_core.errors import PlanningError, code_name
 from moveit_msgs.msg import ExecuteTrajectoryAction, MoveItErrorCodes
 from moveit_msgs.srv import ExecuteKnownTrajectory
-
-from moveit_core.errors import PlanningError, code_name
 from moveit_ros_planning.trajectory_execution import ExecutionError, error_code
 
 from ..capability import ActionCapability, Capability, serve
@@ -30,8 +30,9 @@ class ExecuteTrajectory(ActionCapability):
 
     def serve(self, goal, result) -> str:
         if self.context.execution is None:
-            return self.failed(result, MoveItErrorCodes.CONTROL_FAILED,
-                               "Cannot execute trajectory since ~allow_trajectory_execution was set to false")
+            return self.failed(
+                result, MoveItErrorCodes.CONTROL_FAILED, "Cannot execute trajectory since ~allow_trajectory_execution was set to false"
+            )
         rospy.loginfo("Execution request received")
         self.feedback("MONITOR")
         try:
@@ -65,8 +66,7 @@ class ExecuteService(Capability):
     def _execute(self, request, response) -> None:
         codes, execution = MoveItErrorCodes, self.context.execution
         if execution is None:
-            raise PlanningError(codes.CONTROL_FAILED,
-                                "Cannot execute trajectory since ~allow_trajectory_execution was set to false")
+            raise PlanningError(codes.CONTROL_FAILED, "Cannot execute trajectory since ~allow_trajectory_execution was set to false")
         rospy.loginfo("Received new trajectory execution service request...")
         try:
             running = execution.start([request.trajectory], stops=execution.stops)

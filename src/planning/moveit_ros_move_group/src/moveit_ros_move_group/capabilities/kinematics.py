@@ -1,16 +1,16 @@
 """The services ``compute_ik`` and ``compute_fk``."""
+
 from __future__ import annotations
 
 from typing import Dict
 
 import motion
 import rospy
-from moveit_msgs.msg import MoveItErrorCodes
-from moveit_msgs.srv import GetPositionFK, GetPositionIK
-
 from moveit_core import convert, states
 from moveit_core.errors import PlanningError
 from moveit_core.scene_messages import attach_to_state
+from moveit_msgs.msg import MoveItErrorCodes
+from moveit_msgs.srv import GetPositionFK, GetPositionIK
 from moveit_ros_planning.robot_model import Kinematics as Solver
 
 from ..capability import Capability, serve
@@ -38,11 +38,18 @@ class Kinematics(Capability):
         poses = self._targets(scene, wanted, group)
         limits = convert.path_constraints(wanted.constraints, scene, rospy.logwarn)
         link, pose = next(iter(poses.items()))
-        found = motion.ik(scene, wanted.group_name, pose if len(poses) == 1 else poses,
-                          link=link if len(poses) == 1 else "", seed=state,
-                          timeout=wanted.timeout.to_sec() or settings.timeout, tolerance=settings.epsilon,
-                          position_only=settings.position_only, avoid_collisions=wanted.avoid_collisions,
-                          constraints=None if limits.empty() else limits)
+        found = motion.ik(
+            scene,
+            wanted.group_name,
+            pose if len(poses) == 1 else poses,
+            link=link if len(poses) == 1 else "",
+            seed=state,
+            timeout=wanted.timeout.to_sec() or settings.timeout,
+            tolerance=settings.epsilon,
+            position_only=settings.position_only,
+            avoid_collisions=wanted.avoid_collisions,
+            constraints=None if limits.empty() else limits,
+        )
         if not found:
             rospy.logdebug("compute_ik: %s", found.message)
             response.error_code.val = MoveItErrorCodes.NO_IK_SOLUTION
@@ -62,18 +69,24 @@ class Kinematics(Capability):
         parts = [known[part] for part in self.context.description.solved_parts(name)]
         if poses < 2 or len(parts) < poses:
             also = f"; {len(parts)} of the groups in it have one, for {poses} poses" if parts and poses > 1 else ""
-            raise PlanningError(MoveItErrorCodes.NO_IK_SOLUTION,
-                                f"group '{name}' has no kinematics solver: kinematics.yaml names none for it{also}")
-        return Solver(parts[0].solver, timeout=sum(part.timeout for part in parts), epsilon=min(part.epsilon for part in parts),
-                          position_only=all(part.position_only for part in parts))
+            raise PlanningError(
+                MoveItErrorCodes.NO_IK_SOLUTION, f"group '{name}' has no kinematics solver: kinematics.yaml names none for it{also}"
+            )
+        return Solver(
+            parts[0].solver,
+            timeout=sum(part.timeout for part in parts),
+            epsilon=min(part.epsilon for part in parts),
+            position_only=all(part.position_only for part in parts),
+        )
 
     def _targets(self, scene, wanted, group) -> Dict[str, motion.Pose]:
         stamped, links = list(wanted.pose_stamped_vector), list(wanted.ik_link_names)
         if len(stamped) < 2:
             stamped, links = stamped or [wanted.pose_stamped], [wanted.ik_link_name]
         if len(stamped) != len(links):
-            raise PlanningError(MoveItErrorCodes.INVALID_LINK_NAME,
-                                f"{len(stamped)} poses and {len(links)} links were given; each pose needs its link")
+            raise PlanningError(
+                MoveItErrorCodes.INVALID_LINK_NAME, f"{len(stamped)} poses and {len(links)} links were given; each pose needs its link"
+            )
         result = {}
         for message, link in zip(stamped, links):
             try:
@@ -82,9 +95,7 @@ class Kinematics(Capability):
             except motion.UnknownNameError as error:
                 raise PlanningError(MoveItErrorCodes.INVALID_LINK_NAME, f"the robot has no link '{link}'") from error
             pose = convert.pose(message.pose, "the pose", empty_is_identity=False)
-            result[link or (group.tips[0] if group.tips else group.tip_link)] = self._in_model(scene,
-                                                                                               message.header.frame_id,
-                                                                                               pose)
+            result[link or (group.tips[0] if group.tips else group.tip_link)] = self._in_model(scene, message.header.frame_id, pose)
         return result
 
     @staticmethod

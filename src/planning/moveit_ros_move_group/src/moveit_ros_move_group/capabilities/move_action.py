@@ -1,11 +1,11 @@
 """The action ``move_group``."""
+
 from __future__ import annotations
 
 import motion
 import rospy
-from moveit_msgs.msg import MotionPlanRequest, MoveGroupAction, MoveItErrorCodes, PlanningScene, RobotState
-
 from moveit_core import states
+from moveit_msgs.msg import MotionPlanRequest, MoveGroupAction, MoveItErrorCodes, PlanningScene, RobotState
 from moveit_ros_planning.plan_execution import Plan, Segment
 
 from ..capability import ActionCapability, result_text
@@ -15,9 +15,11 @@ def current_state_only(request: MotionPlanRequest) -> MotionPlanRequest:
     """The request with the present state as its start: motions that are executed start where the robot is."""
     if states.is_empty(request.start_state):
         return request
-    rospy.logwarn("Execution of motions should always start at the robot's current state. Ignoring the state supplied "
-                  "as start state "
-                  "in the motion planning request")
+    rospy.logwarn(
+        "Execution of motions should always start at the robot's current state. Ignoring the state supplied "
+        "as start state "
+        "in the motion planning request"
+    )
     request.start_state = RobotState(is_diff=True)
     return request
 
@@ -26,9 +28,11 @@ def without_robot_state(diff: PlanningScene) -> PlanningScene:
     """The diff without its robot state, for the same reason."""
     if states.is_empty(diff.robot_state):
         return diff
-    rospy.logwarn("Execution of motions should always start at the robot's current state. Ignoring the state supplied "
-                  "as difference in "
-                  "the planning scene diff")
+    rospy.logwarn(
+        "Execution of motions should always start at the robot's current state. Ignoring the state supplied "
+        "as difference in "
+        "the planning scene diff"
+    )
     diff.robot_state = RobotState(is_diff=True)
     return diff
 
@@ -48,9 +52,11 @@ class MoveAction(ActionCapability):
         options = goal.planning_options
         plan_only = options.plan_only or self.context.execution is None
         if plan_only and not options.plan_only:
-            rospy.logwarn("This instance of MoveGroup is not allowed to execute trajectories but the goal request has "
-                          "plan_only set to "
-                          "false. Only a motion plan will be computed anyway.")
+            rospy.logwarn(
+                "This instance of MoveGroup is not allowed to execute trajectories but the goal request has "
+                "plan_only set to "
+                "false. Only a motion plan will be computed anyway."
+            )
         if plan_only:
             plan = self._plan(self.context.monitor.copy(options.planning_scene_diff), goal.request)
             result.planning_time = plan.planning_time
@@ -72,14 +78,21 @@ class MoveAction(ActionCapability):
         return False
 
     def _plan_and_execute(self, goal) -> Plan:
-        rospy.loginfo("Combined planning and execution request received for MoveGroup action. Forwarding to planning "
-                      "and execution "
-                      "pipeline.")
+        rospy.loginfo(
+            "Combined planning and execution request received for MoveGroup action. Forwarding to planning and execution pipeline."
+        )
         options, request = goal.planning_options, current_state_only(goal.request)
         diff = without_robot_state(options.planning_scene_diff)
         return self.plan_execution.plan_and_execute(
-            lambda scene: self._plan(scene, request), diff, self.stop, options.replan, options.replan_attempts,
-            options.replan_delay, before=lambda: self.feedback("MONITOR"), stops=self.stops)
+            lambda scene: self._plan(scene, request),
+            diff,
+            self.stop,
+            options.replan,
+            options.replan_attempts,
+            options.replan_delay,
+            before=lambda: self.feedback("MONITOR"),
+            stops=self.stops,
+        )
 
     def _plan(self, scene: motion.PlanningScene, request: MotionPlanRequest) -> Plan:
         self.feedback("PLANNING")

@@ -1,11 +1,11 @@
 """The services ``plan_kinematic_path``, ``query_planner_interface``, ``get_planner_params`` and
 ``set_planner_params``."""
+
 from __future__ import annotations
 
+from moveit_core import states
 from moveit_msgs.msg import PlannerInterfaceDescription
 from moveit_msgs.srv import GetMotionPlan, GetPlannerParams, QueryPlannerInterfaces, SetPlannerParams
-
-from moveit_core import states
 
 from ..capability import Capability, serve
 
@@ -39,13 +39,17 @@ class QueryPlanners(Capability):
 
     def __init__(self, context):
         super().__init__(context)
-        self._services = [serve("query_planner_interface", QueryPlannerInterfaces, self._query),
-                          serve("get_planner_params", GetPlannerParams, self._get),
-                          serve("set_planner_params", SetPlannerParams, self._set)]
+        self._services = [
+            serve("query_planner_interface", QueryPlannerInterfaces, self._query),
+            serve("get_planner_params", GetPlannerParams, self._get),
+            serve("set_planner_params", SetPlannerParams, self._set),
+        ]
 
     def _query(self, _request, response) -> None:
-        response.planner_interfaces = [PlannerInterfaceDescription(pipeline.title, name, pipeline.planner_ids())
-                                       for name, pipeline in sorted(self.context.pipelines.pipelines.items())]
+        response.planner_interfaces = [
+            PlannerInterfaceDescription(pipeline.title, name, pipeline.planner_ids())
+            for name, pipeline in sorted(self.context.pipelines.pipelines.items())
+        ]
 
     def _get(self, request, response) -> None:
         settings = self.context.pipelines.find(request.pipeline_id).configs.get(request.group, request.planner_config)
@@ -56,4 +60,5 @@ class QueryPlanners(Capability):
         if len(request.params.keys) != len(request.params.values):
             raise ValueError(f"{len(request.params.keys)} keys and {len(request.params.values)} values were given")
         self.context.pipelines.find(request.pipeline_id).configs.set(
-            request.group, request.planner_config, request.params.keys, request.params.values, request.replace)
+            request.group, request.planner_config, request.params.keys, request.params.values, request.replace
+        )

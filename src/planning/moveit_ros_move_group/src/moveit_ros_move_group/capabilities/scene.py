@@ -1,4 +1,5 @@
 """The services ``get_planning_scene``, ``apply_planning_scene``, ``clear_octomap``, and those of octomap files."""
+
 from __future__ import annotations
 
 import rospy

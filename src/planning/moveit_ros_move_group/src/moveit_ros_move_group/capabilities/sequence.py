@@ -1,16 +1,16 @@
 """Sequences of industrial motions with blending: the action ``sequence_move_group``, the service
 ``plan_sequence_path``."""
+
 from __future__ import annotations
 
 from typing import List, Optional
 
 import motion
 import rospy
-from moveit_msgs.msg import MotionSequenceRequest, MoveGroupSequenceAction, MoveItErrorCodes
-from moveit_msgs.srv import GetMotionSequence
-
 from moveit_core import states
 from moveit_core.errors import PlanningError
+from moveit_msgs.msg import MotionSequenceRequest, MoveGroupSequenceAction, MoveItErrorCodes
+from moveit_msgs.srv import GetMotionSequence
 from moveit_ros_planning.plan_execution import Plan, Segment
 from moveit_ros_planning.planning_pipeline import Pipeline
 
@@ -26,7 +26,8 @@ def plan_sequence(context, scene, request: MotionSequenceRequest, cancel: Option
     for item in request.items:
         context.display.request(item.req)
     found = _pipeline(context, request.items[0].req.pipeline_id).sequence(
-        scene, [(item.req, item.blend_radius) for item in request.items], cancel)
+        scene, [(item.req, item.blend_radius) for item in request.items], cancel
+    )
     context.display.trajectories(found.trajectories)
     if found.contacts:
         context.display.contacts(found.contacts)
@@ -38,8 +39,7 @@ def _pipeline(context, name: str) -> Pipeline:
         return context.pipelines.find(name)
     found = next((pipeline for pipeline in context.pipelines.pipelines.values() if pipeline.is_pilz), None)
     if found is None:
-        raise PlanningError(MoveItErrorCodes.FAILURE, "no pipeline plans with "
-                            "pilz_industrial_motion_planner::CommandPlanner")
+        raise PlanningError(MoveItErrorCodes.FAILURE, "no pipeline plans with pilz_industrial_motion_planner::CommandPlanner")
     return found
 
 
@@ -104,14 +104,24 @@ class SequenceAction(ActionCapability):
         else:
             _start_where_the_robot_is(goal.request)
             plan = self.plan_execution.plan_and_execute(
-                lambda scene: self._plan(scene, goal.request), without_robot_state(options.planning_scene_diff),
-                self.stop, options.replan, options.replan_attempts, options.replan_delay,
-                before=lambda: self.feedback("MONITOR"), stops=self.stops)
+                lambda scene: self._plan(scene, goal.request),
+                without_robot_state(options.planning_scene_diff),
+                self.stop,
+                options.replan,
+                options.replan_attempts,
+                options.replan_delay,
+                before=lambda: self.feedback("MONITOR"),
+                stops=self.stops,
+            )
         result.response.error_code.val, result.response.planning_time = plan.code, plan.planning_time
         _fill(result.response, [segment.trajectory for segment in plan.segments if segment.trajectory is not None])
         return result_text(plan.code, plan.message, not plan.segments, options.plan_only)
 
     def _plan(self, scene, request: MotionSequenceRequest) -> Plan:
         found = plan_sequence(self.context, scene, request, self.stop.token)
-        return Plan(found.code, found.message, [Segment(trajectory, f"sequence {number}") for number, trajectory in
-                                                enumerate(found.trajectories)], found.planning_time)
+        return Plan(
+            found.code,
+            found.message,
+            [Segment(trajectory, f"sequence {number}") for number, trajectory in enumerate(found.trajectories)],
+            found.planning_time,
+        )

@@ -1,19 +1,22 @@
 """The service ``check_state_validity``."""
+
 from __future__ import annotations
 
 import motion
 import rospy
 from geometry_msgs.msg import Vector3
+from moveit_core import convert
 from moveit_msgs.msg import ConstraintEvalResult, ContactInformation, CostSource
 from moveit_msgs.srv import GetStateValidity
-
-from moveit_core import convert
 
 from ..capability import Capability, serve
 from .kinematics import merge_state
 
-_BODIES = {"robot_link": ContactInformation.ROBOT_LINK, "world": ContactInformation.WORLD_OBJECT,
-           "attached": ContactInformation.ROBOT_ATTACHED}
+_BODIES = {
+    "robot_link": ContactInformation.ROBOT_LINK,
+    "world": ContactInformation.WORLD_OBJECT,
+    "attached": ContactInformation.ROBOT_ATTACHED,
+}
 _MOST = 100
 
 
@@ -46,9 +49,13 @@ class StateValidation(Capability):
 
 def contact_message(contact, frame: str) -> ContactInformation:
     """A contact as a message; positions are in ``frame``."""
-    message = ContactInformation(contact_body_1=contact.body_1, body_type_1=_BODIES[contact.type_1],
-                                 contact_body_2=contact.body_2,
-                                 body_type_2=_BODIES[contact.type_2], depth=float(contact.depth))
+    message = ContactInformation(
+        contact_body_1=contact.body_1,
+        body_type_1=_BODIES[contact.type_1],
+        contact_body_2=contact.body_2,
+        body_type_2=_BODIES[contact.type_2],
+        depth=float(contact.depth),
+    )
     message.header.frame_id, message.header.stamp = frame, rospy.Time.now()
     message.position.x, message.position.y, message.position.z = (float(v) for v in contact.position)
     message.normal.x, message.normal.y, message.normal.z = (float(v) for v in contact.normal)

@@ -1,4 +1,5 @@
 """TF frames of the scene's objects, attached bodies and their subframes."""
+
 from __future__ import annotations
 
 import threading
@@ -7,7 +8,6 @@ from typing import List
 import rospy
 import tf2_ros
 from geometry_msgs.msg import TransformStamped
-
 from moveit_core import convert
 from node_signals.parameters import number_or
 
@@ -55,8 +55,7 @@ class TfPublisher(Capability):
 
     def _with_subframes(self, name: str, parent: str, pose, subframes, now) -> List[TransformStamped]:
         frames = [self._frame(parent, self._prefix + name, pose, now)]
-        frames += [self._frame(self._prefix + name, f"{self._prefix}{name}/{sub}", where, now) for sub,
-                   where in subframes.items()]
+        frames += [self._frame(self._prefix + name, f"{self._prefix}{name}/{sub}", where, now) for sub, where in subframes.items()]
         return frames
 
     @staticmethod
