@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Goals that succeed, are cancelled and fail; the client as it is typed."""
+
 import statistics
 import subprocess
 import unittest

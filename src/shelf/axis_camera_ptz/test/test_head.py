@@ -1,4 +1,5 @@
 """Where the camera's head goes."""
+
 import math
 
 import pytest

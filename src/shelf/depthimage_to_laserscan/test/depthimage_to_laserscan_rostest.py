@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Depth images of known walls, through the node and the nodelet."""
+
 import queue
 import unittest
 
@@ -12,14 +13,26 @@ WIDTH, HEIGHT, FOCAL, CX, CY = 64, 48, 50.0, 31.5, 23.5
 
 
 def info():
-    return CameraInfo(width=WIDTH, height=HEIGHT, distortion_model="plumb_bob", D=[0.0] * 5, R=[1, 0, 0, 0, 1, 0, 0, 0, 1],
-                      K=[FOCAL, 0, CX, 0, FOCAL, CY, 0, 0, 1], P=[FOCAL, 0, CX, 0, 0, FOCAL, CY, 0, 0, 0, 1, 0])
+    return CameraInfo(
+        width=WIDTH,
+        height=HEIGHT,
+        distortion_model="plumb_bob",
+        D=[0.0] * 5,
+        R=[1, 0, 0, 0, 1, 0, 0, 0, 1],
+        K=[FOCAL, 0, CX, 0, FOCAL, CY, 0, 0, 1],
+        P=[FOCAL, 0, CX, 0, 0, FOCAL, CY, 0, 0, 0, 1, 0],
+    )
 
 
 def image(depth):
     """:param depth: (HEIGHT, WIDTH), float32 in m or uint16 in mm"""
-    return Image(width=WIDTH, height=HEIGHT, encoding={"float32": "32FC1", "uint16": "16UC1"}[depth.dtype.name],
-                 step=WIDTH * depth.itemsize, data=depth.tobytes())
+    return Image(
+        width=WIDTH,
+        height=HEIGHT,
+        encoding={"float32": "32FC1", "uint16": "16UC1"}[depth.dtype.name],
+        step=WIDTH * depth.itemsize,
+        data=depth.tobytes(),
+    )
 
 
 class DepthImageToLaserScan(unittest.TestCase):
@@ -68,10 +81,10 @@ class DepthImageToLaserScan(unittest.TestCase):
 
     def test_wall_in_millimetres_and_nothing_known(self):
         depth = np.full((HEIGHT, WIDTH), 1500, np.uint16)
-        depth[:, :WIDTH // 4] = 0
+        depth[:, : WIDTH // 4] = 0
         scan = self.scan("scan", image(depth))
         ranges = np.array(scan.ranges)
-        self.assertTrue(np.isnan(ranges[-WIDTH // 8:]).all(), "the image's left is the scan's end")
+        self.assertTrue(np.isnan(ranges[-WIDTH // 8 :]).all(), "the image's left is the scan's end")
         self.assertAlmostEqual(ranges[WIDTH // 2 - 4], 1.5, 2)
 
     def test_nearest_of_the_rows_within_the_limits(self):

@@ -1,8 +1,11 @@
 """The messages are those of geographic_msgs 0.5: programs and bags of others understand them."""
+
 import pytest
 from geographic_msgs import msg, srv
 
-SUMS = dict(line.split() for line in """
+SUMS = dict(
+    line.split()
+    for line in """
 BoundingBox f62e8b5e390a3ac7603250d46e8f8446
 GeoPath 1476008e63041203a89257cfad97308f
 GeoPoint c48027a852aeff972be80478ff38e81a
@@ -23,7 +26,9 @@ GetGeoPath ee0dbd181711a70f823cc5d415fa609b
 GetGeographicMap c0278e653eee0ad79600510650e7be39
 GetRoutePlan 04479050c4f2a58d915ceec419e70b4e
 UpdateGeographicMap 93db3f1ec099e9f1b7e442d7d397e244
-""".split("\n") if line)
+""".split("\n")
+    if line
+)
 
 
 @pytest.mark.parametrize("name", SUMS)
@@ -32,5 +37,9 @@ def test_sum(name):
 
 
 def test_all():
-    assert {name for module in (msg, srv) for name in vars(module)
-            if hasattr(getattr(module, name), "_md5sum") and not name.endswith(("Request", "Response"))} == set(SUMS)
+    assert {
+        name
+        for module in (msg, srv)
+        for name in vars(module)
+        if hasattr(getattr(module, name), "_md5sum") and not name.endswith(("Request", "Response"))
+    } == set(SUMS)

@@ -1,4 +1,5 @@
 """The filter against motions whose orientation is known, without ROS."""
+
 import math
 
 import pytest

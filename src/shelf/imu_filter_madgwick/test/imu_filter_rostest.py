@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Readings of a tilted sensor in, its orientation out; the same node of the complementary filter takes this test too."""
+
 import math
 import queue
 import sys

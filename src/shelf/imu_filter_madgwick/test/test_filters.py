@@ -1,14 +1,16 @@
 """Madgwick's filter against motions whose orientation is known, without ROS."""
+
 import math
 
 import pytest
-
 from imu_filters.madgwick import Madgwick
 from imu_filters.rotation import about, advanced, conjugate, level_or_north, product, roll_pitch_yaw, turned, unit
 
 FIELD = {"enu": (0.0, 0.4, -0.9), "nwu": (0.4, 0.0, -0.9), "ned": (0.4, 0.0, 0.9)}
-PLACES = [about(unit(axis), angle) for axis, angle in (((0, 0, 1), 2.5), ((1, 0, 0), -1.2), ((0, 1, 0), 1.4), ((1, 2, -1), 3.0),
-                                                       ((-1, 1, 1), 2.0))]
+PLACES = [
+    about(unit(axis), angle)
+    for axis, angle in (((0, 0, 1), 2.5), ((1, 0, 0), -1.2), ((0, 1, 0), 1.4), ((1, 2, -1), 3.0), ((-1, 1, 1), 2.0))
+]
 
 
 def off(a, b):

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Drags the marker as RViz does, and watches the velocities."""
+
 import math
 import queue
 import unittest

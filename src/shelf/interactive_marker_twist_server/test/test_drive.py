@@ -1,4 +1,5 @@
 """How fast a drag drives."""
+
 import pytest
 from marker_drive.drive import Drive
 
@@ -26,10 +27,14 @@ def test_maps_and_limits():
     assert drive.linear("y", 1) == 0.5 and drive.angular(1) == 0.1
 
 
-@pytest.mark.parametrize("parameters, said", [
-    ({"linear_scale": {"w": 1}}, "linear_scale has an axis 'w'; there are x, y, z"),
-    ({"linear_scale": "fast"}, "linear_scale must be a number or a map of x, y, z, but is 'fast'"),
-    ({"angular_scale": [1]}, "angular_scale must be a number, but is [1]")])
+@pytest.mark.parametrize(
+    "parameters, said",
+    [
+        ({"linear_scale": {"w": 1}}, "linear_scale has an axis 'w'; there are x, y, z"),
+        ({"linear_scale": "fast"}, "linear_scale must be a number or a map of x, y, z, but is 'fast'"),
+        ({"angular_scale": [1]}, "angular_scale must be a number, but is [1]"),
+    ],
+)
 def test_what_is_wrong_is_said(parameters, said):
     with pytest.raises(ValueError) as error:
         Drive(parameters)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A joystick made of a pipe is plugged in, moved, pulled out and plugged in again."""
+
 import os
 import queue
 import tempfile

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """ps4joy.launch: what a pad of a PlayStation 4 says comes out in the other one's order; wrong formulas end with one line."""
+
 import queue
 import subprocess
 import unittest

@@ -1,4 +1,5 @@
 """Events of the kernel make axes and buttons."""
+
 import pytest
 from joystick.state import AXIS, BUTTON, INIT, State
 

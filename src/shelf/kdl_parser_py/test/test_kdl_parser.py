@@ -1,4 +1,5 @@
 """Trees of KDL against the same robots on paper."""
+
 import math
 
 import numpy as np

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """libgazebo_ros_kobuki.so on the wire: it drives, says so, and stops when commands stay out."""
+
 import collections
 import math
 import unittest

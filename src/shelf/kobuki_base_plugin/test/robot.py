@@ -22,11 +22,21 @@ def _caster(x):
       <surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface></collision>"""
 
 
-_TAGS = {"robotNamespace": "/", "publish_tf": 1,
-         "left_wheel_joint_name": "wheel_left_joint", "right_wheel_joint_name": "wheel_right_joint",
-         "wheel_separation": 0.23, "wheel_diameter": 0.07, "torque": 1.0, "velocity_command_timeout": 0.6,
-         "cliff_sensor_left_name": "cliff_left", "cliff_sensor_center_name": "cliff_front",
-         "cliff_sensor_right_name": "cliff_right", "cliff_detection_threshold": 0.04, "imu_name": "imu"}
+_TAGS = {
+    "robotNamespace": "/",
+    "publish_tf": 1,
+    "left_wheel_joint_name": "wheel_left_joint",
+    "right_wheel_joint_name": "wheel_right_joint",
+    "wheel_separation": 0.23,
+    "wheel_diameter": 0.07,
+    "torque": 1.0,
+    "velocity_command_timeout": 0.6,
+    "cliff_sensor_left_name": "cliff_left",
+    "cliff_sensor_center_name": "cliff_front",
+    "cliff_sensor_right_name": "cliff_right",
+    "cliff_detection_threshold": 0.04,
+    "imu_name": "imu",
+}
 
 
 def sdf(**tags):

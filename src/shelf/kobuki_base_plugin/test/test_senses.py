@@ -1,12 +1,12 @@
 """Bumpers, cliffs and dropped wheels against a simulated room, without ROS."""
+
 import math
 
 import ode_sim
 import pytest
+from kobuki_base.senses import Bumper, Cliffs, OnFloor, bumper_side, named_sensor, reading
 from plugin_loader import PluginError
 from robot import sdf
-
-from kobuki_base.senses import Bumper, Cliffs, OnFloor, bumper_side, named_sensor, reading
 
 _TABLE = """<sdf version="1.6"><world name="w"><model name="table"><static>1</static><link name="l"><collision name="c">
   <pose>0 0 -0.5 0 0 0</pose><geometry><box><size>2 2 1</size></box></geometry>
@@ -23,8 +23,9 @@ def place(x=0.0, y=0.0, z=0.0, yaw=0.0):
     return world, model
 
 
-@pytest.mark.parametrize("angle, side", [(0, "center"), (0.5, "center"), (0.55, "left"), (-0.55, "right"), (1.6, ""),
-                                         (math.pi, ""), (2 * math.pi - 1, "right")])
+@pytest.mark.parametrize(
+    "angle, side", [(0, "center"), (0.5, "center"), (0.55, "left"), (-0.55, "right"), (1.6, ""), (math.pi, ""), (2 * math.pi - 1, "right")]
+)
 def test_each_bumper_covers_sixty_degrees(angle, side):
     assert bumper_side(angle) == side
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A scan through a chain of two filters; one of them is changed while it runs."""
+
 import queue
 import unittest
 

@@ -1,9 +1,9 @@
 """Each filter on a scan whose answer is known, without ROS."""
+
 import math
 
 import numpy as np
 import pytest
-
 from scan_filters.base import FilterError, Scan
 from scan_filters.chain import KINDS, chain, run
 
@@ -25,18 +25,27 @@ def ranges(*arguments, **more):
 
 
 def test_ranges_and_intensities():
-    assert [0.5, 1.0, 3.0, 9.0] == ranges("LaserScanRangeFilter", {
-        "lower_threshold": 0.8, "upper_threshold": 4, "lower_replacement_value": 0.5, "upper_replacement_value": 9.0},
-        [0.2, 1.0, 3.0, 5.0])
+    assert [0.5, 1.0, 3.0, 9.0] == ranges(
+        "LaserScanRangeFilter",
+        {"lower_threshold": 0.8, "upper_threshold": 4, "lower_replacement_value": 0.5, "upper_replacement_value": 9.0},
+        [0.2, 1.0, 3.0, 5.0],
+    )
     assert [0.0, 1.0, 100000.0] == ranges("LaserScanRangeFilter", {"use_message_range_limits": True}, [0.05, 1.0, math.inf])
     assert [NAN, 2.0, NAN] == ranges("LaserScanIntensityFilter", {"lower_threshold": 10}, [1.0, 2.0, 3.0], light=[5, 20, 10])
-    assert filtered("LaserScanIntensityFilter", {"lower_threshold": 10, "filter_override_intensity": True}, [1.0, 2.0],
-                    light=[5, 20]).intensities.tolist() == [0, 1]
+    assert filtered(
+        "LaserScanIntensityFilter", {"lower_threshold": 10, "filter_override_intensity": True}, [1.0, 2.0], light=[5, 20]
+    ).intensities.tolist() == [0, 1]
 
 
 def test_angles():
-    cut = filtered("LaserScanAngularBoundsFilter", {"lower_angle": -0.5, "upper_angle": 0.6}, [1, 2, 3, 4, 5], light=[1, 2, 3, 4, 5],
-                   stamp=10.0, time_increment=0.1)
+    cut = filtered(
+        "LaserScanAngularBoundsFilter",
+        {"lower_angle": -0.5, "upper_angle": 0.6},
+        [1, 2, 3, 4, 5],
+        light=[1, 2, 3, 4, 5],
+        stamp=10.0,
+        time_increment=0.1,
+    )
     assert cut.ranges.tolist() == cut.intensities.tolist() == [2, 3, 4]
     assert cut.angle_min == -0.5 and cut.stamp == pytest.approx(10.1)
     assert [1, 11, 11, 11, 5] == ranges("LaserScanAngularBoundsFilterInPlace", {"lower_angle": -0.6, "upper_angle": 0.6}, [1, 2, 3, 4, 5])
@@ -60,10 +69,15 @@ def test_places():
 
 def test_neighbours():
     values = [1.0, 1.05, 1.1, 1.5, 1.9, 1.95, 5.0, 1.2]
-    assert [1.0, 1.05, 1.1, NAN, 1.9, 1.95, 5.0, NAN] == ranges("LaserScanSpeckleFilter", {
-        "max_range_difference": 0.2, "filter_window": 2}, values)
-    assert [1.0, 1.0, 1.0, 5.0, NAN, 5.0, 5.0] == ranges("LaserScanSpeckleFilter", {
-        "filter_type": 1, "max_range_difference": 0.1, "filter_window": 2}, [1.0, 1.0, 1.0, 5.0, 1.8, 5.0, 5.0], step=0.02)
+    assert [1.0, 1.05, 1.1, NAN, 1.9, 1.95, 5.0, NAN] == ranges(
+        "LaserScanSpeckleFilter", {"max_range_difference": 0.2, "filter_window": 2}, values
+    )
+    assert [1.0, 1.0, 1.0, 5.0, NAN, 5.0, 5.0] == ranges(
+        "LaserScanSpeckleFilter",
+        {"filter_type": 1, "max_range_difference": 0.1, "filter_window": 2},
+        [1.0, 1.0, 1.0, 5.0, 1.8, 5.0, 5.0],
+        step=0.02,
+    )
     assert [1.0, 2.0, 2.0, 3.0, (3.0 + 3.0) / 2] == ranges("InterpolationFilter", {}, [1.0, math.inf, 20.0, 3.0, 0.0])
 
 
@@ -78,21 +92,39 @@ def test_shadows_of_an_edge():
 
 
 def test_windows_over_time():
-    filters = chain([{"name": "a", "type": "LaserArrayFilter", "params": {"range_filter_chain": [
-        {"name": "m", "type": "filters/MultiChannelMedianFilterFloat", "params": {"number_of_observations": 3}}]}}])
+    filters = chain(
+        [
+            {
+                "name": "a",
+                "type": "LaserArrayFilter",
+                "params": {
+                    "range_filter_chain": [
+                        {"name": "m", "type": "filters/MultiChannelMedianFilterFloat", "params": {"number_of_observations": 3}}
+                    ]
+                },
+            }
+        ]
+    )
     for value, median in ((1.0, 1.0), (9.0, 9.0), (2.0, 2.0), (3.0, 3.0)):
         told = scan([value, 5.0])
         assert run(filters, told, pytest.fail) and told.ranges.tolist() == [median, 5.0]
 
 
-@pytest.mark.parametrize("entries, said", [
-    ("x", "is a list"), ([{"name": "a"}], "needs a name and a type"),
-    ([{"name": "a", "type": "laser_filters/Nothing"}], "no type 'laser_filters/Nothing'; there are laser_filters/Interpolation"),
-    ([{"name": "a", "type": "LaserScanAngularBoundsFilter", "params": {"lower_angle": 1}}], "filter 'a' needs the parameter upper_angle"),
-    ([{"name": "a", "type": "LaserScanRangeFilter", "params": {"lower_threshold": "far"}}], "lower_threshold of filter 'a' is 'far'"),
-    ([{"name": "a", "type": "LaserScanPolygonFilter", "params": {"polygon_frame": "b", "polygon": [[1, 2]]}}], "at least three"),
-    ([{"name": "a", "type": "InterpolationFilter"}] * 2, "two filters"),
-])
+@pytest.mark.parametrize(
+    "entries, said",
+    [
+        ("x", "is a list"),
+        ([{"name": "a"}], "needs a name and a type"),
+        ([{"name": "a", "type": "laser_filters/Nothing"}], "no type 'laser_filters/Nothing'; there are laser_filters/Interpolation"),
+        (
+            [{"name": "a", "type": "LaserScanAngularBoundsFilter", "params": {"lower_angle": 1}}],
+            "filter 'a' needs the parameter upper_angle",
+        ),
+        ([{"name": "a", "type": "LaserScanRangeFilter", "params": {"lower_threshold": "far"}}], "lower_threshold of filter 'a' is 'far'"),
+        ([{"name": "a", "type": "LaserScanPolygonFilter", "params": {"polygon_frame": "b", "polygon": [[1, 2]]}}], "at least three"),
+        ([{"name": "a", "type": "InterpolationFilter"}] * 2, "two filters"),
+    ],
+)
 def test_what_is_wrong_is_said(entries, said):
     with pytest.raises(FilterError, match=said.replace("[", "\\[")):
         chain(entries)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A cloud in, a scan in another frame out."""
+
 import math
 import queue
 import unittest
@@ -29,8 +30,7 @@ class Scans(unittest.TestCase):
         else:
             self.fail("no scan")
         self.assertEqual(scan.header.frame_id, "base")
-        hits = {round(scan.angle_min + (i + 0.5) * scan.angle_increment, 2): r for i, r in enumerate(scan.ranges)
-                if math.isfinite(r)}
+        hits = {round(scan.angle_min + (i + 0.5) * scan.angle_increment, 2): r for i, r in enumerate(scan.ranges) if math.isfinite(r)}
         self.assertEqual(len(hits), 2, hits)
         self.assertAlmostEqual(min(hits.values()), 2.0, places=3)
         self.assertAlmostEqual(max(hits.values()), math.hypot(2, 2), places=3)

@@ -1,19 +1,28 @@
 """Ranges of points, without ROS."""
+
 import math
 import struct
 
 import numpy as np
 import pytest
-
 from cloud_scans.projection import Fan, turned, xyz
 
-FAN = Fan(min_height=0.0, max_height=1.0, angle_min=-1.0, angle_max=1.0, angle_increment=0.5, range_min=0.5,
-          range_max=4.0)
+FAN = Fan(min_height=0.0, max_height=1.0, angle_min=-1.0, angle_max=1.0, angle_increment=0.5, range_min=0.5, range_max=4.0)
 
 
 def test_the_nearest_point_of_each_ray_counts():
-    points = np.array([(1.0, 0.1, 0.5), (2.0, 0.2, 0.5), (1.0, -0.9, 0.0), (math.nan, 0, 0), (1.0, 0.1, 1.5),
-                       (0.2, 0.0, 0.5), (5.0, 0.0, 0.5), (-1.0, 0.0, 0.5)])
+    points = np.array(
+        [
+            (1.0, 0.1, 0.5),
+            (2.0, 0.2, 0.5),
+            (1.0, -0.9, 0.0),
+            (math.nan, 0, 0),
+            (1.0, 0.1, 1.5),
+            (0.2, 0.0, 0.5),
+            (5.0, 0.0, 0.5),
+            (-1.0, 0.0, 0.5),
+        ]
+    )
     assert FAN.ranges(points, math.inf) == pytest.approx([math.hypot(1, 0.9), math.inf, math.hypot(1, 0.1), math.inf])
     assert FAN.ranges(np.empty((0, 3)), 5.0) == pytest.approx([5.0] * 4)
 

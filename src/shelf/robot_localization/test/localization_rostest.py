@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A robot drives a quarter of a circle of 2 m: wheels and an inertial unit tell the one filter, a beacon the other."""
+
 import math
 import queue
 import subprocess
@@ -135,11 +136,17 @@ class Localization(unittest.TestCase):
         self.assertTrue(math.isfinite(message.pose.pose.position.x))
 
     def test_wrong_parameters_are_said(self):
-        for parameter, said in (("_odom0_config:=[true]", "/ekf_wrong/odom0_config must be a list of 15 truth values"),
-                                ("_world_frame:=moon", "world_frame must be map_frame (map) or odom_frame (odom), but is moon"),
-                                ("_frequency:=often", "/ekf_wrong/frequency must be a number, but is 'often'")):
-            ended = subprocess.run(["rosrun", "robot_localization", "ekf_localization_node", "__name:=ekf_wrong", "_odom0:=nothing",
-                                    parameter], capture_output=True, text=True, timeout=60)
+        for parameter, said in (
+            ("_odom0_config:=[true]", "/ekf_wrong/odom0_config must be a list of 15 truth values"),
+            ("_world_frame:=moon", "world_frame must be map_frame (map) or odom_frame (odom), but is moon"),
+            ("_frequency:=often", "/ekf_wrong/frequency must be a number, but is 'often'"),
+        ):
+            ended = subprocess.run(
+                ["rosrun", "robot_localization", "ekf_localization_node", "__name:=ekf_wrong", "_odom0:=nothing", parameter],
+                capture_output=True,
+                text=True,
+                timeout=60,
+            )
             rospy.delete_param("/ekf_wrong")
             self.assertEqual(ended.returncode, 1)
             self.assertIn(said, ended.stderr)

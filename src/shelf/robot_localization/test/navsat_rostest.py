@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A robot with a receiver 1 m before its origin stands, and is told where: by a fix, by a datum, in another zone."""
+
 import math
 import subprocess
 import unittest
@@ -30,8 +31,10 @@ class Navsat(unittest.TestCase):
         cls.buffer = tf2_ros.Buffer()
         cls.listener = tf2_ros.TransformListener(cls.buffer)
         cls.seen = {"odometry/gps": None, "gps/filtered": None}
-        cls.listeners = [rospy.Subscriber("odometry/gps", Odometry, cls.keep, "odometry/gps"),
-                         rospy.Subscriber("gps/filtered", NavSatFix, cls.keep, "gps/filtered")]
+        cls.listeners = [
+            rospy.Subscriber("odometry/gps", Odometry, cls.keep, "odometry/gps"),
+            rospy.Subscriber("gps/filtered", NavSatFix, cls.keep, "gps/filtered"),
+        ]
 
     @classmethod
     def keep(cls, message, topic):
@@ -114,8 +117,12 @@ class Navsat(unittest.TestCase):
         # The robot's origin is 1 m behind the antenna.
         self.assertAlmostEqual(fix.latitude, LATITUDE - math.sin(HEADING) * METRE, delta=0.01 * METRE)
         self.assertAlmostEqual(fix.altitude, ALTITUDE - 0.5, delta=1e-6)
-        sent = self.until(lambda: self.buffer.can_transform("odom", "local_enu", rospy.Time(0))
-                          and self.buffer.lookup_transform("odom", "local_enu", rospy.Time(0))).transform
+        sent = self.until(
+            lambda: (
+                self.buffer.can_transform("odom", "local_enu", rospy.Time(0))
+                and self.buffer.lookup_transform("odom", "local_enu", rospy.Time(0))
+            )
+        ).transform
         self.assertAlmostEqual(2 * math.atan2(sent.rotation.z, sent.rotation.w), -HEADING, delta=1e-4)
 
     def test_5_a_new_datum(self):
@@ -150,10 +157,16 @@ class Navsat(unittest.TestCase):
             rospy.ServiceProxy("/other/setUTMZone", SetUTMZone)("99")
 
     def test_wrong_parameters_are_said(self):
-        for parameter, said in (("_datum:=[1,2]", "/wrong/datum must be a list [latitude, longitude, yaw]"),
-                                ("_yaw_offset:=north", "/wrong/yaw_offset must be a number, but is 'north'")):
-            ended = subprocess.run(["rosrun", "robot_localization", "navsat_transform_node", "__name:=wrong",
-                                    "_wait_for_datum:=true", parameter], capture_output=True, text=True, timeout=60)
+        for parameter, said in (
+            ("_datum:=[1,2]", "/wrong/datum must be a list [latitude, longitude, yaw]"),
+            ("_yaw_offset:=north", "/wrong/yaw_offset must be a number, but is 'north'"),
+        ):
+            ended = subprocess.run(
+                ["rosrun", "robot_localization", "navsat_transform_node", "__name:=wrong", "_wait_for_datum:=true", parameter],
+                capture_output=True,
+                text=True,
+                timeout=60,
+            )
             rospy.delete_param("/wrong")
             self.assertEqual(ended.returncode, 1)
             self.assertIn(said, ended.stderr)

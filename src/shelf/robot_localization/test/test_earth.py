@@ -1,7 +1,7 @@
 """The plane coordinates against known points, and the robot's world on them."""
+
 import numpy as np
 import pytest
-
 from state_estimation.anchoring import Anchor, Datum
 from state_estimation.earth import Tangent, Utm, Zone, zone_named, zone_of
 from state_estimation.motion import rotation
@@ -11,16 +11,28 @@ MUNICH = (48.1, 11.6)
 METRE = 1 / 111_195.0  # degrees of latitude there
 
 
-@pytest.mark.parametrize("latitude, longitude, zone", [
-    (48.1, 11.6, (32, True)), (-33.9, 18.4, (34, False)), (60, 4, (32, True)), (60, 2.9, (31, True)),
-    (75, 8.9, (31, True)), (75, 9, (33, True)), (75, 35, (37, True)), (71.9, 8, (32, True)), (0, 180, (1, True)),
-    (0, -180, (1, True)), (-80.1, 0, (0, False)), (84, 0, (0, True))])
+@pytest.mark.parametrize(
+    "latitude, longitude, zone",
+    [
+        (48.1, 11.6, (32, True)),
+        (-33.9, 18.4, (34, False)),
+        (60, 4, (32, True)),
+        (60, 2.9, (31, True)),
+        (75, 8.9, (31, True)),
+        (75, 9, (33, True)),
+        (75, 35, (37, True)),
+        (71.9, 8, (32, True)),
+        (0, 180, (1, True)),
+        (0, -180, (1, True)),
+        (-80.1, 0, (0, False)),
+        (84, 0, (0, True)),
+    ],
+)
 def test_zones(latitude, longitude, zone):
     assert zone_of(latitude, longitude) == zone
 
 
-@pytest.mark.parametrize("name, zone", [
-    ("31U", (31, True)), ("19h", (19, False)), ("1N", (1, True)), ("Z", (0, True)), ("B", (0, False))])
+@pytest.mark.parametrize("name, zone", [("31U", (31, True)), ("19h", (19, False)), ("1N", (1, True)), ("Z", (0, True)), ("B", (0, False))])
 def test_zone_names(name, zone):
     assert zone_named(name) == zone
 

@@ -1,4 +1,5 @@
 """The filters against motions that are known."""
+
 import numpy as np
 import pytest
 from state_estimation.filters import PROCESS_NOISE, Ekf, Measurement, Ukf
@@ -93,7 +94,7 @@ def test_acceleration_and_velocity_carry_on(kind):
         state.process(measured(step * 0.01, vx=2.0 * step * 0.01, ax=2.0))
     state.predict(0.5)
     assert state.state[6] == pytest.approx(3.0, abs=0.02)
-    assert state.state[0] == pytest.approx(0.5 * 2.0 * 1.5 ** 2, abs=0.05)
+    assert state.state[0] == pytest.approx(0.5 * 2.0 * 1.5**2, abs=0.05)
 
 
 @KINDS

@@ -1,21 +1,36 @@
 """Messages become measurements in the right frames."""
+
 import numpy as np
 import pytest
 from state_estimation.motion import rotation
-from state_estimation.sensors import (GRAVITY, IDENTITY, AccelerationInput, FrameMissing, Pose, PoseInput, Transform, TwistInput, angles,
-                                      flags, matrix, quaternion_matrix)
+from state_estimation.sensors import (
+    GRAVITY,
+    IDENTITY,
+    AccelerationInput,
+    FrameMissing,
+    Pose,
+    PoseInput,
+    Transform,
+    TwistInput,
+    angles,
+    flags,
+    matrix,
+    quaternion_matrix,
+)
 
 ALL = [True] * 6
 
 
 def frames(**known):
     """A look-up of transforms into any frame, by the source's name."""
+
     def lookup(target, source, _stamp):
         if source in known:
             return known[source]
         if source == target:
             return IDENTITY
         raise FrameMissing(source)
+
     return lookup
 
 

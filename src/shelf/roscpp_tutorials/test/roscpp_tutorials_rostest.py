@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Each of the nodes as a course types it."""
+
 import subprocess
 import unittest
 
@@ -26,7 +27,7 @@ class Tutorials(unittest.TestCase):
     def test_two_ints_are_added(self):
         rospy.wait_for_service("add_two_ints", timeout=60)
         self.assertEqual(TwoInts._md5sum, "6a2e34150c00229791cc89ff309fff21")
-        self.assertEqual(rospy.ServiceProxy("add_two_ints", TwoInts)(2 ** 62, -1).sum, 2 ** 62 - 1)
+        self.assertEqual(rospy.ServiceProxy("add_two_ints", TwoInts)(2**62, -1).sum, 2**62 - 1)
         asked = typed("add_two_ints_client", "1", "3")
         self.assertEqual(asked.returncode, 0)
         self.assertIn("Sum: 4", asked.stdout)

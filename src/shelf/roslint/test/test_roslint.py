@@ -1,4 +1,5 @@
 """A package in Noetic's style that calls roslint is configured, and `make roslint` judges its files."""
+
 import os
 import shutil
 import subprocess
@@ -20,7 +21,8 @@ roslint_add_test()
 def make(folder, files):
     (folder / "package.xml").write_text(
         '<package format="2"><name>linted</name><version>0.0.1</version><description>d</description>'
-        '<maintainer email="a@example.org">a</maintainer><license>BSD</license><buildtool_depend>catkin</buildtool_depend></package>')
+        '<maintainer email="a@example.org">a</maintainer><license>BSD</license><buildtool_depend>catkin</buildtool_depend></package>'
+    )
     (folder / "CMakeLists.txt").write_text(CMAKE.format(files=files))
     build = folder.with_name(folder.name + "_build")
     configured = subprocess.run(

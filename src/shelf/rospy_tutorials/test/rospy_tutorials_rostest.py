@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Each of the nodes as a course types it."""
+
 import subprocess
 import unittest
 
@@ -40,7 +41,7 @@ class Tutorials(unittest.TestCase):
     def test_two_ints_are_added(self):
         asked = typed("add_two_ints_client", "40", "-2")
         self.assertEqual((asked.returncode, asked.stdout), (0, "Requesting 40+-2\n40 + -2 = 38\n"))
-        self.assertEqual(rospy.ServiceProxy("add_two_ints", AddTwoInts)(2 ** 62, -1).sum, 2 ** 62 - 1)
+        self.assertEqual(rospy.ServiceProxy("add_two_ints", AddTwoInts)(2**62, -1).sum, 2**62 - 1)
         self.assertRegex(typed("add_two_ints_client").stdout, r"^Requesting -?\d+\+-?\d+\n-?\d+ \+ -?\d+ = -?\d+\n$")
         wrong = typed("add_two_ints_client", "1", "two")
         self.assertEqual(wrong.returncode, 1)
@@ -53,9 +54,15 @@ class Tutorials(unittest.TestCase):
         self.assertFalse(rospy.has_param("/foo/to_delete"))
 
     def test_types_are_upstreams(self):
-        self.assertEqual([kind._md5sum for kind in (AddTwoInts, BadTwoInts, Floats, HeaderString)],
-                         ["6a2e34150c00229791cc89ff309fff21", "60962375a49bd6746d7c85dff75ebb9c",
-                          "420cd38b6b071cd49f2970c3e2cee511", "c99a9440709e4d4a9716d55b8270d5e7"])
+        self.assertEqual(
+            [kind._md5sum for kind in (AddTwoInts, BadTwoInts, Floats, HeaderString)],
+            [
+                "6a2e34150c00229791cc89ff309fff21",
+                "60962375a49bd6746d7c85dff75ebb9c",
+                "420cd38b6b071cd49f2970c3e2cee511",
+                "c99a9440709e4d4a9716d55b8270d5e7",
+            ],
+        )
 
 
 if __name__ == "__main__":

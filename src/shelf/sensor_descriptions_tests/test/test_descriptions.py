@@ -1,4 +1,5 @@
 """Every macro, called as robots call it: frames where the makers' packages have them, bodies that a simulator takes."""
+
 import subprocess
 import xml.etree.ElementTree as ET
 from pathlib import Path
@@ -7,13 +8,11 @@ import pytest
 
 HERE = Path(__file__).parent
 DEVICES = HERE.parent.parent
-EXAMPLES = [DEVICES / name for name in ("sick_tim/urdf/example.urdf.xacro",
-                                        "realsense2_description/urdf/test_d455_camera.urdf.xacro")]
+EXAMPLES = [DEVICES / name for name in ("sick_tim/urdf/example.urdf.xacro", "realsense2_description/urdf/test_d455_camera.urdf.xacro")]
 
 
 def expanded(path, *arguments):
-    ended = subprocess.run(["rosrun", "xacro", "xacro", str(path), *arguments], capture_output=True, text=True,
-                           timeout=240)
+    ended = subprocess.run(["rosrun", "xacro", "xacro", str(path), *arguments], capture_output=True, text=True, timeout=240)
     assert ended.returncode == 0, ended.stderr
     assert ended.stderr == ""
     return ET.fromstring(ended.stdout)

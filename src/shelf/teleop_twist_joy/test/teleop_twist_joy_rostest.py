@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """teleop.launch without a joystick: what comes on joy drives."""
+
 import queue
 import unittest
 

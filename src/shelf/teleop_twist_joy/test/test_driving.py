@@ -1,4 +1,5 @@
 """Which axis drives how fast."""
+
 import pytest
 from twist_joy.driving import Driver
 
@@ -23,8 +24,17 @@ def test_letting_go_stops_once():
 
 
 def test_turbo_and_maps():
-    driver = Driver({"enable_button": 4, "enable_turbo_button": 5, "axis_linear": {"x": 1, "y": 2}, "scale_linear": {"x": 0.7, "y": 0.4},
-                     "scale_linear_turbo": {"x": 1.5}, "axis_angular": {"yaw": 0, "roll": 3}, "scale_angular": {"yaw": 0.4, "roll": 8}})
+    driver = Driver(
+        {
+            "enable_button": 4,
+            "enable_turbo_button": 5,
+            "axis_linear": {"x": 1, "y": 2},
+            "scale_linear": {"x": 0.7, "y": 0.4},
+            "scale_linear_turbo": {"x": 1.5},
+            "axis_angular": {"yaw": 0, "roll": 3},
+            "scale_angular": {"yaw": 0.4, "roll": 8},
+        }
+    )
     assert moved(driver.drive(AXES, [0, 0, 0, 0, 1, 0])) == {"x": 0.7, "y": -0.1, "yaw": 0.2, "roll": 1.0}
     assert moved(driver.drive(AXES, [0, 0, 0, 0, 0, 1])) == {"x": 1.5}
     assert ("Turbo for linear axis %s is scale %f.", ("x", 1.5)) in driver.lines()
@@ -42,10 +52,14 @@ def test_axes_that_a_joystick_lacks():
     assert moved(Driver({"axis_linear": 17}).drive(AXES, [1])) == {"yaw": 0.25}
 
 
-@pytest.mark.parametrize("parameters, said", [
-    ({"axis_linear": {"x": 1}, "scale_linear": 0.5}, "axis_linear and scale_linear must both be numbers, or both maps like {x: 1}"),
-    ({"axis_angular": {"turn": 1}}, "axis_angular has a field 'turn'; there are yaw, pitch, roll"),
-    ({"axis_linear": "left"}, "axis_linear must give numbers (axes whole ones), but x is 'left'")])
+@pytest.mark.parametrize(
+    "parameters, said",
+    [
+        ({"axis_linear": {"x": 1}, "scale_linear": 0.5}, "axis_linear and scale_linear must both be numbers, or both maps like {x: 1}"),
+        ({"axis_angular": {"turn": 1}}, "axis_angular has a field 'turn'; there are yaw, pitch, roll"),
+        ({"axis_linear": "left"}, "axis_linear must give numbers (axes whole ones), but x is 'left'"),
+    ],
+)
 def test_what_is_wrong_is_said(parameters, said):
     with pytest.raises(ValueError) as error:
         Driver(parameters)

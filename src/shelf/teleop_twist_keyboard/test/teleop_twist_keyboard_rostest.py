@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Types into teleop_twist_keyboard.py, and watches cmd_vel."""
+
 import queue
 import subprocess
 import unittest
@@ -49,8 +50,9 @@ class TeleopTwistKeyboard(unittest.TestCase):
 
     def test_repeated_stamped_and_stopped_without_keys(self):
         seen = self.listen("/stamped", TwistStamped)
-        node = self.start("cmd_vel:=/stamped", "_stamped:=true", "_frame_id:=base_link", "_repeat_rate:=50", "_key_timeout:=0.2",
-                          "_speed:=0.5")
+        node = self.start(
+            "cmd_vel:=/stamped", "_stamped:=true", "_frame_id:=base_link", "_repeat_rate:=50", "_key_timeout:=0.2", "_speed:=0.5"
+        )
         node.expect_exact("currently:")
         node.send("i")
         driven = [seen.get(timeout=60)]
@@ -62,10 +64,13 @@ class TeleopTwistKeyboard(unittest.TestCase):
         self.assertGreater(sum(message.twist.linear.x == 0.5 for message in driven), 2)
 
     def test_bad_parameter(self):
-        ended = subprocess.run(["rosrun", "teleop_twist_keyboard", NODE, "_speed:=fast"], stdin=subprocess.DEVNULL,
-                               capture_output=True, text=True, timeout=60)
-        self.assertEqual((ended.returncode, ended.stderr), (1, "teleop_twist_keyboard: parameter /teleop_twist_keyboard/speed "
-                                                               "must be a number, 0 or more, but is 'fast'\n"))
+        ended = subprocess.run(
+            ["rosrun", "teleop_twist_keyboard", NODE, "_speed:=fast"], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60
+        )
+        self.assertEqual(
+            (ended.returncode, ended.stderr),
+            (1, "teleop_twist_keyboard: parameter /teleop_twist_keyboard/speed must be a number, 0 or more, but is 'fast'\n"),
+        )
 
 
 if __name__ == "__main__":

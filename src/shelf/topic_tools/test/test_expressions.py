@@ -1,18 +1,21 @@
 """Expressions on messages, without ROS."""
+
 from types import SimpleNamespace
 
 import pytest
-
 from topic_relays.expressions import ExpressionError, compute, fill, modules
 
 M = SimpleNamespace(data="chassis", x=3.0, points=[1, 2, 3])
 
 
 def test_fields_are_expressions_and_the_rest_stays():
-    tree = {"header": {"seq": 7, "stamp": {"secs": 0, "nsecs": 0}, "frame_id": "m.data"}, "on": True, "x": "m.x * 2",
-            "frame": "base link"}
-    assert fill(tree, M) == {"header": {"seq": 7, "stamp": {"secs": 0, "nsecs": 0}, "frame_id": "chassis"}, "on": True,
-                             "x": 6.0, "frame": "base link"}
+    tree = {"header": {"seq": 7, "stamp": {"secs": 0, "nsecs": 0}, "frame_id": "m.data"}, "on": True, "x": "m.x * 2", "frame": "base link"}
+    assert fill(tree, M) == {
+        "header": {"seq": 7, "stamp": {"secs": 0, "nsecs": 0}, "frame_id": "chassis"},
+        "on": True,
+        "x": 6.0,
+        "frame": "base link",
+    }
     assert fill(["m.x", 1.5, "now"], M) == [3.0, 1.5, "now"]
 
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The nodes of topic_tools on the wire, each started as launch files do."""
+
 import queue
 import subprocess
 import unittest
@@ -58,6 +59,7 @@ class TopicTools(unittest.TestCase):
         def send():
             left.publish("l")
             right.publish("r")
+
         chosen.after(send, lambda m: m.data == "l")
         rospy.wait_for_service("mux/select", 30)
         self.assertEqual(rospy.ServiceProxy("mux/select", MuxSelect)("right").prev_topic, rospy.resolve_name("left"))

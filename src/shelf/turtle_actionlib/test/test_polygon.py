@@ -1,4 +1,5 @@
 """Polygons are closed and regular; what cannot be drawn is refused."""
+
 import math
 
 import pytest
@@ -38,8 +39,10 @@ def test_result_of_a_square():
     assert (polygon.interior_angle, polygon.apothem) == pytest.approx((math.pi / 2, 1))
 
 
-@pytest.mark.parametrize("edges, radius, said", [(2, 1, "3 edges or more"), (-5, 1, "3 edges or more"), (5, 0, "above 0"),
-                                                 (5, math.nan, "above 0"), (5, math.inf, "above 0")])
+@pytest.mark.parametrize(
+    "edges, radius, said",
+    [(2, 1, "3 edges or more"), (-5, 1, "3 edges or more"), (5, 0, "above 0"), (5, math.nan, "above 0"), (5, math.inf, "above 0")],
+)
 def test_refused(edges, radius, said):
     with pytest.raises(PolygonError, match=said):
         Polygon(edges, radius)

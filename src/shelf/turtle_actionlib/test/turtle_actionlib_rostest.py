@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A goal is drawn, another is refused, one is cancelled; shape_client finds the server."""
+
 import subprocess
 import unittest
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """turtle_tf_sensor.launch: turtle2 comes to turtle1, turtle3 goes round; the carrot leads where it says."""
+
 import math
 import queue
 import subprocess

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """turtle_tf2_sensor_cpp.launch: turtle2 comes to turtle1, and turtle1 is told where it sees turtle3."""
+
 import math
 import queue
 import re

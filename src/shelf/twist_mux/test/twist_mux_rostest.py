@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """twist_mux.launch on the wire: two sources, a lock, the joystick's relay."""
+
 import queue
 import unittest
 
@@ -25,8 +26,10 @@ class TwistMux(unittest.TestCase):
         cls.driven, cls.status = queue.Queue(), queue.Queue()
         rospy.Subscriber("cmd_vel", Twist, cls.driven.put)
         rospy.Subscriber("/diagnostics", DiagnosticArray, cls.status.put)
-        cls.publishers = {name: rospy.Publisher(name, kind, queue_size=10, latch=kind is Bool) for name, kind in (
-            ("nav_vel", Twist), ("input_joy/cmd_vel", Twist), ("stop", Bool))}
+        cls.publishers = {
+            name: rospy.Publisher(name, kind, queue_size=10, latch=kind is Bool)
+            for name, kind in (("nav_vel", Twist), ("input_joy/cmd_vel", Twist), ("stop", Bool))
+        }
         while any(publisher.get_num_connections() == 0 for publisher in cls.publishers.values()):
             rospy.rostime.wallsleep(0.02)
         rospy.wait_for_message("text_marker", Marker, 60)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The tutorial's last step, typed as it says: head, gripper and wheels do what their topics are told."""
+
 import unittest
 
 import rospy
@@ -17,8 +18,9 @@ class Droid(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.joints = {}
-        cls.subscriber = rospy.Subscriber("/joint_states", JointState,
-                                          lambda message: cls.joints.update(zip(message.name, message.position)))
+        cls.subscriber = rospy.Subscriber(
+            "/joint_states", JointState, lambda message: cls.joints.update(zip(message.name, message.position))
+        )
         wait_until(lambda: "left_front_wheel_joint" in cls.joints, "joint states", ALL)
 
     def tell(self, topic, kind, message):
@@ -45,6 +47,7 @@ class Droid(unittest.TestCase):
         def half_a_metre_on():
             wheels.publish(ahead)
             return state("robot", "").pose.position.x > 0.5
+
         wait_until(half_a_metre_on, "half a metre", ALL)
         self.assertLess(abs(state("robot", "").pose.position.y), 0.02)
         self.assertAlmostEqual(state("robot", "").pose.position.z, 0.47, delta=0.02)  # on its wheels

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """display.launch publishes the robot's frames."""
+
 import unittest
 
 import rospy

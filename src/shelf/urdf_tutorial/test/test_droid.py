@@ -1,4 +1,5 @@
 """The tutorial's files tell of one droid, step by step."""
+
 import subprocess
 import xml.etree.ElementTree as ET
 from pathlib import Path
@@ -19,8 +20,7 @@ def expanded(path):
 
 def attributes(element, *names):
     """The numbers of an element's attributes; of an absent one three zeros each."""
-    return [float(value) for name in names
-            for value in (element.get(name, "0 0 0") if element is not None else "0 0 0").split()]
+    return [float(value) for name in names for value in (element.get(name, "0 0 0") if element is not None else "0 0 0").split()]
 
 
 def facts(robot):
@@ -30,16 +30,22 @@ def facts(robot):
         shape = link.find("visual/geometry")[0]
         sizes = sorted(key for key in shape.attrib if key != "filename")
         mass = link.find("inertial/mass")
-        links[link.get("name")] = ((shape.tag, *sizes, shape.get("filename")), [
-            *attributes(shape, *sizes), *attributes(link.find("visual/origin"), "xyz", "rpy"),
-            *(attributes(mass, "value") if mass is not None else [])])
+        links[link.get("name")] = (
+            (shape.tag, *sizes, shape.get("filename")),
+            [
+                *attributes(shape, *sizes),
+                *attributes(link.find("visual/origin"), "xyz", "rpy"),
+                *(attributes(mass, "value") if mass is not None else []),
+            ],
+        )
     for joint in robot.findall("joint"):
         limit = joint.find("limit")
         limits = sorted(limit.attrib) if limit is not None else []
         ends = [joint.find(end).get("link") for end in ("parent", "child")]
-        joints[joint.get("name")] = ((joint.get("type"), *ends, *limits), [
-            *attributes(joint.find("origin"), "xyz", "rpy"), *attributes(limit, *limits),
-            *attributes(joint.find("axis"), "xyz")])
+        joints[joint.get("name")] = (
+            (joint.get("type"), *ends, *limits),
+            [*attributes(joint.find("origin"), "xyz", "rpy"), *attributes(limit, *limits), *attributes(joint.find("axis"), "xyz")],
+        )
     return links, joints
 
 
@@ -77,5 +83,12 @@ def test_macros_make_the_same_droid():
 def test_joints_that_move():
     _, joints = facts(expanded(HERE / "urdf/06-flexible.urdf"))
     assert {name for name, said in joints.items() if said[0][0] != "fixed"} == {
-        "head_swivel", "gripper_extension", "left_gripper_joint", "right_gripper_joint", "left_front_wheel_joint",
-        "left_back_wheel_joint", "right_front_wheel_joint", "right_back_wheel_joint"}
+        "head_swivel",
+        "gripper_extension",
+        "left_gripper_joint",
+        "right_gripper_joint",
+        "left_front_wheel_joint",
+        "left_back_wheel_joint",
+        "right_front_wheel_joint",
+        "right_back_wheel_joint",
+    }

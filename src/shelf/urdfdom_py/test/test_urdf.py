@@ -1,4 +1,5 @@
 """URDF to objects and back, with the names, defaults and messages of urdf_parser_py 0.4."""
+
 import xml.etree.ElementTree as ElementTree
 
 import pytest
@@ -46,7 +47,12 @@ def check(robot):
     assert (upper.visual.geometry.radius, upper.visuals[1].geometry.scale, upper.visuals[1].name) == (0.1, [1, 1, 2], "second")
     assert (upper.collision.geometry.size, upper.collision.origin.rpy) == ([1, 2, 3], [0, 0, 1.5])
     assert (shoulder.type, shoulder.joint_type, shoulder.axis, shoulder.parent, shoulder.child) == (
-        "revolute", "revolute", [0, 0, 1], "base", "upper")
+        "revolute",
+        "revolute",
+        [0, 0, 1],
+        "base",
+        "upper",
+    )
     assert (shoulder.limit.lower, shoulder.limit.effort, shoulder.dynamics.damping, shoulder.dynamics.friction) == (-1, 30, 0.5, None)
     assert (shoulder.mimic.joint, shoulder.mimic.multiplier, shoulder.mimic.offset) == ("wrist", 2, None)
     assert (shoulder.safety_controller.k_velocity, shoulder.safety_controller.k_position) == (10, 0)
@@ -69,9 +75,15 @@ def test_a_robot_is_read_and_written_without_loss(told, tmp_path):
     assert told == [] and "name: shoulder" in str(robot)
 
 
-@pytest.mark.parametrize("options, chain", [
-    ({}, ["base", "shoulder", "upper", "wrist", "hand"]), ({"links": False}, ["shoulder", "wrist"]),
-    ({"links": False, "fixed": False}, ["shoulder"]), ({"joints": False}, ["base", "upper", "hand"])])
+@pytest.mark.parametrize(
+    "options, chain",
+    [
+        ({}, ["base", "shoulder", "upper", "wrist", "hand"]),
+        ({"links": False}, ["shoulder", "wrist"]),
+        ({"links": False, "fixed": False}, ["shoulder"]),
+        ({"joints": False}, ["base", "upper", "hand"]),
+    ],
+)
 def test_chains(options, chain):
     assert URDF.from_xml_string(ARM).get_chain("base", "hand", **options) == chain
 
@@ -92,26 +104,38 @@ def test_a_robot_is_made_by_hand():
         robot.add_link(Link("c")) or robot.get_root()
 
 
-@pytest.mark.parametrize("change, path, reason", [
-    (('type="fixed"', 'type="hinge"'), "/robot[@name='arm']/joint[@name='wrist']", "Invalid joint type: hinge"),
-    (('<parent link="upper"/>', ""), "/robot[@name='arm']/joint[@name='wrist']", "Required element not set in XML: parent"),
-    (('<parent link="upper"/>', "<parent/>"), "/robot[@name='arm']/joint[@name='wrist']/parent", "not set in XML: link"),
-    (('value="2.5"', 'value="2,5"'), "/robot[@name='arm']/link[@name='upper']/inertial/mass[@value]", "could not convert"),
-    (('size="1 2 3"', 'size="1 2"'), "/robot[@name='arm']/link[@name='upper']/collision[1]/geometry/box[@size]", "must be 3 numbers"),
-    (('effort="30"', ""), "/robot[@name='arm']/joint[@name='shoulder']/limit", "Required attribute not set in XML: effort"),
-    (("<box size", "<cone size"), "/robot[@name='arm']/link[@name='upper']/collision[1]/geometry", "Invalid geometric tag: cone"),
-    (('<actuator name="motor"><mechanicalReduction>50</mechanicalReduction></actuator>', ""),
-     "/robot[@name='arm']/transmission[@name='t']", "no actuator defined"), (("</robot>", ""), "/robot", "no element found")])
+@pytest.mark.parametrize(
+    "change, path, reason",
+    [
+        (('type="fixed"', 'type="hinge"'), "/robot[@name='arm']/joint[@name='wrist']", "Invalid joint type: hinge"),
+        (('<parent link="upper"/>', ""), "/robot[@name='arm']/joint[@name='wrist']", "Required element not set in XML: parent"),
+        (('<parent link="upper"/>', "<parent/>"), "/robot[@name='arm']/joint[@name='wrist']/parent", "not set in XML: link"),
+        (('value="2.5"', 'value="2,5"'), "/robot[@name='arm']/link[@name='upper']/inertial/mass[@value]", "could not convert"),
+        (('size="1 2 3"', 'size="1 2"'), "/robot[@name='arm']/link[@name='upper']/collision[1]/geometry/box[@size]", "must be 3 numbers"),
+        (('effort="30"', ""), "/robot[@name='arm']/joint[@name='shoulder']/limit", "Required attribute not set in XML: effort"),
+        (("<box size", "<cone size"), "/robot[@name='arm']/link[@name='upper']/collision[1]/geometry", "Invalid geometric tag: cone"),
+        (
+            ('<actuator name="motor"><mechanicalReduction>50</mechanicalReduction></actuator>', ""),
+            "/robot[@name='arm']/transmission[@name='t']",
+            "no actuator defined",
+        ),
+        (("</robot>", ""), "/robot", "no element found"),
+    ],
+)
 def test_what_is_wrong_is_told_with_its_place_in_one_line(told, change, path, reason):
     with pytest.raises(xmlr.ParseError) as caught:
         URDF.from_xml_string(ARM.replace(*change))
     assert caught.value.path == path and reason in str(caught.value) and "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize("change, message", [
-    (('<link name="hand"/>', '<link name="hand"><wheels/></link>'), "Unknown tag \"wheels\" in /robot[@name='arm']/link[@name='hand']"),
-    (('<link name="hand"/>', '<link name="hand" size="1"/>'), "Unknown attribute \"size\" in /robot[@name='arm']/link[@name='hand']"),
-    (('<mass value="2.5"/>', '<mass value="2.5"/><mass value="3"/>'), "Scalar element defined multiple times: mass")])
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        (('<link name="hand"/>', '<link name="hand"><wheels/></link>'), "Unknown tag \"wheels\" in /robot[@name='arm']/link[@name='hand']"),
+        (('<link name="hand"/>', '<link name="hand" size="1"/>'), "Unknown attribute \"size\" in /robot[@name='arm']/link[@name='hand']"),
+        (('<mass value="2.5"/>', '<mass value="2.5"/><mass value="3"/>'), "Scalar element defined multiple times: mass"),
+    ],
+)
 def test_what_is_unknown_is_told_and_left_out(told, change, message):
     check(URDF.from_xml_string(ARM.replace(*change)))
     assert told == [message]

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The example robot's two lidars stand on a plane, a wall before them: the clouds are checked against geometry."""
+
 import unittest
 
 import numpy as np

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The server over real HTTP: streams, single pictures, pages, and what it says of what it does not have."""
+
 import re
 import signal
 import subprocess
@@ -19,7 +20,7 @@ PATIENCE = 60.0
 
 def image(colour, height=40, width=60, stamp=1.5):
     pixels = np.zeros((height, width, 3), np.uint8)
-    pixels[:height // 2] = colour
+    pixels[: height // 2] = colour
     message = Image(height=height, width=width, encoding="rgb8", step=3 * width, data=pixels.tobytes())
     message.header.stamp = rospy.Time.from_sec(stamp)
     return message
@@ -33,11 +34,15 @@ class WebVideoServer(unittest.TestCase):
         cls.compressed = rospy.Publisher("/camera/image_raw/compressed", CompressedImage, queue_size=1, latch=True)
         cls.info = rospy.Publisher("/camera/camera_info", CameraInfo, queue_size=1)
         cls.depth = rospy.Publisher("/depth", Image, queue_size=1, latch=True)
-        cls.server = subprocess.Popen(["rosrun", "web_video_server", "web_video_server", "_port:=0", "_address:=127.0.0.1"],
-                                      stdout=subprocess.PIPE, text=True)
+        cls.server = subprocess.Popen(
+            ["rosrun", "web_video_server", "web_video_server", "_port:=0", "_address:=127.0.0.1"], stdout=subprocess.PIPE, text=True
+        )
         cls.addClassCleanup(cls.end)
-        cls.port = next(int(found[1]) for found in (re.search(r"Waiting For connections on 127.0.0.1:(\d+)", line)
-                                                    for line in cls.server.stdout) if found)
+        cls.port = next(
+            int(found[1])
+            for found in (re.search(r"Waiting For connections on 127.0.0.1:(\d+)", line) for line in cls.server.stdout)
+            if found
+        )
 
     @classmethod
     def end(cls):
@@ -98,13 +103,15 @@ class WebVideoServer(unittest.TestCase):
         self.assertIn('<img src="/stream?topic=/depth&amp;width=20">', page)
 
     def test_what_is_not_there_is_said(self):
-        for path, sentence in (("/stream?topic=/cam", "nobody publishes /cam; image topics: /camera/image_raw, /depth"),
-                               ("/stream?topic=/depth&type=vp8", "type=vp8 is not supplied here; ask for type=mjpeg"),
-                               ("/stream?topic=/rosout", "/rosout has messages of rosgraph_msgs/Log, which are no pictures"),
-                               ("/snapshot?topic=/camera/camera_info", "has messages of sensor_msgs/CameraInfo, which are no pictures"),
-                               ("/snapshot?topic=/camera/%0a[ERROR]%20forged", "/camera/\\n[ERROR] forged is no name of a topic"),
-                               ("/%1b[2J", "there is nothing at /%1b[2J"),
-                               ("/index.html", "there is nothing at /index.html")):
+        for path, sentence in (
+            ("/stream?topic=/cam", "nobody publishes /cam; image topics: /camera/image_raw, /depth"),
+            ("/stream?topic=/depth&type=vp8", "type=vp8 is not supplied here; ask for type=mjpeg"),
+            ("/stream?topic=/rosout", "/rosout has messages of rosgraph_msgs/Log, which are no pictures"),
+            ("/snapshot?topic=/camera/camera_info", "has messages of sensor_msgs/CameraInfo, which are no pictures"),
+            ("/snapshot?topic=/camera/%0a[ERROR]%20forged", "/camera/\\n[ERROR] forged is no name of a topic"),
+            ("/%1b[2J", "there is nothing at /%1b[2J"),
+            ("/index.html", "there is nothing at /index.html"),
+        ):
             with self.subTest(path), self.assertRaises(urllib.error.HTTPError) as caught:
                 self.get(path)
             self.assertEqual(caught.exception.code, 404)
@@ -113,8 +120,12 @@ class WebVideoServer(unittest.TestCase):
             self.assertTrue(answer[:-1].isprintable(), answer)
 
     def test_a_port_that_is_taken_ends_it_with_one_line(self):
-        ended = subprocess.run(["rosrun", "web_video_server", "web_video_server", f"_port:={self.port}", "_address:=127.0.0.1",
-                                "__name:=second"], capture_output=True, text=True, timeout=PATIENCE)
+        ended = subprocess.run(
+            ["rosrun", "web_video_server", "web_video_server", f"_port:={self.port}", "_address:=127.0.0.1", "__name:=second"],
+            capture_output=True,
+            text=True,
+            timeout=PATIENCE,
+        )
         self.assertEqual((ended.returncode, ended.stderr.count("\n")), (1, 1), ended.stderr)
         self.assertIn("cannot be had: Address already in use; give another one with _port:=8081", ended.stderr)
 

@@ -1,4 +1,5 @@
 """What the clients share: a goal is sent, and how it ended is told."""
+
 from typing import Any, Optional
 
 import actionlib

@@ -1,4 +1,5 @@
 """The action ``averaging``: mean and standard deviation of the next numbers on ``/random_number``."""
+
 import contextlib
 import math
 import random
@@ -49,9 +50,9 @@ class Server:
             feedback.sample += 1
             feedback.data = message.data
             self._sum += message.data
-            self._squares += message.data ** 2
+            self._squares += message.data**2
             feedback.mean = self._sum / feedback.sample
-            feedback.std_dev = math.sqrt(abs(self._squares / feedback.sample - feedback.mean ** 2))
+            feedback.std_dev = math.sqrt(abs(self._squares / feedback.sample - feedback.mean**2))
             self._server.publish_feedback(feedback)
             if feedback.sample >= self._wanted:
                 self._end(AveragingResult(feedback.mean, feedback.std_dev))

@@ -1,4 +1,5 @@
 """The action ``fibonacci``: so many of Fibonacci's numbers, one each second."""
+
 import actionlib
 import node_signals
 import rospy

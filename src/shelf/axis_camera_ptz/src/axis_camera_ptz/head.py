@@ -1,4 +1,5 @@
 """Pan, tilt and zoom within their limits; no ROS."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -6,12 +7,26 @@ from typing import Any, Dict, List, Tuple
 
 #: Parameters of the node with the values that they have when nothing is said; rad.
 DEFAULTS: Dict[str, Any] = {
-    "ptz": False, "pan_joint": "pan", "tilt_joint": "tilt",
-    "pan_joint_command": "joint_pan_position_controller/command", "tilt_joint_command": "joint_tilt_position_controller/command",
-    "min_pan_value": -2.97, "max_pan_value": 2.97, "min_tilt_value": 0.0, "max_tilt_value": 1.57,
-    "min_zoom_value": 0.0, "max_zoom_value": 20000.0, "home_pan_value": 0.0, "home_tilt_value": 0.79, "ptz_rate": 5.0,
-    "use_control_timeout": False, "control_timeout_value": 5.0, "invert_ptz": False, "initialization_delay": 0.0,
-    "joint_states_topic": "joint_states"}
+    "ptz": False,
+    "pan_joint": "pan",
+    "tilt_joint": "tilt",
+    "pan_joint_command": "joint_pan_position_controller/command",
+    "tilt_joint_command": "joint_tilt_position_controller/command",
+    "min_pan_value": -2.97,
+    "max_pan_value": 2.97,
+    "min_tilt_value": 0.0,
+    "max_tilt_value": 1.57,
+    "min_zoom_value": 0.0,
+    "max_zoom_value": 20000.0,
+    "home_pan_value": 0.0,
+    "home_tilt_value": 0.79,
+    "ptz_rate": 5.0,
+    "use_control_timeout": False,
+    "control_timeout_value": 5.0,
+    "invert_ptz": False,
+    "initialization_delay": 0.0,
+    "joint_states_topic": "joint_states",
+}
 
 
 @dataclass
@@ -46,5 +61,4 @@ class Head:
         begin = (self.pan, self.tilt, self.zoom) if relative else (0.0, 0.0, 0.0)
         wanted = [start + more for start, more in zip(begin, (sign * pan, sign * tilt, zoom))]
         if all(value == value for value in wanted):
-            self.pan, self.tilt, self.zoom = (min(max(value, least), most)
-                                              for value, (least, most) in zip(wanted, self.limits))
+            self.pan, self.tilt, self.zoom = (min(max(value, least), most) for value, (least, most) in zip(wanted, self.limits))

@@ -1,4 +1,5 @@
 """The node: commands of ``robotnik_msgs/ptz`` for the head, positions for the controllers of its joints."""
+
 from __future__ import annotations
 
 import sys
@@ -43,10 +44,14 @@ class Node:
     def turn(self) -> None:
         """Publish where the head is, and where its joints are to go; the joints are left alone until somebody has told."""
         values = self.values
-        self.states.publish(self.state(pan=self.now.get(values["pan_joint"], 0.0), tilt=self.now.get(values["tilt_joint"], 0.0),
-                                       zoom=self.head.zoom))
-        late = values["use_control_timeout"] and self.told is not None and (
-            (rospy.Time.now() - self.told).to_sec() > values["control_timeout_value"])
+        self.states.publish(
+            self.state(pan=self.now.get(values["pan_joint"], 0.0), tilt=self.now.get(values["tilt_joint"], 0.0), zoom=self.head.zoom)
+        )
+        late = (
+            values["use_control_timeout"]
+            and self.told is not None
+            and ((rospy.Time.now() - self.told).to_sec() > values["control_timeout_value"])
+        )
         if self.told is not None and not late:
             for publisher, value in zip(self.joints, (self.head.pan, self.head.tilt)):
                 publisher.publish(value)
@@ -58,8 +63,11 @@ def main() -> int:
     try:
         import robotnik_msgs.msg as messages
     except ImportError:
-        print("axis_camera_ptz: the messages of robotnik_msgs are not here; build it in your workspace "
-              "(https://github.com/RobotnikAutomation/robotnik_msgs)", file=sys.stderr)
+        print(
+            "axis_camera_ptz: the messages of robotnik_msgs are not here; build it in your workspace "
+            "(https://github.com/RobotnikAutomation/robotnik_msgs)",
+            file=sys.stderr,
+        )
         return 1
     values = {name: rospy.get_param(name, value) for name, value in DEFAULTS.items()}
     try:

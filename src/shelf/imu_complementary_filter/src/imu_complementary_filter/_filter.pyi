@@ -9,8 +9,7 @@ class Complementary:
     :raises ValueError: a share that is none
     """
 
-    def __init__(self, gain_acc: float = ..., gain_mag: float = ..., adaptive: bool = ...,
-                 bias_alpha: Optional[float] = ...) -> None: ...
+    def __init__(self, gain_acc: float = ..., gain_mag: float = ..., adaptive: bool = ..., bias_alpha: Optional[float] = ...) -> None: ...
     @property
     def orientation(self) -> List[float]:
         """w, x, y, z"""

@@ -1,4 +1,5 @@
 """``complementary_filter_node``."""
+
 from __future__ import annotations
 
 import rospy
@@ -19,8 +20,9 @@ class ComplementaryNode(Node):
             if not 0.0 <= value <= 1.0:
                 rospy.logwarn("parameter ~%s is %g, and has to lie between 0 and 1; 0.01 is taken", key, value)
                 gains[key] = 0.01
-        self.filter = Complementary(gains["gain_acc"], gains["gain_mag"], rospy.get_param("~do_adaptive_gain", True),
-                                    gains["bias_alpha"] if bias else None)
+        self.filter = Complementary(
+            gains["gain_acc"], gains["gain_mag"], rospy.get_param("~do_adaptive_gain", True), gains["bias_alpha"] if bias else None
+        )
         self._steady = rospy.Publisher(f"{name}/steady_state", Bool, queue_size=QUEUE) if debug and bias else None
         self._started = False
 

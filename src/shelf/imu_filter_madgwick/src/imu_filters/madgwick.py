@@ -1,4 +1,5 @@
 """Madgwick's gradient descent filter (S. Madgwick, 2010)."""
+
 from __future__ import annotations
 
 import math

@@ -1,4 +1,5 @@
 """What nodes of filters do, and Madgwick's: read, ask the filter, publish. Topics as upstream: imu/data_raw, imu/mag in, imu/data out."""
+
 from __future__ import annotations
 
 import math
@@ -53,8 +54,10 @@ class Node:
         self._rpy = rospy.Publisher(f"{name}/rpy/filtered", Vector3Stamped, queue_size=QUEUE) if debug else None
         self.prepare(name, debug)
         if use_mag:
-            pair = [message_filters.Subscriber(f"{name}/{topic}", kind, queue_size=QUEUE)
-                    for topic, kind in (("data_raw", Imu), ("mag", MagneticField))]
+            pair = [
+                message_filters.Subscriber(f"{name}/{topic}", kind, queue_size=QUEUE)
+                for topic, kind in (("data_raw", Imu), ("mag", MagneticField))
+            ]
             self._pairs = message_filters.ApproximateTimeSynchronizer(pair, QUEUE, _TOGETHER)
             self._pairs.registerCallback(self._take)
         else:
@@ -93,10 +96,16 @@ class Node:
 
     def _publish(self, reading: Imu, orientation) -> None:
         w, x, y, z = orientation
-        variance = self.stddev ** 2
-        message = Imu(reading.header, Quaternion(x, y, z, w), [variance, 0, 0, 0, variance, 0, 0, 0, variance],
-                      Vector3(*numbers(reading.angular_velocity)), reading.angular_velocity_covariance,
-                      Vector3(*numbers(reading.linear_acceleration)), reading.linear_acceleration_covariance)
+        variance = self.stddev**2
+        message = Imu(
+            reading.header,
+            Quaternion(x, y, z, w),
+            [variance, 0, 0, 0, variance, 0, 0, 0, variance],
+            Vector3(*numbers(reading.angular_velocity)),
+            reading.angular_velocity_covariance,
+            Vector3(*numbers(reading.linear_acceleration)),
+            reading.linear_acceleration_covariance,
+        )
         self.finish(message, orientation)
         self._data.publish(message)
         if self._rpy:
@@ -130,10 +139,12 @@ class MadgwickNode(Node):
         self.filter = Madgwick(world)
         self._iron = 0.0, 0.0, 0.0
         self._started = False
-        table = [Parameter("gain", float, 0.1, 0.0, 1.0, "rad/s that the turn rates may be wrong"),
-                 Parameter("zeta", float, 0.0, -1.0, 1.0, "drift of their bias"),
-                 *(Parameter(f"mag_bias_{axis}", float, 0.0, -10.0, 10.0, "hard iron, taken off the field") for axis in "xyz"),
-                 Parameter("orientation_stddev", float, 0.0, 0.0, 100.0, "rad, goes into the covariance")]
+        table = [
+            Parameter("gain", float, 0.1, 0.0, 1.0, "rad/s that the turn rates may be wrong"),
+            Parameter("zeta", float, 0.0, -1.0, 1.0, "drift of their bias"),
+            *(Parameter(f"mag_bias_{axis}", float, 0.0, -10.0, 10.0, "hard iron, taken off the field") for axis in "xyz"),
+            Parameter("orientation_stddev", float, 0.0, 0.0, 100.0, "rad, goes into the covariance"),
+        ]
         self._server = Server(rospy.get_name(), table, self._reconfigure)
 
     def _reconfigure(self, config, _level) -> None:

@@ -1,4 +1,5 @@
 """Vectors (3,) and unit quaternions (w, x, y, z), as plain tuples: a filter makes a few of them a thousand times a second."""
+
 from __future__ import annotations
 
 import math
@@ -27,10 +28,12 @@ def unit(v, least: float = 0.0):
 
 
 def product(a: Quaternion, b: Quaternion) -> Quaternion:
-    return (a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
-            a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-            a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
-            a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0])
+    return (
+        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+    )
 
 
 def conjugate(q: Quaternion) -> Quaternion:
@@ -73,8 +76,11 @@ def of_axes(x: Vector, y: Vector, z: Vector) -> Quaternion:
 
 def roll_pitch_yaw(q: Quaternion) -> Vector:
     w, x, y, z = q
-    return (math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)), math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x)))),
-            math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)))
+    return (
+        math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)),
+        math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x)))),
+        math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)),
+    )
 
 
 def level_or_north(world: str, acceleration: Vector, field: Optional[Vector] = None) -> Optional[Quaternion]:

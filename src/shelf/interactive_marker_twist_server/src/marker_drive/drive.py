@@ -1,4 +1,5 @@
 """From a drag to velocities. No ROS in it."""
+
 from typing import Dict, Sequence, Tuple
 
 from node_signals.parameters import is_number

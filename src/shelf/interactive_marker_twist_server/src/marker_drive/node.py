@@ -1,4 +1,5 @@
 """The node twist_marker_server: a marker on the robot; ``~cmd_vel`` while it is dragged."""
+
 import math
 import sys
 
@@ -20,12 +21,22 @@ def marker(drive: Drive, robot: str, link: str, size: float) -> InteractiveMarke
     made.header.frame_id = link
     made.pose.orientation.w = 1.0
     for axis in drive.axes:
-        made.controls.append(InteractiveMarkerControl(
-            name="move_" + axis, orientation=_ALONG[axis], orientation_mode=InteractiveMarkerControl.FIXED,
-            interaction_mode=InteractiveMarkerControl.MOVE_AXIS))
-    made.controls.append(InteractiveMarkerControl(
-        name="rotate_z", orientation=_ALONG["z"], orientation_mode=InteractiveMarkerControl.FIXED,
-        interaction_mode=InteractiveMarkerControl.ROTATE_AXIS))
+        made.controls.append(
+            InteractiveMarkerControl(
+                name="move_" + axis,
+                orientation=_ALONG[axis],
+                orientation_mode=InteractiveMarkerControl.FIXED,
+                interaction_mode=InteractiveMarkerControl.MOVE_AXIS,
+            )
+        )
+    made.controls.append(
+        InteractiveMarkerControl(
+            name="rotate_z",
+            orientation=_ALONG["z"],
+            orientation_mode=InteractiveMarkerControl.FIXED,
+            interaction_mode=InteractiveMarkerControl.ROTATE_AXIS,
+        )
+    )
     return made
 
 
@@ -45,7 +56,7 @@ def main() -> int:
         twist, turn = Twist(), feedback.pose.orientation
         for axis in drive.axes:
             setattr(twist.linear, axis, drive.linear(axis, getattr(feedback.pose.position, axis)))
-        twist.angular.z = drive.angular(math.atan2(2 * (turn.w * turn.z + turn.x * turn.y), 1 - 2 * (turn.y ** 2 + turn.z ** 2)))
+        twist.angular.z = drive.angular(math.atan2(2 * (turn.w * turn.z + turn.x * turn.y), 1 - 2 * (turn.y**2 + turn.z**2)))
         publisher.publish(twist)
         server.setPose(shown.name, Pose(orientation=Quaternion(w=1.0)))  # it snaps back onto the robot
         server.applyChanges()

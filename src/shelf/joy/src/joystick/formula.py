@@ -1,4 +1,5 @@
 """Small formulas over the axes and buttons of a joystick: ``max(axes[2], 0.0) * -1.0``."""
+
 from __future__ import annotations
 
 import ast
@@ -6,8 +7,13 @@ import operator
 from typing import Callable, Dict, Optional, Sequence, Tuple, cast
 
 _OPERATORS: Dict[type, Callable] = {
-    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
-    ast.BitXor: operator.xor, ast.USub: operator.neg}
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.BitXor: operator.xor,
+    ast.USub: operator.neg,
+}
 _FUNCTIONS: Dict[str, Callable] = {"abs": abs, "max": max, "min": min}
 _LISTS = ("axes", "buttons")
 _LONGEST = 1000  # characters
@@ -44,14 +50,20 @@ class Formula:
             for argument in node.args:
                 self._check(argument)
         elif self._item(node) is None:
-            raise ValueError(f"'{ast.unparse(node)}' in '{self.text}' is not understood: numbers, axes[i], buttons[i], "
-                             "+ - * / ^, abs, max and min are")
+            raise ValueError(
+                f"'{ast.unparse(node)}' in '{self.text}' is not understood: numbers, axes[i], buttons[i], + - * / ^, abs, max and min are"
+            )
 
     @staticmethod
     def _item(node: ast.expr) -> Optional[Tuple[str, int]]:
         """("axes", 1) of ``axes[1]``; None of anything else."""
-        if (isinstance(node, ast.Subscript) and isinstance(node.value, ast.Name) and node.value.id in _LISTS
-                and isinstance(node.slice, ast.Constant) and type(node.slice.value) is int):
+        if (
+            isinstance(node, ast.Subscript)
+            and isinstance(node.value, ast.Name)
+            and node.value.id in _LISTS
+            and isinstance(node.slice, ast.Constant)
+            and type(node.slice.value) is int
+        ):
             return node.value.id, node.slice.value
         return None
 

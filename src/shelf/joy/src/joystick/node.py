@@ -1,4 +1,5 @@
 """The node joy_node: publishes ``joy`` (sensor_msgs/Joy)."""
+
 import glob
 import math
 import os

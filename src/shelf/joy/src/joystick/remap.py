@@ -1,4 +1,5 @@
 """The node joy_remap.py: another order of axes and buttons, as parameters say it in small formulas."""
+
 from __future__ import annotations
 
 import sys
@@ -60,7 +61,6 @@ def main() -> int:
         if rospy.remap_name(name) == name:
             rospy.logwarn("topic '%s' is not remapped", name)
     publisher = rospy.Publisher("joy_out", Joy, queue_size=1)
-    rospy.Subscriber("joy_in", Joy, lambda seen: publisher.publish(remap.message(seen)),
-                     queue_size=rospy.get_param("~queue_size", None))
+    rospy.Subscriber("joy_in", Joy, lambda seen: publisher.publish(remap.message(seen)), queue_size=rospy.get_param("~queue_size", None))
     node_signals.spin()
     return 0

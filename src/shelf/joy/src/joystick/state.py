@@ -1,4 +1,5 @@
 """Axes and buttons of a joystick, from the events of the kernel (linux/joystick.h). No ROS in it."""
+
 import struct
 from typing import List
 

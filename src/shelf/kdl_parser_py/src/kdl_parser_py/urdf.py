@@ -1,4 +1,5 @@
 """A PyKDL.Tree of a robot. Each function returns (whether all links are in it, the tree)."""
+
 from __future__ import annotations
 
 import sys

@@ -1,4 +1,5 @@
 """libgazebo_ros_kobuki.so: the Kobuki base with its drive, odometry by gyro, and the events of its sensors."""
+
 from __future__ import annotations
 
 import math
@@ -12,13 +13,13 @@ from gazebo_plugins.wheels import Command
 from gazebo_ros.plugin import ModelPlugin, PluginError
 from geometry_msgs.msg import Quaternion, Vector3
 from nav_msgs.msg import Odometry
+from node_signals.rates import PeriodAdded
 from ode_sim import math3
 from ode_sim.description.model import Pose
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Empty
 
 from .senses import SIDES, Bumper, Cliffs, OnFloor, named_sensor, reading
-from node_signals.rates import PeriodAdded
 
 _RATE = 50.0  # Hz, of the real base
 _UNKNOWN = 1e6  # variance of what is not measured
@@ -46,8 +47,12 @@ class Kobuki(ModelPlugin):
         self.gyro_link, gyro = named_sensor(model, _required(sdf, "imu_name"), ("imu",))
         self.X_LG, self.acceleration = gyro.pose, Differentiator(self.gyro_link, gyro.pose.p)
         self.bumper = Bumper(self.world, model, [wheel.child for wheel in self.wheels])
-        self.cliffs = Cliffs(self.world, model, {side: _required(sdf, f"cliff_sensor_{side}_name") for side in SIDES},
-                             sdf.get("cliff_detection_threshold", 0.04))
+        self.cliffs = Cliffs(
+            self.world,
+            model,
+            {side: _required(sdf, f"cliff_sensor_{side}_name") for side in SIDES},
+            sdf.get("cliff_detection_threshold", 0.04),
+        )
         self.on_floor = {side: OnFloor(self.world, wheel.child) for side, wheel in zip(("left", "right"), self.wheels)}
         self.publish_tf = sdf.get("publish_tf", False)
         self.gate = PeriodAdded(sdf.get("update_rate", _RATE) or _RATE)
@@ -70,12 +75,18 @@ class Kobuki(ModelPlugin):
         try:
             from kobuki_msgs import msg as kobuki
         except ImportError:
-            rospy.logwarn("the Kobuki base of model %s drives, but tells no bumps and cliffs: their messages are in "
-                          "kobuki_msgs, which is not here (github.com/yujinrobot/kobuki_msgs)", self.model.name)
+            rospy.logwarn(
+                "the Kobuki base of model %s drives, but tells no bumps and cliffs: their messages are in "
+                "kobuki_msgs, which is not here (github.com/yujinrobot/kobuki_msgs)",
+                self.model.name,
+            )
             return
         self.kobuki = kobuki
-        topics.subscriber(f"{base}/commands/motor_power", kobuki.MotorPower,
-                          lambda message: setattr(self, "motors_on", message.state == kobuki.MotorPower.ON))
+        topics.subscriber(
+            f"{base}/commands/motor_power",
+            kobuki.MotorPower,
+            lambda message: setattr(self, "motors_on", message.state == kobuki.MotorPower.ON),
+        )
         self.bumps = topics.publisher(f"{base}/events/bumper", kobuki.BumperEvent, 10)
         self.edges = topics.publisher(f"{base}/events/cliff", kobuki.CliffEvent, 10)
         self.drops = topics.publisher(f"{base}/events/wheel_drop", kobuki.WheelDropEvent, 10)
@@ -136,8 +147,7 @@ class Kobuki(ModelPlugin):
             TfBroadcaster.send(now, message.header.frame_id, message.child_frame_id, pose)
 
     def _publish_imu(self, now: rospy.Time, q_WG, rates, acceleration) -> None:
-        message = Imu(orientation=Quaternion(*q_WG), angular_velocity=Vector3(*rates),
-                      linear_acceleration=Vector3(*acceleration))
+        message = Imu(orientation=Quaternion(*q_WG), angular_velocity=Vector3(*rates), linear_acceleration=Vector3(*acceleration))
         message.header.stamp, message.header.frame_id = now, self.topics.frame("base_link")
         message.orientation_covariance = message.angular_velocity_covariance = diagonal((_UNKNOWN, _UNKNOWN, 0.05))
         self.imu.publish(message)

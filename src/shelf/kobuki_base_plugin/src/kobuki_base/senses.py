@@ -1,4 +1,5 @@
 """What the base feels: bumpers, cliffs below its edge, wheels off the ground."""
+
 from __future__ import annotations
 
 import math
@@ -29,8 +30,7 @@ class Bumper:
     def __init__(self, world, model, wheels):
         self._world, self._model = world, model
         apart = {wheel.name for wheel in wheels}
-        self._body = {collision.id for link in model.links.values() if link.name not in apart
-                      for collision in link.collisions.values()}
+        self._body = {collision.id for link in model.links.values() if link.name not in apart for collision in link.collisions.values()}
 
     def pressed(self) -> Set[str]:
         """Of :data:`SIDES` those that something pushes now."""
@@ -99,5 +99,4 @@ def named_sensor(model, name: str, kinds) -> tuple:
             if sensor.name == name and sensor.type in kinds:
                 return model.links[description.name], sensor
             there.append(f"{sensor.name} ({sensor.type})")
-    raise PluginError(f"model {model.name} has no sensor '{name}' of type {' or '.join(kinds)}; "
-                      f"it has {', '.join(there) or 'none'}")
+    raise PluginError(f"model {model.name} has no sensor '{name}' of type {' or '.join(kinds)}; it has {', '.join(there) or 'none'}")

@@ -1,4 +1,5 @@
 """Filters over time, ray by ray: LaserArrayFilter, and the filters of the package filters that it holds."""
+
 from __future__ import annotations
 
 from collections import deque

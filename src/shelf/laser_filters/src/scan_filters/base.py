@@ -1,4 +1,5 @@
 """What a filter is, and the table of their parameters."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass

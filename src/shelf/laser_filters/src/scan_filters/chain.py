@@ -1,4 +1,5 @@
 """Chains of filters, made of the parameters that launch files and YAML carry."""
+
 from __future__ import annotations
 
 from typing import Any, Callable, List, Optional

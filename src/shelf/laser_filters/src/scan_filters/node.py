@@ -1,4 +1,5 @@
 """``scan_to_scan_filter_chain``: scans on ``scan`` through ``~scan_filter_chain`` to ``scan_filtered``."""
+
 from __future__ import annotations
 
 import math
@@ -19,9 +20,13 @@ _PATIENCE = rospy.Duration(1.0)  # for a transform
 
 def _rotation(q) -> np.ndarray:
     x, y, z, w = q.x, q.y, q.z, q.w
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
 
 
 class Node:
@@ -46,8 +51,12 @@ class Node:
     def _serve(self, one: Filter) -> Server:
         live = [setting for setting in one.settings if setting.live and setting.kind is not object]
         table = [Parameter(s.name, s.kind, one.values[s.name], *(() if s.low is None else (s.low, s.high))) for s in live]
-        return Server(f"{rospy.get_name()}/{one.name}", table, lambda config, _level: one.change(config),
-                      initial={s.name: one.values[s.name] for s in live})
+        return Server(
+            f"{rospy.get_name()}/{one.name}",
+            table,
+            lambda config, _level: one.change(config),
+            initial={s.name: one.values[s.name] for s in live},
+        )
 
     def _transformed(self, points: np.ndarray, to: str, whence: str, stamp: float) -> np.ndarray:
         when = rospy.Time() if math.isnan(stamp) else rospy.Time.from_sec(stamp)
@@ -59,12 +68,21 @@ class Node:
         return points @ _rotation(found.rotation).T + (place.x, place.y, place.z)
 
     def _take(self, message: LaserScan) -> None:
-        if self._target and not self._buffer.can_transform(self._target, message.header.frame_id,
-                                                           message.header.stamp + self._tolerance, _PATIENCE):
+        if self._target and not self._buffer.can_transform(
+            self._target, message.header.frame_id, message.header.stamp + self._tolerance, _PATIENCE
+        ):
             return
-        scan = Scan(np.array(message.ranges, np.float32), np.array(message.intensities, np.float32), message.angle_min,
-                    message.angle_increment, message.range_min, message.range_max, message.header.frame_id,
-                    message.header.stamp.to_sec(), message.time_increment)
+        scan = Scan(
+            np.array(message.ranges, np.float32),
+            np.array(message.intensities, np.float32),
+            message.angle_min,
+            message.angle_increment,
+            message.range_min,
+            message.range_max,
+            message.header.frame_id,
+            message.header.stamp.to_sec(),
+            message.time_increment,
+        )
         stamp = scan.stamp
         if not run(self._filters, scan, lambda text: rospy.logerr_throttle(1, "scan not filtered: %s", text)):
             return

@@ -1,4 +1,5 @@
 """Filters that look at where points lie in some frame of tf."""
+
 from __future__ import annotations
 
 import math
@@ -34,9 +35,11 @@ class _PlaceFilter(Filter):
 class BoxFilter(_PlaceFilter):
     """Points in a box."""
 
-    settings = (Setting("box_frame", str, "base_link"),
-                *(Setting(f"{end}_{axis}", float, value, -100.0, 100.0) for end, value in (("min", -1.0), ("max", 1.0)) for axis in "xyz"),
-                Setting("invert", bool, False))
+    settings = (
+        Setting("box_frame", str, "base_link"),
+        *(Setting(f"{end}_{axis}", float, value, -100.0, 100.0) for end, value in (("min", -1.0), ("max", 1.0)) for axis in "xyz"),
+        Setting("invert", bool, False),
+    )
 
     def prepare(self, given) -> None:
         self.frame = self.values["box_frame"]
@@ -59,8 +62,12 @@ class FootprintFilter(_PlaceFilter):
 class PolygonFilter(_PlaceFilter):
     """Points over a polygon, given as [[x, y], ...]."""
 
-    settings = (Setting("polygon_frame", str, live=False), Setting("polygon", object), Setting("polygon_padding", float, 0.0, 0.0, 100.0),
-                Setting("invert", bool, False))
+    settings = (
+        Setting("polygon_frame", str, live=False),
+        Setting("polygon", object),
+        Setting("polygon_padding", float, 0.0, 0.0, 100.0),
+        Setting("invert", bool, False),
+    )
 
     def prepare(self, given) -> None:
         self.frame = self.values["polygon_frame"]

@@ -1,4 +1,5 @@
 """Filters that look at ranges, intensities and angles alone."""
+
 from __future__ import annotations
 
 import math
@@ -11,10 +12,13 @@ from .base import BEYOND, Filter, FilterError, Scan, Setting
 class RangeFilter(Filter):
     """Ranges outside two thresholds get values of their own."""
 
-    settings = (Setting("lower_threshold", float, 0.0, 0.0, 1e5), Setting("upper_threshold", float, 1e5, 0.0, 1e5),
-                Setting("use_message_range_limits", bool, False),
-                Setting("lower_replacement_value", float, 0.0, 0.0, 1e5),
-                Setting("upper_replacement_value", float, 1e5, 0.0, 1e5))
+    settings = (
+        Setting("lower_threshold", float, 0.0, 0.0, 1e5),
+        Setting("upper_threshold", float, 1e5, 0.0, 1e5),
+        Setting("use_message_range_limits", bool, False),
+        Setting("lower_replacement_value", float, 0.0, 0.0, 1e5),
+        Setting("upper_replacement_value", float, 1e5, 0.0, 1e5),
+    )
 
     def apply(self, scan: Scan) -> None:
         v = self.values
@@ -29,16 +33,20 @@ class RangeFilter(Filter):
 class IntensityFilter(Filter):
     """Rays outside two thresholds of intensity lose their range, or their intensity."""
 
-    settings = (Setting("lower_threshold", float, 8000.0, 0.0, 1e5), Setting("upper_threshold", float, 1e5, 0.0, 1e5),
-                Setting("invert", bool, False), Setting("filter_override_range", bool, True),
-                Setting("filter_override_intensity", bool, False))
+    settings = (
+        Setting("lower_threshold", float, 8000.0, 0.0, 1e5),
+        Setting("upper_threshold", float, 1e5, 0.0, 1e5),
+        Setting("invert", bool, False),
+        Setting("filter_override_range", bool, True),
+        Setting("filter_override_intensity", bool, False),
+    )
 
     def apply(self, scan: Scan) -> None:
         v, light = self.values, scan.intensities
         out = (light <= v["lower_threshold"]) | (light >= v["upper_threshold"])
         out = ~out if v["invert"] else out
         if v["filter_override_range"]:
-            scan.ranges[:len(out)][out[:len(scan.ranges)]] = np.nan
+            scan.ranges[: len(out)][out[: len(scan.ranges)]] = np.nan
         if v["filter_override_intensity"]:
             light[:] = np.where(out, 0.0, 1.0)
 
@@ -57,8 +65,8 @@ class AngularBoundsFilter(Filter):
         first = min(max(math.ceil(ahead / step - 1e-6), 0), count)
         beyond = (high - scan.angle_min) if step > 0 else (low - scan.angle_min)
         last = min(max(math.floor(beyond / step + 1e-6), first), count - 1)
-        scan.ranges = scan.ranges[first:last + 1]
-        scan.intensities = scan.intensities[first:last + 1]
+        scan.ranges = scan.ranges[first : last + 1]
+        scan.intensities = scan.intensities[first : last + 1]
         scan.angle_min += first * step
         scan.stamp += first * scan.time_increment
 
@@ -75,9 +83,14 @@ class AngularBoundsFilterInPlace(Filter):
 class SectorFilter(Filter):
     """What lies in a sector of a ring, or all that lies outside it, is hidden."""
 
-    settings = (Setting("angle_min", float, 0.0, -math.pi, math.pi), Setting("angle_max", float, 0.0, -math.pi, math.pi),
-                Setting("range_min", float, 0.0, 0.0, 1e5), Setting("range_max", float, 1e5, 0.0, 1e5),
-                Setting("clear_inside", bool, True), Setting("invert", bool, False))
+    settings = (
+        Setting("angle_min", float, 0.0, -math.pi, math.pi),
+        Setting("angle_max", float, 0.0, -math.pi, math.pi),
+        Setting("range_min", float, 0.0, 0.0, 1e5),
+        Setting("range_max", float, 1e5, 0.0, 1e5),
+        Setting("clear_inside", bool, True),
+        Setting("invert", bool, False),
+    )
 
     def apply(self, scan: Scan) -> None:
         v = self.values
@@ -94,8 +107,9 @@ class MaskFilter(Filter):
 
     def prepare(self, given) -> None:
         masks = given.get("masks")
-        if not isinstance(masks, dict) or not all(isinstance(mask, list) and all(isinstance(i, int) for i in mask)
-                                                  for mask in masks.values()):
+        if not isinstance(masks, dict) or not all(
+            isinstance(mask, list) and all(isinstance(i, int) for i in mask) for mask in masks.values()
+        ):
             raise FilterError(f"filter '{self.name}' needs masks: a list of numbers of rays for each frame")
         self._masks = masks
 
@@ -127,8 +141,12 @@ class InterpolationFilter(Filter):
 class SpeckleFilter(Filter):
     """Single points near by, without neighbours at their distance, go."""
 
-    settings = (Setting("filter_type", int, 0, 0, 1), Setting("max_range", float, 2.0, 0.0, 100.0),
-                Setting("max_range_difference", float, 0.4, 0.0, 100.0), Setting("filter_window", int, 4, 0, 100))
+    settings = (
+        Setting("filter_type", int, 0, 0, 1),
+        Setting("max_range", float, 2.0, 0.0, 100.0),
+        Setting("max_range_difference", float, 0.4, 0.0, 100.0),
+        Setting("filter_window", int, 4, 0, 100),
+    )
 
     def apply(self, scan: Scan) -> None:
         v, count = self.values, len(scan.ranges)
@@ -139,7 +157,7 @@ class SpeckleFilter(Filter):
             keep = scan.ranges > v["max_range"]
             alone = self._apart if v["filter_type"] == 0 else self._lonely
             for first in np.flatnonzero(~alone(scan, window, v["max_range_difference"])):
-                keep[first:first + window] = True
+                keep[first : first + window] = True
         scan.ranges[~keep] = np.nan
 
     @staticmethod
@@ -149,7 +167,7 @@ class SpeckleFilter(Filter):
         first = scan.ranges[:starts]
         together = ~np.isnan(first)
         for k in range(1, window):
-            together &= np.abs(scan.ranges[k:k + starts] - first) <= difference
+            together &= np.abs(scan.ranges[k : k + starts] - first) <= difference
         return ~together
 
     @staticmethod
@@ -160,7 +178,7 @@ class SpeckleFilter(Filter):
         near = np.zeros(starts, int)
         r = scan.ranges[:starts]
         for k in list(range(-window, 0)) + list(range(1, window + 1)):
-            other = padded[window + k:window + k + count][:starts]
+            other = padded[window + k : window + k + count][:starts]
             near += np.sqrt(np.maximum(r * r + other * other - 2 * r * other * math.cos(k * scan.angle_increment), 0.0)) <= distance
         return near < window
 
@@ -168,9 +186,13 @@ class SpeckleFilter(Filter):
 class ShadowsFilter(Filter):
     """Points between two things, where a ray grazed the edge of the nearer one: the line to a neighbour points at the sensor."""
 
-    settings = (Setting("min_angle", float, None, 0.0, 90.0), Setting("max_angle", float, None, 90.0, 180.0),
-                Setting("window", int, None, 0, 100), Setting("neighbors", int, 0, 0, 100),
-                Setting("remove_shadow_start_point", bool, False))
+    settings = (
+        Setting("min_angle", float, None, 0.0, 90.0),
+        Setting("max_angle", float, None, 90.0, 180.0),
+        Setting("window", int, None, 0, 100),
+        Setting("neighbors", int, 0, 0, 100),
+        Setting("remove_shadow_start_point", bool, False),
+    )
 
     def prepare(self, given) -> None:
         self._min = math.radians(min(max(self.values["min_angle"], 0.0), 90.0))
@@ -187,7 +209,7 @@ class ShadowsFilter(Filter):
                 angle = np.arctan2(np.abs(there * math.sin(turn)), here - there * math.cos(turn))
                 hit = (angle > 0) & (angle < self._min) | (angle > self._max) & (angle < math.pi)
                 shadows[-k:] |= hit if k < 0 else False
-                shadows[:count - k] |= hit if k > 0 else False
+                shadows[: count - k] |= hit if k > 0 else False
         for i in np.flatnonzero(shadows):
             near = slice(max(i - reach, 0), min(i + reach, count - 1) + 1)
             scan.ranges[near][given[near] > given[i]] = np.nan
@@ -198,4 +220,4 @@ class ShadowsFilter(Filter):
 def hide(scan: Scan, rays: np.ndarray) -> None:
     """These rays see nothing, as a range beyond the greatest says it."""
     scan.ranges[rays] = scan.range_max + BEYOND
-    scan.intensities[rays[:len(scan.intensities)]] = 0.0
+    scan.intensities[rays[: len(scan.intensities)]] = 0.0

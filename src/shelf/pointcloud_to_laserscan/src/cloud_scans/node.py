@@ -1,4 +1,5 @@
 """``pointcloud_to_laserscan_node``: scans of the clouds on ``cloud_in``, while somebody listens to ``scan``."""
+
 from __future__ import annotations
 
 import math
@@ -13,9 +14,15 @@ from sensor_msgs.msg import LaserScan, PointCloud2, PointField
 
 from .projection import Fan, turned, xyz
 
-_DEFAULTS = {"min_height": -sys.float_info.max, "max_height": sys.float_info.max,
-             "angle_min": -math.pi, "angle_max": math.pi, "angle_increment": math.pi / 180,
-             "range_min": 0.0, "range_max": sys.float_info.max}
+_DEFAULTS = {
+    "min_height": -sys.float_info.max,
+    "max_height": sys.float_info.max,
+    "angle_min": -math.pi,
+    "angle_max": math.pi,
+    "angle_increment": math.pi / 180,
+    "range_min": 0.0,
+    "range_max": sys.float_info.max,
+}
 
 
 class Node:
@@ -50,9 +57,16 @@ class Node:
             rospy.logwarn_throttle(5, "cloud from %s: %s", cloud.header.frame_id, " ".join(str(error).split()))
             return
         fan = self._fan
-        scan = LaserScan(header=cloud.header, angle_min=fan.angle_min, angle_max=fan.angle_max, time_increment=0.0,
-                         angle_increment=fan.angle_increment, scan_time=self._scan_time, range_min=fan.range_min,
-                         range_max=min(fan.range_max, 3.4028234663852886e38))
+        scan = LaserScan(
+            header=cloud.header,
+            angle_min=fan.angle_min,
+            angle_max=fan.angle_max,
+            time_increment=0.0,
+            angle_increment=fan.angle_increment,
+            scan_time=self._scan_time,
+            range_min=fan.range_min,
+            range_max=min(fan.range_max, 3.4028234663852886e38),
+        )
         scan.header.frame_id = self._frame or cloud.header.frame_id
         scan.ranges = fan.ranges(points, self._empty)
         self._scan.publish(scan)
@@ -62,8 +76,7 @@ class Node:
         if not all(name in fields for name in "xyz"):
             raise ValueError("it has no fields x, y, z of type FLOAT32")
         offsets = [fields[name].offset for name in "xyz"]
-        points = xyz(cloud.data, cloud.width, cloud.height, cloud.point_step, cloud.row_step, offsets,
-                     cloud.is_bigendian)
+        points = xyz(cloud.data, cloud.width, cloud.height, cloud.point_step, cloud.row_step, offsets, cloud.is_bigendian)
         if not self._frame or self._frame == cloud.header.frame_id:
             return points
         whence, when = cloud.header.frame_id, cloud.header.stamp

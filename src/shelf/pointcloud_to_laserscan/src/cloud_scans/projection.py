@@ -1,4 +1,5 @@
 """Points to ranges. No ROS."""
+
 from __future__ import annotations
 
 import math
@@ -21,8 +22,10 @@ class Fan:
 
     def __post_init__(self):
         if not self.angle_increment > 0 or not self.angle_max > self.angle_min:
-            raise ValueError(f"angle_min {self.angle_min:g} must be below angle_max {self.angle_max:g} and "
-                             f"angle_increment {self.angle_increment:g} above 0")
+            raise ValueError(
+                f"angle_min {self.angle_min:g} must be below angle_max {self.angle_max:g} and "
+                f"angle_increment {self.angle_increment:g} above 0"
+            )
         if self.size > 1_000_000:
             raise ValueError(f"angle_increment {self.angle_increment:g} makes more than a million rays")
 
@@ -41,8 +44,14 @@ class Fan:
         points = points[np.isfinite(points).all(axis=1)]
         away = np.hypot(points[:, 0], points[:, 1])
         angle = np.arctan2(points[:, 1], points[:, 0])
-        counts = ((points[:, 2] >= self.min_height) & (points[:, 2] <= self.max_height) & (away >= self.range_min) &
-                  (away <= self.range_max) & (angle >= self.angle_min) & (angle <= self.angle_max))
+        counts = (
+            (points[:, 2] >= self.min_height)
+            & (points[:, 2] <= self.max_height)
+            & (away >= self.range_min)
+            & (away <= self.range_max)
+            & (angle >= self.angle_min)
+            & (angle <= self.angle_max)
+        )
         ray = ((angle[counts] - self.angle_min) / self.angle_increment).astype(int)
         np.minimum.at(out, np.minimum(ray, self.size - 1), away[counts])
         return np.where(np.isfinite(out), out, empty).astype(np.float32)
@@ -56,8 +65,7 @@ def xyz(data: bytes, width: int, height: int, point_step: int, row_step: int, of
     """
     if len(data) < height * row_step or row_step < width * point_step:
         raise ValueError(f"{len(data)} bytes do not hold {width} x {height} points of {point_step} bytes")
-    kind = np.dtype({"names": "xyz", "formats": [">f4" if big_endian else "<f4"] * 3, "offsets": list(offsets),
-                     "itemsize": point_step})
+    kind = np.dtype({"names": "xyz", "formats": [">f4" if big_endian else "<f4"] * 3, "offsets": list(offsets), "itemsize": point_step})
     rows = [np.frombuffer(data, kind, width, row * row_step) for row in range(height)]
     joined = np.concatenate(rows) if rows else np.empty(0, kind)
     return np.stack([joined["x"], joined["y"], joined["z"]], axis=1).astype(float)
@@ -66,7 +74,11 @@ def xyz(data: bytes, width: int, height: int, point_step: int, row_step: int, of
 def turned(points: np.ndarray, translation, quaternion) -> np.ndarray:
     """(N, 3) points of a frame as another has them. :param quaternion: x, y, z, w, of length 1."""
     x, y, z, w = quaternion
-    rotation = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                         [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                         [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+    rotation = np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
     return points @ rotation.T + np.asarray(translation)

@@ -1,4 +1,5 @@
 """How a robot's world lies on the earth: found once, from a fix, a heading and the pose in the world. No ROS in it."""
+
 from __future__ import annotations
 
 from typing import Optional, Tuple, Union
@@ -21,8 +22,7 @@ class Datum:
     :raises ValueError: there is no such point
     """
 
-    def __init__(self, latitude: float, longitude: float, altitude: float, local: bool = False,
-                 zone: Optional[Zone] = None):
+    def __init__(self, latitude: float, longitude: float, altitude: float, local: bool = False, zone: Optional[Zone] = None):
         self.plane: Plane = Tangent(latitude, longitude) if local else Utm(zone or zone_of(latitude, longitude))
         self.position = self.cartesian(latitude, longitude, altitude)
         self.convergence = self.plane.convergence(latitude, longitude)

@@ -2,6 +2,7 @@
 
 By PROJ; no ROS in it.
 """
+
 from __future__ import annotations
 
 import math
@@ -47,8 +48,7 @@ def zone_named(name: str) -> Zone:
             return Zone(_POLAR, band in "YZ")
         if found[1] is not None and band not in "ABYZ" and 1 <= int(found[1]) <= 60:
             return Zone(int(found[1]), band >= "N")
-    raise ValueError(f"'{name}' is no zone of the UTM grid; one is a number from 1 to 60 and a band of latitude, "
-                     "as in 31U")
+    raise ValueError(f"'{name}' is no zone of the UTM grid; one is a number from 1 to 60 and a band of latitude, as in 31U")
 
 
 class Utm:
@@ -71,8 +71,7 @@ class Utm:
         try:
             return self._project(longitude, latitude, errcheck=True)
         except ProjError:
-            raise ValueError(f"latitude {latitude:g}, longitude {longitude:g} cannot be told in UTM zone "
-                             f"{self.zone.number}") from None
+            raise ValueError(f"latitude {latitude:g}, longitude {longitude:g} cannot be told in UTM zone {self.zone.number}") from None
 
     def point(self, east: float, north: float) -> Tuple[float, float]:
         """(latitude, longitude), degrees, of a point of the plane, m. :raises ValueError: there is none"""
@@ -93,8 +92,8 @@ class Tangent:
     def __init__(self, latitude: float, longitude: float):
         _check(latitude, longitude, 0.0)
         self._project = Transformer.from_pipeline(
-            "+proj=pipeline +step +proj=cart +ellps=WGS84 "
-            f"+step +proj=topocentric +ellps=WGS84 +lat_0={latitude!r} +lon_0={longitude!r}")
+            f"+proj=pipeline +step +proj=cart +ellps=WGS84 +step +proj=topocentric +ellps=WGS84 +lat_0={latitude!r} +lon_0={longitude!r}"
+        )
 
     def plane(self, latitude: float, longitude: float, altitude: float) -> Tuple[float, float]:
         """(east, north), m, of a point, degrees and m. :raises ValueError: there is no such point"""
@@ -113,5 +112,4 @@ class Tangent:
 
 def _check(latitude: float, longitude: float, altitude: float) -> None:
     if not (abs(latitude) <= 90 and math.isfinite(longitude) and math.isfinite(altitude)):
-        raise ValueError(f"latitude {latitude:g}, longitude {longitude:g}, altitude {altitude:g} is no point on the "
-                         "earth")
+        raise ValueError(f"latitude {latitude:g}, longitude {longitude:g}, altitude {altitude:g} is no point on the earth")

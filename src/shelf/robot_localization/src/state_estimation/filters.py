@@ -1,4 +1,5 @@
 """The extended and the unscented Kalman filter over the motion of a rigid body. No ROS in it."""
+
 from dataclasses import dataclass
 from typing import Optional
 
@@ -33,8 +34,13 @@ class Measurement:
 class Ekf:
     """The extended Kalman filter."""
 
-    def __init__(self, process_noise: np.ndarray = PROCESS_NOISE, covariance: np.ndarray = INITIAL_COVARIANCE,
-                 planar: bool = False, dynamic_noise: bool = False):
+    def __init__(
+        self,
+        process_noise: np.ndarray = PROCESS_NOISE,
+        covariance: np.ndarray = INITIAL_COVARIANCE,
+        planar: bool = False,
+        dynamic_noise: bool = False,
+    ):
         """:param process_noise: (15, 15), for one second
         :param covariance: (15, 15), of the state before the first measurement
         :param planar: the robot stays on the ground: z, roll, pitch and what belongs to them are zero
@@ -119,7 +125,7 @@ class Ekf:
         told = measurement.used[used]
         if np.isfinite(measurement.threshold) and told.any():
             inner = np.ix_(told, told)
-            if innovation[told] @ np.linalg.solve(total[inner], innovation[told]) > measurement.threshold ** 2:
+            if innovation[told] @ np.linalg.solve(total[inner], innovation[told]) > measurement.threshold**2:
                 return False
         gain = np.linalg.solve(total, cross.T).T
         self.state = self.state + gain @ innovation
@@ -142,12 +148,12 @@ class Ukf(Ekf):
 
     def __init__(self, *arguments, alpha: float = 0.001, kappa: float = 0.0, beta: float = 2.0, **options):
         super().__init__(*arguments, **options)
-        self._spread = alpha ** 2 * (SIZE + kappa)
+        self._spread = alpha**2 * (SIZE + kappa)
         shift = self._spread - SIZE
         self._mean_weights = np.full(2 * SIZE + 1, 0.5 / self._spread)
         self._weights = self._mean_weights.copy()
         self._mean_weights[0] = shift / self._spread
-        self._weights[0] = self._mean_weights[0] + 1 - alpha ** 2 + beta
+        self._weights[0] = self._mean_weights[0] + 1 - alpha**2 + beta
 
     def _propagate(self, dt: float, noise: np.ndarray) -> None:
         ahead = moved(self._points(), dt)

@@ -1,4 +1,5 @@
 """The sensors of the parameters odom0, pose0, twist0, imu0, ...: subscribers that turn messages into measurements."""
+
 from __future__ import annotations
 
 from typing import Callable, List
@@ -20,8 +21,9 @@ _WARN_PERIOD = 5.0  # s between two warnings of one sensor
 class Sensor:
     """One topic. ``take(measurement)`` is called in a thread of rospy with each measurement."""
 
-    def __init__(self, name: str, parameters: dict, frames, lookup, state_rpy: Callable[[], np.ndarray],
-                 take: Callable[[Measurement], None]):
+    def __init__(
+        self, name: str, parameters: dict, frames, lookup, state_rpy: Callable[[], np.ndarray], take: Callable[[Measurement], None]
+    ):
         """:raises ValueError: a parameter is wrong"""
         self.name, kind = name, name.rstrip("0123456789")
         self._take, self._state_rpy = take, state_rpy
@@ -39,25 +41,50 @@ class Sensor:
             rospy.logwarn("Both %s_differential and %s_relative are true; differential it is.", own, own)
         self.pose = self.twist = self.acceleration = None
         if kind in ("odom", "pose", "imu") and used[:6].any():
-            self.pose = PoseInput(name + "_pose", used[:6], frames.world, frames.base, lookup, differential, relative,
-                                  threshold("pose"), inertial=kind == "imu")
+            self.pose = PoseInput(
+                name + "_pose",
+                used[:6],
+                frames.world,
+                frames.base,
+                lookup,
+                differential,
+                relative,
+                threshold("pose"),
+                inertial=kind == "imu",
+            )
         if kind in ("odom", "twist", "imu") and used[6:12].any():
             self.twist = TwistInput(name + "_twist", used[6:12], frames.base, lookup, threshold("twist"))
         if kind == "imu" and used[12:].any():
             self.acceleration = AccelerationInput(
-                name + "_acceleration", used[12:], frames.base, lookup, threshold("linear_acceleration"),
-                bool(get("remove_gravitational_acceleration", False)), float(parameters.get("gravitational_acceleration", GRAVITY)))
+                name + "_acceleration",
+                used[12:],
+                frames.base,
+                lookup,
+                threshold("linear_acceleration"),
+                bool(get("remove_gravitational_acceleration", False)),
+                float(parameters.get("gravitational_acceleration", GRAVITY)),
+            )
         if not (self.pose or self.twist or self.acceleration):
             rospy.logwarn("%s_config asks for nothing that a message of %s tells; the topic is not listened to.", own, own)
             return
         message, read = self._reader(kind)
-        rospy.Subscriber(parameters[name], message, self._guarded, callback_args=read, queue_size=int(get("queue_size", 10)),
-                         tcp_nodelay=bool(get("nodelay", False)))
+        rospy.Subscriber(
+            parameters[name],
+            message,
+            self._guarded,
+            callback_args=read,
+            queue_size=int(get("queue_size", 10)),
+            tcp_nodelay=bool(get("nodelay", False)),
+        )
 
     def _reader(self, kind: str):
         """(type of the topic's messages, what takes one)"""
-        types = {"odom": (Odometry, self._odometry), "pose": (PoseWithCovarianceStamped, self._posed),
-                 "twist": (TwistWithCovarianceStamped, self._twisted), "imu": (Imu, self._inertial)}
+        types = {
+            "odom": (Odometry, self._odometry),
+            "pose": (PoseWithCovarianceStamped, self._posed),
+            "twist": (TwistWithCovarianceStamped, self._twisted),
+            "imu": (Imu, self._inertial),
+        }
         return types[kind]
 
     def forget(self) -> None:
@@ -89,15 +116,19 @@ class Sensor:
 
     def _pose(self, header, pose, covariance, measured: list) -> None:
         if self.pose:
-            made = self.pose.measure(Pose(header.frame_id, header.stamp, header.stamp.to_sec(), transform(pose),
-                                          np.reshape(covariance, (6, 6))))
+            made = self.pose.measure(
+                Pose(header.frame_id, header.stamp, header.stamp.to_sec(), transform(pose), np.reshape(covariance, (6, 6)))
+            )
             if made:
                 measured.append(made)
 
     def _velocity(self, frame, stamp, twist, covariance, measured: list) -> None:
         if self.twist:
-            measured.append(self.twist.measure(frame, stamp, stamp.to_sec(), vector(twist.linear), vector(twist.angular),
-                                               np.reshape(covariance, (6, 6))))
+            measured.append(
+                self.twist.measure(
+                    frame, stamp, stamp.to_sec(), vector(twist.linear), vector(twist.angular), np.reshape(covariance, (6, 6))
+                )
+            )
 
     def _inertial(self, message: Imu, measured: list) -> None:
         header, time, oriented = message.header, message.header.stamp.to_sec(), message.orientation_covariance[0] != -1
@@ -112,10 +143,19 @@ class Sensor:
         if self.twist and message.angular_velocity_covariance[0] != -1:
             covariance = np.zeros((6, 6))
             covariance[3:, 3:] = np.reshape(message.angular_velocity_covariance, (3, 3))
-            measured.append(self.twist.measure(header.frame_id, header.stamp, time, np.zeros(3), vector(message.angular_velocity),
-                                               covariance))
+            measured.append(
+                self.twist.measure(header.frame_id, header.stamp, time, np.zeros(3), vector(message.angular_velocity), covariance)
+            )
         if self.acceleration and message.linear_acceleration_covariance[0] != -1:
             orientation = quaternion_matrix(turn.x, turn.y, turn.z, turn.w) if oriented else None
-            measured.append(self.acceleration.measure(
-                header.frame_id, header.stamp, time, vector(message.linear_acceleration),
-                np.reshape(message.linear_acceleration_covariance, (3, 3)), orientation, self._state_rpy()))
+            measured.append(
+                self.acceleration.measure(
+                    header.frame_id,
+                    header.stamp,
+                    time,
+                    vector(message.linear_acceleration),
+                    np.reshape(message.linear_acceleration_covariance, (3, 3)),
+                    orientation,
+                    self._state_rpy(),
+                )
+            )

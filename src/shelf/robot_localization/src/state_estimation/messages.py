@@ -1,4 +1,5 @@
 """Messages as arrays and arrays as messages, and transforms between frames, as the nodes of this package use them."""
+
 import numpy as np
 import rospy
 import tf2_ros
@@ -57,8 +58,7 @@ class Lookup:
             except tf2_ros.TransformException as error:
                 missing = error
         else:
-            raise FrameMissing(f"no transform from {source} to {target}: {missing}; its measurements are left out "
-                               "until there is")
+            raise FrameMissing(f"no transform from {source} to {target}: {missing}; its measurements are left out until there is")
         turn, at = found.transform.rotation, found.transform.translation
         return Transform(quaternion_matrix(turn.x, turn.y, turn.z, turn.w), vector(at))
 
@@ -69,6 +69,7 @@ class Lookup:
 
 def every(period: float, work) -> rospy.Timer:
     """Calls ``work()`` each ``period`` s of ROS time, until the node ends."""
+
     def tick(_event) -> None:
         try:
             work()

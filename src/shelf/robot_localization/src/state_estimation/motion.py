@@ -3,6 +3,7 @@
 State (15): x, y, z (m, world), roll, pitch, yaw (rad), vx, vy, vz (m/s, body), their angular rates (rad/s, body), ax, ay, az
 (m/s², body).
 """
+
 import numpy as np
 
 SIZE = 15
@@ -19,9 +20,11 @@ def wrap(angle):
 def rotation(rpy) -> np.ndarray:
     """(3, 3): from the body's axes into the world's, for fixed-axis roll, pitch, yaw (REP-103). Or (N, 3) to (N, 3, 3)."""
     (sr, sp, sy), (cr, cp, cy) = np.moveaxis(np.sin(rpy), -1, 0), np.moveaxis(np.cos(rpy), -1, 0)
-    rows = [[cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-            [-sp, cp * sr, cp * cr]]
+    rows = [
+        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+        [-sp, cp * sr, cp * cr],
+    ]
     return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
 
 
@@ -40,7 +43,7 @@ def moved(states: np.ndarray, dt: float) -> np.ndarray:
     """(..., 15) states after dt seconds; angles are not wrapped."""
     after = states.copy()
     rpy = states[..., ORIENTATION]
-    way = states[..., VELOCITY] * dt + 0.5 * states[..., ACCELERATION] * dt ** 2
+    way = states[..., VELOCITY] * dt + 0.5 * states[..., ACCELERATION] * dt**2
     after[..., POSITION] += np.einsum("...ij,...j->...i", rotation(rpy), way)
     after[..., ORIENTATION] += dt * np.einsum("...ij,...j->...i", _rates(rpy), states[..., RATE])
     after[..., VELOCITY] += dt * states[..., ACCELERATION]
@@ -50,12 +53,12 @@ def moved(states: np.ndarray, dt: float) -> np.ndarray:
 def jacobian(state: np.ndarray, dt: float) -> np.ndarray:
     """(15, 15): d moved / d state. Straight up or down it is that of the bound of the rates, see :func:`moved`."""
     roll, pitch, yaw = state[ORIENTATION]
-    way = state[VELOCITY] * dt + 0.5 * state[ACCELERATION] * dt ** 2
+    way = state[VELOCITY] * dt + 0.5 * state[ACCELERATION] * dt**2
     _, q, r = state[RATE] * dt
     (sr, sp, sy), (cr, cp, cy) = np.sin((roll, pitch, yaw)), np.cos((roll, pitch, yaw))
     turn, rates = rotation(state[ORIENTATION]), _rates(state[ORIENTATION])
     change = np.eye(SIZE)
-    change[POSITION, VELOCITY], change[POSITION, ACCELERATION] = turn * dt, turn * (0.5 * dt ** 2)
+    change[POSITION, VELOCITY], change[POSITION, ACCELERATION] = turn * dt, turn * (0.5 * dt**2)
     change[ORIENTATION, RATE] = rates * dt
     change[VELOCITY, ACCELERATION] = np.eye(3) * dt
     after = turn @ way
@@ -65,5 +68,5 @@ def jacobian(state: np.ndarray, dt: float) -> np.ndarray:
     cp = cp if abs(cp) >= _STEEP else np.copysign(_STEEP, cp)
     aside, along = cr * q - sr * r, sr * q + cr * r
     change[3:6, 3] += np.array([aside * sp / cp, -along, aside / cp])
-    change[3:6, 4] += np.array([along, 0.0, along * sp]) / cp ** 2
+    change[3:6, 4] += np.array([along, 0.0, along * sp]) / cp**2
     return change

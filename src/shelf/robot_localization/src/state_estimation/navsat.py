@@ -1,4 +1,5 @@
 """The node navsat_transform_node: fixes of a satellite receiver as positions in the robot's world, and the way back."""
+
 from __future__ import annotations
 
 import sys
@@ -13,8 +14,7 @@ from geographic_msgs.msg import GeoPoint
 from geometry_msgs.msg import Point, TransformStamped
 from nav_msgs.msg import Odometry
 from node_signals.parameters import number
-from robot_localization.srv import (FromLL, FromLLResponse, SetDatum, SetDatumResponse, SetUTMZone,
-                                    SetUTMZoneResponse, ToLL, ToLLResponse)
+from robot_localization.srv import FromLL, FromLLResponse, SetDatum, SetDatumResponse, SetUTMZone, SetUTMZoneResponse, ToLL, ToLLResponse
 from sensor_msgs.msg import Imu, NavSatFix, NavSatStatus
 
 from .anchoring import Anchor, Datum
@@ -24,8 +24,10 @@ from .motion import rotation, wrap
 from .sensors import IDENTITY, FrameMissing, Transform, angles, quaternion_matrix
 
 _WARN_PERIOD = 5.0  # s
-_RENAMED = {"broadcast_utm_transform": "broadcast_cartesian_transform",
-            "broadcast_utm_transform_as_parent_frame": "broadcast_cartesian_transform_as_parent_frame"}
+_RENAMED = {
+    "broadcast_utm_transform": "broadcast_cartesian_transform",
+    "broadcast_utm_transform_as_parent_frame": "broadcast_cartesian_transform_as_parent_frame",
+}
 
 
 class Settings:
@@ -35,8 +37,7 @@ class Settings:
         given = rospy.get_param("~", {})
         for old, new in _RENAMED.items():
             if old in given:
-                rospy.logwarn("Parameter %s has been deprecated; its name is %s now.",
-                              rospy.resolve_name("~" + old), new)
+                rospy.logwarn("Parameter %s has been deprecated; its name is %s now.", rospy.resolve_name("~" + old), new)
                 given[new] = given[old]
 
         def on(name: str) -> bool:
@@ -64,8 +65,10 @@ class Settings:
         except (TypeError, ValueError):
             numbers = []
         if not isinstance(value, list) or len(numbers) < 3 or not np.isfinite(numbers).all() or abs(numbers[0]) > 90:
-            raise ValueError(f"parameter {rospy.resolve_name('~datum')} must be a list [latitude, longitude, yaw] in "
-                             f"degrees, degrees and rad, but is {value!r:.60}")
+            raise ValueError(
+                f"parameter {rospy.resolve_name('~datum')} must be a list [latitude, longitude, yaw] in "
+                f"degrees, degrees and rad, but is {value!r:.60}"
+            )
         return tuple(numbers)
 
 
@@ -147,8 +150,10 @@ class NavsatTransform:
         anchor = self._anchor
         if anchor is None:
             rospy.logerr("No transform available (yet)")
-            raise rospy.ServiceException("No transform available (yet): it takes a fix on gps/fix, odometry on "
-                                         "odometry/filtered and a heading on imu/data, or a call of the service datum")
+            raise rospy.ServiceException(
+                "No transform available (yet): it takes a fix on gps/fix, odometry on "
+                "odometry/filtered and a heading on imu/data, or a call of the service datum"
+            )
         return anchor
 
     def _point(self, position: np.ndarray) -> Point:
@@ -190,8 +195,7 @@ class NavsatTransform:
         if message.status.status == NavSatStatus.STATUS_NO_FIX or np.isnan(place).any():
             return
         if not message.header.frame_id:
-            rospy.logwarn_once("NavSatFix message has empty frame_id. Will assume navsat device is mounted at robot's "
-                               "origin.")
+            rospy.logwarn_once("NavSatFix message has empty frame_id. Will assume navsat device is mounted at robot's origin.")
         with self._mutex:
             self._receiver = message.header.frame_id.lstrip("/")
             try:
@@ -226,15 +230,19 @@ class NavsatTransform:
             try:
                 offset = self._look_up(self._base, self._receiver, rospy.Time(0)).translation
             except (FrameMissing, ValueError):
-                rospy.logwarn_once(f"Unable to obtain {self._base}->{self._receiver} transform. Will assume navsat "
-                                   "device is mounted at robot's origin")
+                rospy.logwarn_once(
+                    f"Unable to obtain {self._base}->{self._receiver} transform. Will assume navsat device is mounted at robot's origin"
+                )
         self._anchor = Anchor(self._datum, self._pose, rpy, offset)
         if self._imu is not None:
             self._imu.unregister()
             self._imu = None
-        rospy.loginfo("The origin of %s is at latitude %.7f, longitude %.7f; its x axis points %.4f rad to the left of "
-                      "the grid's east.", self._world, *self._anchor.to_earth(np.zeros(3))[:2],
-                      -angles(self._anchor.world_plane.rotation)[2])
+        rospy.loginfo(
+            "The origin of %s is at latitude %.7f, longitude %.7f; its x axis points %.4f rad to the left of the grid's east.",
+            self._world,
+            *self._anchor.to_earth(np.zeros(3))[:2],
+            -angles(self._anchor.world_plane.rotation)[2],
+        )
         if self._settings.broadcast:
             self._broadcast(self._anchor.world_plane)
 
@@ -273,8 +281,7 @@ class NavsatTransform:
             offset = self._look_up(self._base, self._receiver, stamp).translation
             return self._look_up(self._world, self._base, stamp).rotation @ offset
         except (FrameMissing, ValueError) as error:
-            rospy.logwarn_throttle(
-                _WARN_PERIOD, f"The navsat device's offset from the robot's origin is not removed: {error}")
+            rospy.logwarn_throttle(_WARN_PERIOD, f"The navsat device's offset from the robot's origin is not removed: {error}")
             return np.zeros(3)
 
     def _publish_fix(self, anchor: Anchor, odometry: Odometry, publisher: rospy.Publisher) -> None:

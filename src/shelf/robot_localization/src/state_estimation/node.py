@@ -1,4 +1,5 @@
 """The nodes ekf_localization_node and ukf_localization_node."""
+
 from __future__ import annotations
 
 import re
@@ -15,8 +16,14 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import AccelWithCovarianceStamped, PoseWithCovarianceStamped, TransformStamped
 from nav_msgs.msg import Odometry
 from node_signals.parameters import number
-from robot_localization.srv import (GetState, GetStateResponse, SetPose, SetPoseResponse, ToggleFilterProcessing,
-                                    ToggleFilterProcessingResponse)
+from robot_localization.srv import (
+    GetState,
+    GetStateResponse,
+    SetPose,
+    SetPoseResponse,
+    ToggleFilterProcessing,
+    ToggleFilterProcessingResponse,
+)
 from std_srvs.srv import Empty, EmptyResponse
 
 from .filters import INITIAL_COVARIANCE, PROCESS_NOISE, Ekf, Ukf
@@ -66,15 +73,22 @@ class Localization:
         self._look_up = Lookup(rospy.Duration(number("~transform_timeout", 0.0)))
         self._broadcaster = tf2_ros.TransformBroadcaster() if parameters.get("publish_tf", True) else None
         self._odometry = rospy.Publisher("odometry/filtered", Odometry, queue_size=20)
-        self._acceleration = (rospy.Publisher("accel/filtered", AccelWithCovarianceStamped, queue_size=20)
-                              if parameters.get("publish_acceleration", False) else None)
-        self._diagnostics = (rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=1)
-                             if parameters.get("print_diagnostics", True) else None)
+        self._acceleration = (
+            rospy.Publisher("accel/filtered", AccelWithCovarianceStamped, queue_size=20)
+            if parameters.get("publish_acceleration", False)
+            else None
+        )
+        self._diagnostics = (
+            rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=1) if parameters.get("print_diagnostics", True) else None
+        )
         names = sorted(name for name in parameters if re.fullmatch(f"({'|'.join(KINDS)})[0-9]+", name))
         self.sensors = [Sensor(name, parameters, self.frames, self._look_up, self._state_rpy, self._take) for name in names]
         if not names:
-            rospy.logwarn("%s has no sensors: set its parameters odom0, pose0, twist0 or imu0 to topics, and odom0_config and so on "
-                          "to what is to be used of them.", own)
+            rospy.logwarn(
+                "%s has no sensors: set its parameters odom0, pose0, twist0 or imu0 to topics, and odom0_config and so on "
+                "to what is to be used of them.",
+                own,
+            )
         rospy.Subscriber("set_pose", PoseWithCovarianceStamped, self.set_pose, queue_size=1)
         rospy.Service("set_pose", SetPose, self._on_set_pose)
         rospy.Service("~enable", Empty, self._enable)
@@ -92,8 +106,10 @@ class Localization:
         odom = name("odom_frame", "odom")
         frames = Frames(name("map_frame", "map"), odom, name("base_link_frame", "base_link"), name("world_frame", odom))
         if len({frames.map, frames.odom, frames.base}) < 3:
-            raise ValueError("map_frame, odom_frame and base_link_frame must be three different frames, but are "
-                             f"{frames.map}, {frames.odom} and {frames.base}")
+            raise ValueError(
+                "map_frame, odom_frame and base_link_frame must be three different frames, but are "
+                f"{frames.map}, {frames.odom} and {frames.base}"
+            )
         if frames.world not in (frames.map, frames.odom):
             raise ValueError(f"world_frame must be map_frame ({frames.map}) or odom_frame ({frames.odom}), but is {frames.world}")
         return frames
@@ -108,7 +124,8 @@ class Localization:
             process_noise=given("process_noise_covariance", PROCESS_NOISE),
             covariance=given("initial_estimate_covariance", INITIAL_COVARIANCE),
             planar=bool(parameters.get("two_d_mode", False)),
-            dynamic_noise=bool(parameters.get("dynamic_process_noise_covariance", False)))
+            dynamic_noise=bool(parameters.get("dynamic_process_noise_covariance", False)),
+        )
         if kind == "ukf":
             options.update({name: number("~" + name, default) for name, default in (("alpha", 0.001), ("kappa", 0.0), ("beta", 2.0))})
         initial = np.diag(given("initial_state", np.zeros((SIZE, SIZE)))).copy()
@@ -146,8 +163,9 @@ class Localization:
     def set_pose(self, message: PoseWithCovarianceStamped) -> None:
         """The robot is said to stand there, at rest; what was measured before does not count any more."""
         try:
-            pose = (self._look_up(self.frames.world, message.header.frame_id or self.frames.world, message.header.stamp)
-                    @ transform(message.pose.pose))
+            pose = self._look_up(self.frames.world, message.header.frame_id or self.frames.world, message.header.stamp) @ transform(
+                message.pose.pose
+            )
         except (FrameMissing, ValueError) as error:
             rospy.logerr("set_pose: %s", error)
             return
@@ -239,11 +257,15 @@ class Localization:
             return
         with self._mutex:
             begun = self.filter.time is not None
-            status = DiagnosticStatus(name=f"{rospy.get_name().strip('/')}: Filter diagnostic updater",
-                                      level=DiagnosticStatus.OK if begun else DiagnosticStatus.WARN,
-                                      message="The robot_localization state estimation node appears to be functioning properly."
-                                      if begun else "No sensor has been heard yet", hardware_id="none",
-                                      values=[KeyValue("rejected measurements", str(self._rejected))])
+            status = DiagnosticStatus(
+                name=f"{rospy.get_name().strip('/')}: Filter diagnostic updater",
+                level=DiagnosticStatus.OK if begun else DiagnosticStatus.WARN,
+                message="The robot_localization state estimation node appears to be functioning properly."
+                if begun
+                else "No sensor has been heard yet",
+                hardware_id="none",
+                values=[KeyValue("rejected measurements", str(self._rejected))],
+            )
         message = DiagnosticArray(status=[status])
         message.header.stamp = rospy.Time.now()
         self._diagnostics.publish(message)

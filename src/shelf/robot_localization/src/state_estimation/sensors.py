@@ -1,4 +1,5 @@
 """From messages to measurements: frames, covariances, what each sensor is asked for."""
+
 from dataclasses import dataclass
 from typing import Callable, Optional
 
@@ -39,15 +40,20 @@ def quaternion_matrix(x: float, y: float, z: float, w: float) -> np.ndarray:
     if not abs(length - 1) < 0.1:
         raise ValueError(f"orientation ({x:g}, {y:g}, {z:g}, {w:g}) is not a unit quaternion")
     x, y, z, w = x / length, y / length, z / length, w / length
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
 
 
 def angles(matrix: np.ndarray) -> np.ndarray:
     """(3,): fixed-axis roll, pitch, yaw of a rotation, rad."""
-    return np.array([np.arctan2(matrix[2, 1], matrix[2, 2]), np.arcsin(np.clip(-matrix[2, 0], -1, 1)),
-                     np.arctan2(matrix[1, 0], matrix[0, 0])])
+    return np.array(
+        [np.arctan2(matrix[2, 1], matrix[2, 2]), np.arcsin(np.clip(-matrix[2, 0], -1, 1)), np.arctan2(matrix[1, 0], matrix[0, 0])]
+    )
 
 
 def _turned(used: np.ndarray, turn: np.ndarray) -> np.ndarray:
@@ -81,8 +87,18 @@ class PoseInput:
     :param inertial: the frame is that in which an inertial unit is mounted, not the one its orientation is given in
     """
 
-    def __init__(self, name: str, used, world: str, base: str, lookup: Lookup, differential: bool = False,
-                 relative: bool = False, threshold: float = np.inf, inertial: bool = False):
+    def __init__(
+        self,
+        name: str,
+        used,
+        world: str,
+        base: str,
+        lookup: Lookup,
+        differential: bool = False,
+        relative: bool = False,
+        threshold: float = np.inf,
+        inertial: bool = False,
+    ):
         self.name, self.used = name, np.array(used, bool)
         self._world, self._base, self._lookup = world, base, lookup
         self._differential, self._relative, self._threshold, self._inertial = differential, relative, threshold, inertial
@@ -129,9 +145,8 @@ class PoseInput:
         values, wide = np.zeros(SIZE), np.zeros((SIZE, SIZE))
         values[6:9], values[9:12] = way.translation / dt, angles(way.rotation) / dt
         both = _blocks(transform.rotation.T)
-        wide[6:12, 6:12] = both @ (covariance + last[1]) @ both.T / dt ** 2
-        return Measurement(self.name, time, np.concatenate([np.zeros(6, bool), used, np.zeros(3, bool)]), values, wide,
-                           self._threshold)
+        wide[6:12, 6:12] = both @ (covariance + last[1]) @ both.T / dt**2
+        return Measurement(self.name, time, np.concatenate([np.zeros(6, bool), used, np.zeros(3, bool)]), values, wide, self._threshold)
 
     def forget(self) -> None:
         """The robot was put somewhere else."""
@@ -156,22 +171,25 @@ class TwistInput:
         values[6:9] = mount.rotation @ linear + np.cross(mount.translation, values[9:12])
         both = _blocks(mount.rotation)
         wide[6:12, 6:12] = both @ covariance @ both.T
-        used = np.concatenate([np.zeros(6, bool), _turned(self.used[:3], mount.rotation), _turned(self.used[3:], mount.rotation),
-                               np.zeros(3, bool)])
+        used = np.concatenate(
+            [np.zeros(6, bool), _turned(self.used[:3], mount.rotation), _turned(self.used[3:], mount.rotation), np.zeros(3, bool)]
+        )
         return Measurement(self.name, time, used, values, wide, self._threshold)
 
 
 class AccelerationInput:
     """Linear accelerations of an inertial unit. ``used`` (3,)."""
 
-    def __init__(self, name: str, used, base: str, lookup: Lookup, threshold: float = np.inf,
-                 remove_gravity: bool = False, gravity: float = GRAVITY):
+    def __init__(
+        self, name: str, used, base: str, lookup: Lookup, threshold: float = np.inf, remove_gravity: bool = False, gravity: float = GRAVITY
+    ):
         self.name, self.used = name, np.array(used, bool)
         self._base, self._lookup, self._threshold = base, lookup, threshold
         self._remove, self._gravity = remove_gravity, gravity
 
-    def measure(self, frame: str, stamp, time: float, acceleration, covariance, orientation: Optional[np.ndarray],
-                state_rpy: np.ndarray) -> Measurement:
+    def measure(
+        self, frame: str, stamp, time: float, acceleration, covariance, orientation: Optional[np.ndarray], state_rpy: np.ndarray
+    ) -> Measurement:
         """:param orientation: (3, 3) of the unit in the world, None if it has none: the state's is taken then
         :raises FrameMissing: a transform is not known
         """
@@ -190,8 +208,10 @@ class AccelerationInput:
 def flags(value, parameter: str) -> np.ndarray:
     """(15,) bool from a <sensor>_config parameter. :raises ValueError: it is no list of 15 truth values"""
     if not isinstance(value, list) or len(value) != SIZE or not all(type(entry) in (bool, int) for entry in value):
-        raise ValueError(f"parameter {parameter} must be a list of 15 truth values (x, y, z, roll, pitch, yaw, vx, vy, vz, vroll, "
-                         f"vpitch, vyaw, ax, ay, az), but is {value!r:.60}")
+        raise ValueError(
+            f"parameter {parameter} must be a list of 15 truth values (x, y, z, roll, pitch, yaw, vx, vy, vz, vroll, "
+            f"vpitch, vyaw, ax, ay, az), but is {value!r:.60}"
+        )
     return np.array(value, bool)
 
 
@@ -201,6 +221,6 @@ def matrix(value, parameter: str) -> np.ndarray:
         numbers = np.array(value, float).ravel()
     except (TypeError, ValueError):
         numbers = np.array([np.nan])
-    if len(numbers) not in (SIZE, SIZE ** 2) or not np.isfinite(numbers).all():
+    if len(numbers) not in (SIZE, SIZE**2) or not np.isfinite(numbers).all():
         raise ValueError(f"parameter {parameter} must be a list of 225 numbers, row by row, or of the 15 on the diagonal")
     return np.diag(numbers) if len(numbers) == SIZE else numbers.reshape(SIZE, SIZE)

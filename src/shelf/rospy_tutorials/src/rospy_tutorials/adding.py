@@ -1,4 +1,5 @@
 """The service ``add_two_ints`` and who asks it."""
+
 import random
 import sys
 from typing import List, Optional, Tuple
@@ -13,10 +14,12 @@ _USAGE = "usage: add_two_ints_client [X Y], two whole numbers; without them it t
 
 def serve() -> None:
     """The node add_two_ints_server."""
+
     def add(request):
         total = request.a + request.b
         print(f"Returning [{request.a} + {request.b} = {total}]", flush=True)
         return AddTwoIntsResponse(total)
+
     node_signals.init_node("add_two_ints_server")
     rospy.Service("add_two_ints", AddTwoInts, add)
     node_signals.spin()

@@ -1,4 +1,5 @@
 """The node param_talker: parameters read in each of the namespaces, set, looked for and deleted, then said over and over."""
+
 import node_signals
 import rospy
 from std_msgs.msg import String
@@ -28,4 +29,5 @@ def talk() -> None:
     def say() -> None:
         publisher.publish(utterance)
         rospy.loginfo(utterance)
+
     over_and_over(say, period=1.0)

@@ -1,4 +1,5 @@
 """Nodes that say hello ten times a second on ``chatter``, and nodes that hear them."""
+
 import contextlib
 from typing import Callable
 
@@ -57,10 +58,18 @@ def listen() -> None:
 
 def listen_with_header() -> None:
     """The node listener_header."""
+
     def hear(message: HeaderString) -> None:
         header = message.header
-        rospy.loginfo("%s just heard %s, number %d, sent at %12f, %12f s ago", rospy.get_caller_id(), message.data, header.seq,
-                      header.stamp.to_sec(), (rospy.get_rostime() - header.stamp).to_sec())
+        rospy.loginfo(
+            "%s just heard %s, number %d, sent at %12f, %12f s ago",
+            rospy.get_caller_id(),
+            message.data,
+            header.seq,
+            header.stamp.to_sec(),
+            (rospy.get_rostime() - header.stamp).to_sec(),
+        )
+
     node_signals.init_node("listener_header")
     rospy.Subscriber("chatter_header", HeaderString, hear)
     node_signals.spin()

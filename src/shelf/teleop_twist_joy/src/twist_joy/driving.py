@@ -1,4 +1,5 @@
 """From axes and buttons to velocities. No ROS in it."""
+
 from typing import Dict, List, Optional, Sequence, Tuple
 
 FIELDS = {"linear": ("x", "y", "z"), "angular": ("yaw", "pitch", "roll")}
@@ -31,8 +32,11 @@ class Driver:
         mapped = isinstance(axes, dict)
         normal = parameters.get("scale_" + kind, {} if mapped else normal)
         turbo = parameters.get(f"scale_{kind}_turbo", {} if mapped else normal if turbo is None else turbo)
-        for name, values, into in (("axis_", axes, self.axes), ("scale_", normal, self.scales["normal"]),
-                                   ("scale_turbo_", turbo, self.scales["turbo"])):
+        for name, values, into in (
+            ("axis_", axes, self.axes),
+            ("scale_", normal, self.scales["normal"]),
+            ("scale_turbo_", turbo, self.scales["turbo"]),
+        ):
             if isinstance(values, dict) != mapped:
                 raise ValueError(f"axis_{kind} and scale_{kind} must both be numbers, or both maps like {{{field}: 1}}")
             for key, value in (values if mapped else {field: values}).items():
@@ -72,8 +76,9 @@ class Driver:
             told.append(("Turbo on button %i.", (self.turbo,)))
         for kind, fields in FIELDS.items():
             for field in sorted(set(fields) & set(self.axes)):
-                told.append((kind.capitalize() + " axis %s on %i at scale %f.",
-                             (field, self.axes[field], self.scales["normal"].get(field, 0.0))))
+                told.append(
+                    (kind.capitalize() + " axis %s on %i at scale %f.", (field, self.axes[field], self.scales["normal"].get(field, 0.0)))
+                )
                 if self.turbo >= 0:
                     told.append((f"Turbo for {kind} axis %s is scale %f.", (field, self.scales["turbo"].get(field, 0.0))))
         return told

@@ -1,4 +1,5 @@
 """The node teleop_twist_joy: ``joy`` in, ``cmd_vel`` out."""
+
 import sys
 
 import node_signals

@@ -1,4 +1,5 @@
 """Keys to velocities. Knows neither ROS nor terminals."""
+
 from typing import NamedTuple
 
 HELP = """
@@ -39,12 +40,27 @@ class Direction(NamedTuple):
 
 
 DIRECTIONS = {
-    "u": Direction(1, turn=1), "i": Direction(1), "o": Direction(1, turn=-1), "j": Direction(turn=1), "l": Direction(turn=-1),
-    "m": Direction(-1, turn=-1), ",": Direction(-1), ".": Direction(-1, turn=1),
-    "U": Direction(1, 1), "I": Direction(1), "O": Direction(1, -1), "J": Direction(y=1), "L": Direction(y=-1),
-    "M": Direction(-1, 1), "<": Direction(-1), ">": Direction(-1, -1), "t": Direction(z=1), "b": Direction(z=-1)}
+    "u": Direction(1, turn=1),
+    "i": Direction(1),
+    "o": Direction(1, turn=-1),
+    "j": Direction(turn=1),
+    "l": Direction(turn=-1),
+    "m": Direction(-1, turn=-1),
+    ",": Direction(-1),
+    ".": Direction(-1, turn=1),
+    "U": Direction(1, 1),
+    "I": Direction(1),
+    "O": Direction(1, -1),
+    "J": Direction(y=1),
+    "L": Direction(y=-1),
+    "M": Direction(-1, 1),
+    "<": Direction(-1),
+    ">": Direction(-1, -1),
+    "t": Direction(z=1),
+    "b": Direction(z=-1),
+}
 #: Factors of the linear and the angular speed.
-SPEEDS = {"q": (1.1, 1.1), "z": (.9, .9), "w": (1.1, 1), "x": (.9, 1), "e": (1, 1.1), "c": (1, .9)}
+SPEEDS = {"q": (1.1, 1.1), "z": (0.9, 0.9), "w": (1.1, 1), "x": (0.9, 1), "e": (1, 1.1), "c": (1, 0.9)}
 
 
 class Driver:

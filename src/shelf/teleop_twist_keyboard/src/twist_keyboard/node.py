@@ -1,4 +1,5 @@
 """The node teleop_twist_keyboard: keys in, cmd_vel out."""
+
 import os
 import select
 import sys
@@ -96,9 +97,16 @@ def main() -> int:
     node_signals.init_node("teleop_twist_keyboard")
     try:
         speed, turn, speed_limit, turn_limit, rate, key_timeout = (
-            number("~" + name, default, least=0.0) for name, default in (
-                ("speed", 0.5), ("turn", 1.0), ("speed_limit", 1000.0), ("turn_limit", 1000.0), ("repeat_rate", 0.0),
-                ("key_timeout", 0.0)))
+            number("~" + name, default, least=0.0)
+            for name, default in (
+                ("speed", 0.5),
+                ("turn", 1.0),
+                ("speed_limit", 1000.0),
+                ("turn_limit", 1000.0),
+                ("repeat_rate", 0.0),
+                ("key_timeout", 0.0),
+            )
+        )
     except ValueError as error:
         print(f"teleop_twist_keyboard: {error}", file=sys.stderr)
         return 1

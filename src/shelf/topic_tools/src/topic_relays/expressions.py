@@ -1,4 +1,5 @@
 """Python expressions on a message ``m``. No ROS."""
+
 from __future__ import annotations
 
 import importlib

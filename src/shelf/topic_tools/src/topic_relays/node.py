@@ -1,4 +1,5 @@
 """``rosrun topic_tools transform`` and ``relay_field``: what one topic says, as another message on another topic."""
+
 from __future__ import annotations
 
 import argparse
@@ -66,12 +67,13 @@ def _run(name: str, options: argparse.Namespace, make: Callable[[Any], Any], lat
 
 def transform() -> Optional[int]:
     """The node transform. :returns: exit code."""
-    p = _parser("transform", "Publishes the value of a Python expression on each message m.",
-                "/imu/orientation /norm std_msgs/Float64 'numpy.sqrt(m.x**2 + m.y**2 + m.z**2 + m.w**2)'")
-    p.add_argument("expression", nargs="?", default="m",
-                   help="Python expression on m; a list gives the message's fields (default m)")
-    p.add_argument("-i", "--import", dest="modules", nargs="+", default=["numpy"],
-                   help="modules to import (default numpy)")
+    p = _parser(
+        "transform",
+        "Publishes the value of a Python expression on each message m.",
+        "/imu/orientation /norm std_msgs/Float64 'numpy.sqrt(m.x**2 + m.y**2 + m.z**2 + m.w**2)'",
+    )
+    p.add_argument("expression", nargs="?", default="m", help="Python expression on m; a list gives the message's fields (default m)")
+    p.add_argument("-i", "--import", dest="modules", nargs="+", default=["numpy"], help="modules to import (default numpy)")
     p.add_argument("--latch", action="store_true", help="latch the output")
     options = p.parse_args(rospy.myargv()[1:])
     names, absent = modules(options.modules)
@@ -82,8 +84,11 @@ def transform() -> Optional[int]:
 
 def relay_field() -> Optional[int]:
     """The node relay_field. :returns: exit code, 1 too when its expression is no YAML."""
-    p = _parser("relay_field", "Publishes a message whose fields are Python expressions on each message m.",
-                "/chatter /header std_msgs/Header '{seq: 0, stamp: now, frame_id: m.data}'")
+    p = _parser(
+        "relay_field",
+        "Publishes a message whose fields are Python expressions on each message m.",
+        "/chatter /header std_msgs/Header '{seq: 0, stamp: now, frame_id: m.data}'",
+    )
     p.add_argument("expression", help="the message as YAML, its texts Python expressions on m")
     options = p.parse_args(rospy.myargv()[1:])
     try:

@@ -1,4 +1,5 @@
 """The node test_shape: lets a pentagon be drawn."""
+
 import actionlib
 import node_signals
 import rospy

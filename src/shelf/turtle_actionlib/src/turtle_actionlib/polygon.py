@@ -1,4 +1,5 @@
 """Drives along a regular polygon by the turtle's pose. Knows no ROS."""
+
 import math
 from typing import Optional, Tuple
 

@@ -1,4 +1,5 @@
 """The node turtle_shape, which is also the name of its action."""
+
 import threading
 from typing import Optional
 

@@ -1,4 +1,5 @@
 """The nodes of the tf tutorials, one function each."""
+
 import math
 import sys
 
@@ -45,8 +46,11 @@ def broadcast_dynamic_carrot() -> None:
 def _broadcast_carrot(node_name: str, place) -> None:
     node_signals.init_node(node_name)
     broadcaster = tf.TransformBroadcaster()
-    rospy.Timer(rospy.Duration(1 / RATE), reset=True, callback=lambda event: broadcaster.sendTransform(
-        place(rospy.get_time()), _UPRIGHT, rospy.Time.now(), "carrot1", "turtle1"))
+    rospy.Timer(
+        rospy.Duration(1 / RATE),
+        reset=True,
+        callback=lambda event: broadcaster.sendTransform(place(rospy.get_time()), _UPRIGHT, rospy.Time.now(), "carrot1", "turtle1"),
+    )
     node_signals.spin()
 
 

@@ -1,4 +1,5 @@
 """What the tutorials of tf and of tf2 share: turtles that come, run in circles and are steered."""
+
 import math
 
 import node_signals

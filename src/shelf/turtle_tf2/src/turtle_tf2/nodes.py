@@ -1,4 +1,5 @@
 """The nodes of the tf2 tutorials, one function each."""
+
 import math
 import sys
 
@@ -29,8 +30,12 @@ def broadcast_turtle(node_name: str) -> int:
         rospy.logerr("need turtle name as argument, or as parameter %s", rospy.resolve_name("~turtle"))
         return 1
     broadcaster = tf2_ros.TransformBroadcaster()
-    rospy.Subscriber(f"/{turtle}/pose", Pose, queue_size=10,
-                     callback=lambda pose: broadcaster.sendTransform(_stamped("world", turtle, pose.x, pose.y, pose.theta)))
+    rospy.Subscriber(
+        f"/{turtle}/pose",
+        Pose,
+        queue_size=10,
+        callback=lambda pose: broadcaster.sendTransform(_stamped("world", turtle, pose.x, pose.y, pose.theta)),
+    )
     node_signals.spin()
     return 0
 
@@ -48,8 +53,11 @@ def broadcast_dynamic_carrot() -> None:
 def _broadcast_carrot(node_name: str, place) -> None:
     node_signals.init_node(node_name)
     broadcaster = tf2_ros.TransformBroadcaster()
-    rospy.Timer(rospy.Duration(1 / RATE), reset=True, callback=lambda event: broadcaster.sendTransform(
-        _stamped("turtle1", "carrot1", *place(rospy.get_time()))))
+    rospy.Timer(
+        rospy.Duration(1 / RATE),
+        reset=True,
+        callback=lambda event: broadcaster.sendTransform(_stamped("turtle1", "carrot1", *place(rospy.get_time()))),
+    )
     node_signals.spin()
 
 

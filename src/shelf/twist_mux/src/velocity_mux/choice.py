@@ -1,4 +1,5 @@
 """Who drives: sources and locks with priorities. No ROS in it; times are seconds of one clock."""
+
 import math
 from dataclasses import dataclass
 from typing import Dict, List, Optional
@@ -64,8 +65,7 @@ def read_inputs(value, kind, parameter: str) -> list:
     :raises ValueError: says which entry is wrong and what it must be
     """
     if not isinstance(value, list):
-        raise ValueError(f"parameter {parameter} must be a list of entries with name, topic, timeout and priority, "
-                         f"but is {value!r:.60}")
+        raise ValueError(f"parameter {parameter} must be a list of entries with name, topic, timeout and priority, but is {value!r:.60}")
     inputs: Dict[str, Input] = {}
     for index, entry in enumerate(value):
         made = _read_input(entry, kind, f"entry {index + 1} of parameter {parameter}")

@@ -1,4 +1,5 @@
 """The node joystick_relay: a joystick's twists in [-1, 1], scaled in steps, let through while the joystick has priority."""
+
 import threading
 
 import actionlib
@@ -76,11 +77,19 @@ class Relay:
         self._told = rospy.Publisher("joy_priority", Bool, queue_size=1, latch=True)
         self._tell()
         rospy.Subscriber("joy_vel_in", Twist, self._take, queue_size=1)
-        self._servers = [_serve("joy_priority_action", JoyPriorityAction, JoyPriorityResult, self._toggle),
-                         *(_serve("joy_turbo_" + name, JoyTurboAction, JoyTurboResult, change) for name, change in (
-                             ("increase", lambda: turbo.change(1)), ("decrease", lambda: turbo.change(-1)),
-                             ("angular_increase", lambda: turbo.change_angular(1)),
-                             ("angular_decrease", lambda: turbo.change_angular(-1)), ("reset", turbo.reset)))]
+        self._servers = [
+            _serve("joy_priority_action", JoyPriorityAction, JoyPriorityResult, self._toggle),
+            *(
+                _serve("joy_turbo_" + name, JoyTurboAction, JoyTurboResult, change)
+                for name, change in (
+                    ("increase", lambda: turbo.change(1)),
+                    ("decrease", lambda: turbo.change(-1)),
+                    ("angular_increase", lambda: turbo.change_angular(1)),
+                    ("angular_decrease", lambda: turbo.change_angular(-1)),
+                    ("reset", turbo.reset),
+                )
+            ),
+        ]
 
     def _take(self, twist: Twist) -> None:
         with self._lock:

@@ -1,4 +1,5 @@
 """The node twist_marker: draws a twist as an arrow above the robot, for RViz."""
+
 import node_signals
 import rospy
 from geometry_msgs.msg import Point, Twist

@@ -1,4 +1,5 @@
 """The node twist_mux: passes the twist of the source that has the word on to ``cmd_vel_out``."""
+
 import threading
 
 import diagnostic_updater
@@ -56,14 +57,19 @@ def _inputs(name: str, kind, default=None) -> list:
     try:
         value = rospy.get_param(parameter, default)
         if value is None:
-            raise ValueError(f"parameter {parameter} is not set; load its file by <rosparam command=\"load\"> inside the <node>")
+            raise ValueError(f'parameter {parameter} is not set; load its file by <rosparam command="load"> inside the <node>')
         inputs = read_inputs(value, kind, parameter)
     except ValueError as error:
         rospy.logfatal("Error parsing params: %s", error)
         return []
     for entry in inputs:
-        rospy.loginfo("Topic handler '%s' subscribed to topic '%s': timeout = %s, priority = %d", entry.name, entry.topic,
-                      f"{entry.timeout:f}s" if entry.timeout else "None", entry.priority)
+        rospy.loginfo(
+            "Topic handler '%s' subscribed to topic '%s': timeout = %s, priority = %d",
+            entry.name,
+            entry.topic,
+            f"{entry.timeout:f}s" if entry.timeout else "None",
+            entry.priority,
+        )
     return inputs
 
 

@@ -1,4 +1,5 @@
 """Prints a robot as YAML; writes it as URDF with -o."""
+
 from __future__ import annotations
 
 import argparse

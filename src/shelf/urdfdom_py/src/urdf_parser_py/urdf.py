@@ -7,6 +7,7 @@
 
 Lengths are in m, angles in rad, masses in kg, as in the file; what it leaves out is None or URDF's default.
 """
+
 from __future__ import annotations
 
 from typing import Any, Dict, List, Optional, Tuple
@@ -187,8 +188,12 @@ class JointCalibration(Object):
 
 class JointLimit(Object):
     TAG = "limit"
-    FIELDS = [Attribute("effort", number), Attribute("lower", number, False, 0), Attribute("upper", number, False, 0),
-              Attribute("velocity", number)]
+    FIELDS = [
+        Attribute("effort", number),
+        Attribute("lower", number, False, 0),
+        Attribute("upper", number, False, 0),
+        Attribute("velocity", number),
+    ]
 
     def __init__(self, effort=None, velocity=None, lower=None, upper=None):
         self.effort, self.velocity, self.lower, self.upper = effort, velocity, lower, upper
@@ -204,8 +209,12 @@ class JointMimic(Object):
 
 class SafetyController(Object):
     TAG = "safety_controller"
-    FIELDS = [Attribute("k_velocity", number), Attribute("k_position", number, False, 0), Attribute("soft_lower_limit", number, False, 0),
-              Attribute("soft_upper_limit", number, False, 0)]
+    FIELDS = [
+        Attribute("k_velocity", number),
+        Attribute("k_position", number, False, 0),
+        Attribute("soft_lower_limit", number, False, 0),
+        Attribute("soft_upper_limit", number, False, 0),
+    ]
 
     def __init__(self, velocity=None, position=None, lower=None, upper=None):
         self.k_velocity, self.k_position, self.soft_lower_limit, self.soft_upper_limit = velocity, position, lower, upper
@@ -214,13 +223,34 @@ class SafetyController(Object):
 class Joint(Object):
     TYPES = ["unknown", "revolute", "continuous", "prismatic", "floating", "planar", "fixed"]
     TAG = "joint"
-    FIELDS = [_NAME, Attribute("type", text), _ORIGIN, Child("axis", ("xyz", numbers(3)), False), Child("parent", ("link", text)),
-              Child("child", ("link", text)), Child("limit", JointLimit, False), Child("dynamics", JointDynamics, False),
-              Child("safety_controller", SafetyController, False), Child("calibration", JointCalibration, False),
-              Child("mimic", JointMimic, False)]
+    FIELDS = [
+        _NAME,
+        Attribute("type", text),
+        _ORIGIN,
+        Child("axis", ("xyz", numbers(3)), False),
+        Child("parent", ("link", text)),
+        Child("child", ("link", text)),
+        Child("limit", JointLimit, False),
+        Child("dynamics", JointDynamics, False),
+        Child("safety_controller", SafetyController, False),
+        Child("calibration", JointCalibration, False),
+        Child("mimic", JointMimic, False),
+    ]
 
-    def __init__(self, name=None, parent=None, child=None, joint_type=None, axis=None, origin=None, limit=None, dynamics=None,
-                 safety_controller=None, calibration=None, mimic=None):
+    def __init__(
+        self,
+        name=None,
+        parent=None,
+        child=None,
+        joint_type=None,
+        axis=None,
+        origin=None,
+        limit=None,
+        dynamics=None,
+        safety_controller=None,
+        calibration=None,
+        mimic=None,
+    ):
         self.name, self.parent, self.child, self.type, self.axis, self.origin = name, parent, child, joint_type, axis, origin
         self.limit, self.dynamics, self.safety_controller = limit, dynamics, safety_controller
         self.calibration, self.mimic = calibration, mimic
@@ -234,6 +264,7 @@ class Joint(Object):
 
 def _first(kind: str) -> property:
     """The first visual or collision, or None."""
+
     def get(self):
         return next(iter(getattr(self, kind + "s")), None)
 
@@ -245,6 +276,7 @@ def _first(kind: str) -> property:
             self.add_aggregate(kind, value)
             listed = getattr(self, kind + "s")
             listed.insert(0, listed.pop())
+
     return property(get, put)
 
 
@@ -289,8 +321,13 @@ class PR2Transmission(Object):
     """The form before ros_control."""
 
     TAG = "pr2_transmission"
-    FIELDS = [_NAME, Attribute("type", text), Child("joint", ("name", text)), Child("actuator", ("name", text)),
-              Child("mechanicalReduction", number)]
+    FIELDS = [
+        _NAME,
+        Attribute("type", text),
+        Child("joint", ("name", text)),
+        Child("actuator", ("name", text)),
+        Child("mechanicalReduction", number),
+    ]
 
     def __init__(self, name=None, joint=None, actuator=None, type=None, mechanicalReduction=1):
         self.name, self.joint, self.actuator, self.type, self.mechanicalReduction = name, joint, actuator, type, mechanicalReduction
@@ -321,8 +358,15 @@ class _AnyTransmission:
 class Robot(Object):
     SUPPORTED_VERSIONS = ["1.0"]
     TAG = "robot"
-    FIELDS = [_NAME, Attribute("version", text, False), Aggregate("link", Link), Aggregate("joint", Joint),
-              Aggregate("gazebo", ElementTree.Element), Aggregate("transmission", _AnyTransmission), Aggregate("material", Material)]
+    FIELDS = [
+        _NAME,
+        Attribute("version", text, False),
+        Aggregate("link", Link),
+        Aggregate("joint", Joint),
+        Aggregate("gazebo", ElementTree.Element),
+        Aggregate("transmission", _AnyTransmission),
+        Aggregate("material", Material),
+    ]
 
     def __init__(self, name: Optional[str] = None, version: str = "1.0"):
         self.aggregate_init()
@@ -388,6 +432,7 @@ class Robot(Object):
     def from_parameter_server(cls, key: str = "robot_description") -> "Robot":
         """:raises KeyError: there is no such parameter. :raises ParseError: it is no robot"""
         import rospy
+
         return cls.from_xml_string(rospy.get_param(key))
 
 

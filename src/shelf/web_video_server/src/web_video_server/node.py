@@ -1,4 +1,5 @@
 """The node web_video_server."""
+
 from __future__ import annotations
 
 import sys
@@ -28,8 +29,11 @@ def main() -> int:
         print(f"web_video_server: {error}", file=sys.stderr)
         return 1
     except (OSError, OverflowError) as error:
-        print(f"web_video_server: port {port} of {address} cannot be had: {getattr(error, 'strerror', None) or error}; "
-              "give another one with _port:=8081", file=sys.stderr)
+        print(
+            f"web_video_server: port {port} of {address} cannot be had: {getattr(error, 'strerror', None) or error}; "
+            "give another one with _port:=8081",
+            file=sys.stderr,
+        )
         return 1
     rospy.loginfo("Waiting For connections on %s:%d", address, server.server_address[1])
     threading.Thread(target=server.serve_forever, daemon=True).start()

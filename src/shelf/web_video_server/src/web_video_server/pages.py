@@ -1,4 +1,5 @@
 """The page that lists image topics, and the one that shows a stream."""
+
 from __future__ import annotations
 
 from html import escape
@@ -17,8 +18,8 @@ def groups(topics: Iterable[Tuple[str, str]]) -> List[Tuple[str, List[str]]]:
     found: List[Tuple[str, List[str]]] = []
     cameras = (name for name, kind in sorted(topics) if kind == "sensor_msgs/CameraInfo" and name.endswith("/" + _INFO))
     for camera in cameras:
-        base = camera[:-len(_INFO)]
-        found.append((base, [name[len(base):] for name in images if name.startswith(base)]))
+        base = camera[: -len(_INFO)]
+        found.append((base, [name[len(base) :] for name in images if name.startswith(base)]))
         images = [name for name in images if not name.startswith(base)]
     return found + [("", images)]
 
@@ -33,12 +34,13 @@ def topics_page(topics: Iterable[Tuple[str, str]]) -> str:
 
 def _entry(base: str, name: str) -> str:
     topic = quote(base + name)
-    return (f'<li><a href="/stream_viewer?topic={topic}">{escape(name)}</a> (<a href="/stream?topic={topic}">Stream</a>) '
-            f'(<a href="/snapshot?topic={topic}">Snapshot</a>)</li>')
+    return (
+        f'<li><a href="/stream_viewer?topic={topic}">{escape(name)}</a> (<a href="/stream?topic={topic}">Stream</a>) '
+        f'(<a href="/snapshot?topic={topic}">Snapshot</a>)</li>'
+    )
 
 
 def viewer_page(topic: str, query: str) -> str:
     """:param query: of the address, which the picture's address repeats"""
     name = escape(topic)
-    return (f"<!DOCTYPE html><html><head><title>{name}</title></head><body><h1>{name}</h1>"
-            f'<img src="/stream?{escape(query)}"></body></html>')
+    return f'<!DOCTYPE html><html><head><title>{name}</title></head><body><h1>{name}</h1><img src="/stream?{escape(query)}"></body></html>'

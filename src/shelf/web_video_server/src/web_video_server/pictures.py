@@ -1,4 +1,5 @@
 """Image messages as files of JPEG or PNG."""
+
 from __future__ import annotations
 
 from typing import Any

@@ -1,4 +1,5 @@
 """What is asked for in an address: ``/stream?topic=/camera/image_raw&type=mjpeg&width=320``."""
+
 from __future__ import annotations
 
 import re
@@ -63,9 +64,15 @@ def read(query: str, default_type: str = "mjpeg") -> Request:
         raise BadRequest(f"{shown(topic)} is no name of a topic: letters, digits, _ and /")
     most, usual = (9, 3) if kind == "png" else (100, 95)
     quality = _number(values, "quality", most)
-    return Request(topic, kind, _size(values, "width"), _size(values, "height"),
-                   usual if quality is None else quality, "invert" in values,
-                   "compressed" if values.get("default_transport") == "compressed" else "raw")
+    return Request(
+        topic,
+        kind,
+        _size(values, "width"),
+        _size(values, "height"),
+        usual if quality is None else quality,
+        "invert" in values,
+        "compressed" if values.get("default_transport") == "compressed" else "raw",
+    )
 
 
 def _size(values: Dict[str, str], name: str) -> Optional[int]:

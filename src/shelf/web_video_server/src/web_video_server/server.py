@@ -1,4 +1,5 @@
 """Answers browsers: a thread for each that looks."""
+
 from __future__ import annotations
 
 import select
@@ -23,8 +24,12 @@ _LOOK = 0.25  # s between looks whether a browser that waits is still there
 _PATIENCE = 60.0  # s that a single picture is waited for
 _PICTURES = (("sensor_msgs/Image", "*"), ("sensor_msgs/CompressedImage", "*"))  # of a topic, of its compressed one; *: not known yet
 _NOT_KEPT = {"Cache-Control": "no-cache, no-store, must-revalidate, pre-check=0, post-check=0, max-age=0", "Pragma": "no-cache"}
-_FOR_ALL = {"Access-Control-Allow-Origin": "*", "Access-Control-Allow-Methods": "GET,POST,PUT,DELETE,HEAD,OPTIONS",
-            "Access-Control-Allow-Headers": "Origin, Authorization, Accept, Content-Type", "Access-Control-Max-Age": "3600"}
+_FOR_ALL = {
+    "Access-Control-Allow-Origin": "*",
+    "Access-Control-Allow-Methods": "GET,POST,PUT,DELETE,HEAD,OPTIONS",
+    "Access-Control-Allow-Headers": "Origin, Authorization, Accept, Content-Type",
+    "Access-Control-Max-Age": "3600",
+}
 
 
 class Server(ThreadingHTTPServer):
@@ -88,8 +93,11 @@ class _Handler(BaseHTTPRequestHandler):
                 message = latest.next(_LOOK)
                 data = self._data(message, asked) if message is not None else None
                 if data is not None:
-                    self._begin(HTTPStatus.OK, self._content_type(message, asked), {
-                        **_NOT_KEPT, **_FOR_ALL, "X-Timestamp": _stamp(message), "Content-Length": str(len(data))})
+                    self._begin(
+                        HTTPStatus.OK,
+                        self._content_type(message, asked),
+                        {**_NOT_KEPT, **_FOR_ALL, "X-Timestamp": _stamp(message), "Content-Length": str(len(data))},
+                    )
                     self.wfile.write(data)
                     return
         raise BadRequest(f"no picture came on {asked.topic} within {_PATIENCE:g} s; is the simulation paused?")
@@ -109,8 +117,12 @@ class _Handler(BaseHTTPRequestHandler):
                     self.wfile.write(last)
 
     def _part(self, message: Any, data: bytes, asked: Request) -> bytes:
-        head = {"Content-type": self._content_type(message, asked), "X-Timestamp": _stamp(message), **_FOR_ALL,
-                "Content-Length": str(len(data))}
+        head = {
+            "Content-type": self._content_type(message, asked),
+            "X-Timestamp": _stamp(message),
+            **_FOR_ALL,
+            "Content-Length": str(len(data)),
+        }
         part = "".join(f"{name}: {value}\r\n" for name, value in head.items()).encode() + b"\r\n" + data + f"\r\n--{_BOUNDARY}\r\n".encode()
         self.wfile.write(part)
         return part
@@ -132,8 +144,9 @@ class _Handler(BaseHTTPRequestHandler):
         if kind in _PICTURES[wanted != asked.topic]:
             return asked
         if kind:
-            raise BadRequest(f"{wanted} has messages of {shown(kind)}, which are no pictures; wanted is "
-                             f"{_PICTURES[wanted != asked.topic][0]}")
+            raise BadRequest(
+                f"{wanted} has messages of {shown(kind)}, which are no pictures; wanted is {_PICTURES[wanted != asked.topic][0]}"
+            )
         images = ", ".join(sorted(name for name, kind in kinds.items() if kind == "sensor_msgs/Image")) or "none"
         raise BadRequest(f"nobody publishes {wanted}; image topics: {images}")
 

@@ -1,4 +1,5 @@
 """The newest message of a topic, for a thread that waits for it."""
+
 from __future__ import annotations
 
 import threading

@@ -3,6 +3,7 @@
 What is missing or wrong raises :class:`ParseError` with the element's path; what is unknown is told to ``on_error``, which a
 program may replace, and left out.
 """
+
 from __future__ import annotations
 
 import sys
@@ -38,11 +39,13 @@ def number(value: str) -> float:
 
 def numbers(count: int) -> Callable[[str], List[float]]:
     """A reader of ``count`` numbers."""
+
     def read(value: str) -> List[float]:
         found = [float(word) for word in value.split()]
         if len(found) != count:
             raise ValueError(f"'{value}' must be {count} numbers")
         return found
+
     return read
 
 
@@ -160,7 +163,7 @@ class Object:
         if isinstance(xml_string, str):  # an encoding that the header names is that of the file it came from
             xml_string = xml_string.lstrip().encode()
             if xml_string.startswith(b"<?xml"):
-                xml_string = xml_string[xml_string.find(b"?>") + 2:]
+                xml_string = xml_string[xml_string.find(b"?>") + 2 :]
         try:
             node = ElementTree.fromstring(xml_string)
         except ElementTree.ParseError as error:
