@@ -1,13 +1,13 @@
 """build_world: plans and pictures to SDF, read back by the simulator's own reader."""
+
 import json
 import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
-from PIL import Image
-
 from building_editor import build_world, building, preview, sdf_model
 from ode_sim.description import ResourceFinder, load_world, read_sdf_model
+from PIL import Image
 
 FINDER = ResourceFinder(environment=False, stock="/nowhere")
 
@@ -22,6 +22,7 @@ def build(plan):
 def solid_at(model, x, y, z):
     """Whether the point of the world lies in a box of the model."""
     from ode_sim import math3
+
     for link in model.links:
         for collision in link.collisions:
             pose = math3.compose(math3.compose(model.pose, link.pose), collision.pose)
@@ -33,7 +34,7 @@ def solid_at(model, x, y, z):
 
 def test_one_wall_as_the_editor_writes_it():
     model = build({"name": "m", "walls": [{"from": [0, 0], "to": [0, 4]}]})
-    link, = model.links
+    (link,) = model.links
     assert (model.name, model.static, link.name) == ("m", True, "Wall_0")
     assert [c.name for c in link.collisions] == ["Wall_0_Collision"]
     assert [v.name for v in link.visuals] == ["Wall_0_Visual"]
@@ -58,8 +59,7 @@ def test_doors_and_windows_are_holes_and_nothing_else_is():
     assert len(model.links[0].collisions) == 6
     assert model.links[0].collisions[0].name == "Wall_0_Collision_0"
     holes = {(1.5, 1.0), (1.06, 0.01), (1.94, 1.99), (4.0, 0.9), (3.61, 0.51), (4.39, 1.29)}
-    walls = {(1.5, 2.01), (1.04, 1.0), (1.96, 1.0), (4.0, 0.49), (4.0, 1.31), (3.59, 0.9), (4.41, 0.9), (0.0, 0.0),
-             (6.0, 2.4)}
+    walls = {(1.5, 2.01), (1.04, 1.0), (1.96, 1.0), (4.0, 0.49), (4.0, 1.31), (3.59, 0.9), (4.41, 0.9), (0.0, 0.0), (6.0, 2.4)}
     assert [p for p in holes if solid_at(model, p[0], 0.0, p[1])] == []
     assert [p for p in walls if not solid_at(model, p[0], 0.0, p[1])] == []
     volume = sum(np.prod(c.geometry.size) for c in model.links[0].collisions)
@@ -78,10 +78,14 @@ def test_openings_on_a_path_are_measured_along_it():
 
 
 def test_stairs_and_the_floor_above():
-    model = build({"walls": [{"path": [[0, 0], [6, 0], [6, 4], [0, 4], [0, 0]]}], "stairs": [{"at": [1, 2]}],
-                   "levels": [{"walls": [{"from": [0, 0], "to": [6, 0], "doors": [{"at": 3}]}], "height": 3}]})
-    assert [link.name for link in model.links] == [
-        "Wall_0", "Wall_1", "Wall_2", "Wall_3", "Stairs_0", "Wall_4", "Floor_1"]
+    model = build(
+        {
+            "walls": [{"path": [[0, 0], [6, 0], [6, 4], [0, 4], [0, 0]]}],
+            "stairs": [{"at": [1, 2]}],
+            "levels": [{"walls": [{"from": [0, 0], "to": [6, 0], "doors": [{"at": 3}]}], "height": 3}],
+        }
+    )
+    assert [link.name for link in model.links] == ["Wall_0", "Wall_1", "Wall_2", "Wall_3", "Stairs_0", "Wall_4", "Floor_1"]
     stairs = model.links[4]
     assert len(stairs.collisions) == 15 and stairs.collisions[14].geometry.size[2] == pytest.approx(2.5)
     assert solid_at(model, 1.1, 2.0, 0.1) and not solid_at(model, 1.1, 2.0, 0.3) and solid_at(model, 4.4, 2.0, 2.4)
@@ -90,30 +94,41 @@ def test_stairs_and_the_floor_above():
 
 
 def test_looks():
-    model = build({"wall": {"material": "Gazebo/Bricks"}, "walls": [
-        {"from": [0, 0], "to": [1, 0]}, {"from": [0, 1], "to": [1, 1], "color": [1, 0, 0.5]}]})
+    model = build(
+        {
+            "wall": {"material": "Gazebo/Bricks"},
+            "walls": [{"from": [0, 0], "to": [1, 0]}, {"from": [0, 1], "to": [1, 1], "color": [1, 0, 0.5]}],
+        }
+    )
     bricks, plain = (link.visuals[0].material for link in model.links)
     assert bricks.name == "Gazebo/Bricks" and plain.diffuse == (1.0, 0.0, 0.5, 1.0)
 
 
-@pytest.mark.parametrize("plan, message", [
-    ({"walls": [{"from": [0, 0]}]}, r"walls\[0\]: 'to' is missing"),
-    ({"walls": [{"from": [0, 0], "to": [0, 0]}]}, r"walls\[0\]: a wall needs two different ends"),
-    ({"walls": [{"from": [0, 0], "to": [0, "a"]}]}, r"walls\[0\].to: .* is not 2 numbers"),
-    ({"walls": [{"from": [0, 0], "to": [4, 0]}, {"from": [0, 1], "to": [4, 1], "doors": [{"at": 9}]}]},
-     r"walls\[1\].doors\[0\]: 9 m is beyond the wall, which is 4 m long"),
-    ({"walls": [{"from": [0, 0], "to": [4, 0], "doors": [{"at": 3.9}]}]}, r"doors\[0\]: 0.9 m wide .* does not fit"),
-    ({"walls": [{"from": [0, 0], "to": [4, 0], "windows": [{"at": 2, "height": 2.2}]}]}, r"windows\[0\]: reaches .* 2.5 m"),
-    ({"walls": [{"from": [0, 0], "to": [4, 0], "heigth": 2}]}, r"walls\[0\]: there is no 'heigth' here; known are .*height"),
-    ({"walls": [{"from": [0, 0], "to": [4, 0], "height": -2}]}, r"walls\[0\].height: -2 must be positive"),
-    ({"walls": [{"from": [0, 0], "to": [4, 0], "color": [255, 0, 0]}]}, r"color: .* from 0 to 1"),
-    ({"walls": []}, "walls: there are none"), ({"walls": "x"}, "walls: must be a list"), ("words", "plan: must be a mapping"),
-    ({"walls": [7]}, r"walls\[0\]: must be a mapping"),
-    ({"walls": [{"from": [0, 0], "to": [4, 0]}], "models": [{"at": [0, 0]}]}, r"models\[0\]: 'model' is missing"),
-    ({"walls": [{"from": [0, 0], "to": [4, 0]}], "stairs": [{"at": [0, 0], "steps": 2.5}]}, r"stairs\[0\].steps"),
-    ({"image": "gone.png", "resolution": 0.1}, "gone.png: No such file"),
-    ({"image": "gone.png"}, "'resolution' is missing"),
-])
+@pytest.mark.parametrize(
+    "plan, message",
+    [
+        ({"walls": [{"from": [0, 0]}]}, r"walls\[0\]: 'to' is missing"),
+        ({"walls": [{"from": [0, 0], "to": [0, 0]}]}, r"walls\[0\]: a wall needs two different ends"),
+        ({"walls": [{"from": [0, 0], "to": [0, "a"]}]}, r"walls\[0\].to: .* is not 2 numbers"),
+        (
+            {"walls": [{"from": [0, 0], "to": [4, 0]}, {"from": [0, 1], "to": [4, 1], "doors": [{"at": 9}]}]},
+            r"walls\[1\].doors\[0\]: 9 m is beyond the wall, which is 4 m long",
+        ),
+        ({"walls": [{"from": [0, 0], "to": [4, 0], "doors": [{"at": 3.9}]}]}, r"doors\[0\]: 0.9 m wide .* does not fit"),
+        ({"walls": [{"from": [0, 0], "to": [4, 0], "windows": [{"at": 2, "height": 2.2}]}]}, r"windows\[0\]: reaches .* 2.5 m"),
+        ({"walls": [{"from": [0, 0], "to": [4, 0], "heigth": 2}]}, r"walls\[0\]: there is no 'heigth' here; known are .*height"),
+        ({"walls": [{"from": [0, 0], "to": [4, 0], "height": -2}]}, r"walls\[0\].height: -2 must be positive"),
+        ({"walls": [{"from": [0, 0], "to": [4, 0], "color": [255, 0, 0]}]}, r"color: .* from 0 to 1"),
+        ({"walls": []}, "walls: there are none"),
+        ({"walls": "x"}, "walls: must be a list"),
+        ("words", "plan: must be a mapping"),
+        ({"walls": [7]}, r"walls\[0\]: must be a mapping"),
+        ({"walls": [{"from": [0, 0], "to": [4, 0]}], "models": [{"at": [0, 0]}]}, r"models\[0\]: 'model' is missing"),
+        ({"walls": [{"from": [0, 0], "to": [4, 0]}], "stairs": [{"at": [0, 0], "steps": 2.5}]}, r"stairs\[0\].steps"),
+        ({"image": "gone.png", "resolution": 0.1}, "gone.png: No such file"),
+        ({"image": "gone.png"}, "'resolution' is missing"),
+    ],
+)
 def test_a_wrong_entry_is_named(plan, message):
     with pytest.raises(building.PlanError, match=message) as caught:
         building.building_of(plan, "/nowhere")
@@ -143,8 +158,8 @@ def test_walls_of_a_picture(picture):
 
 def test_a_map_of_map_server(picture):
     (picture.parent / "map.yaml").write_text(
-        "image: room.png\nresolution: 0.05\norigin: [-1.0, -1.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\n"
-        "free_thresh: 0.2\n")
+        "image: room.png\nresolution: 0.05\norigin: [-1.0, -1.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n"
+    )
     made = building.read_plan(str(picture.parent / "map.yaml"))
     model, _ = read_sdf_model(sdf_model.model_text(made), finder=FINDER)
     assert solid_at(model, -0.95, 0.0, 1.0) and not solid_at(model, 0.5, -0.95, 1.0)
@@ -173,8 +188,7 @@ def test_command_writes_a_world_and_a_preview(tmp_path, capsys):
     assert build_world.main([str(plan), "-o", str(world), "--preview", str(png)]) == 0
     assert capsys.readouterr().out == f"{world}: flat, 1 wall on 1 level\n"
     uris = [(e.findtext("uri"), e.findtext("name")) for e in ET.parse(world).iter("include")]
-    assert uris == [("model://sun", None), ("model://ground_plane", None), ("model://table", "table"),
-                    ("model://table", "table_1")]
+    assert uris == [("model://sun", None), ("model://ground_plane", None), ("model://table", "table"), ("model://table", "table_1")]
     loaded, problems = load_world(str(world), FINDER)
     assert [model.name for model in loaded.models] == ["flat"] and len(problems) == 3  # no stock models in this test
     with Image.open(png) as image:
@@ -187,11 +201,20 @@ def test_command_writes_a_world_and_a_preview(tmp_path, capsys):
 def test_names_in_any_script_are_drawn(tmp_path, capsys, name, place):
     plan, png = tmp_path / "plan.yaml", tmp_path / "out.png"
     names = {"plan": "flat", "model": "table", place: name}
-    plan.write_text(f"name: {json.dumps(names['plan'], ensure_ascii=False)}\nwalls:\n- {{from: [0, 0], to: [3, 0]}}\n"
-                    f"models: [{{model: {json.dumps(names['model'], ensure_ascii=False)}, at: [1, 2]}}]\n")
+    plan.write_text(
+        f"name: {json.dumps(names['plan'], ensure_ascii=False)}\nwalls:\n- {{from: [0, 0], to: [3, 0]}}\n"
+        f"models: [{{model: {json.dumps(names['model'], ensure_ascii=False)}, at: [1, 2]}}]\n"
+    )
     assert build_world.main([str(plan), "-o", str(tmp_path / "room.world"), "--preview", str(png)]) == 0, capsys.readouterr().err
-    point = preview.draw(building.building_of({"walls": [{"from": [0, 0], "to": [3, 0]}], "name": "." if place == "plan" else "flat",
-                                               "models": [{"model": "." if place == "model" else "table", "at": [1, 2]}]}))
+    point = preview.draw(
+        building.building_of(
+            {
+                "walls": [{"from": [0, 0], "to": [3, 0]}],
+                "name": "." if place == "plan" else "flat",
+                "models": [{"model": "." if place == "model" else "table", "at": [1, 2]}],
+            }
+        )
+    )
     with Image.open(png) as image:
         assert (np.asarray(image) != np.asarray(point)).any(axis=2).sum() > 5, "there is something to read"
 
@@ -206,15 +229,16 @@ def test_command_writes_a_model_directory(tmp_path):
     (tmp_path / "plan.yaml").write_text(PLAN)
     assert build_world.main([str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "models/flat") + "/"]) == 0
     finder = ResourceFinder([tmp_path / "models"], environment=False, stock="/nowhere")
-    loaded, problems = load_world("<sdf version='1.6'><world name='w'><include><uri>model://flat</uri></include>"
-                                  "</world></sdf>", finder)
+    loaded, problems = load_world("<sdf version='1.6'><world name='w'><include><uri>model://flat</uri></include></world></sdf>", finder)
     assert loaded.models[0].links[0].name == "Wall_0" and not problems
 
 
-@pytest.mark.parametrize("text, message", [
-    ("walls: [", ":2: is no YAML|:1: is no YAML"), ("walls: [{from: [0, 0], to: [1]}]", r"plan.yaml: walls\[0\].to")])
+@pytest.mark.parametrize(
+    "text, message", [("walls: [", ":2: is no YAML|:1: is no YAML"), ("walls: [{from: [0, 0], to: [1]}]", r"plan.yaml: walls\[0\].to")]
+)
 def test_command_names_file_and_entry(tmp_path, capsys, text, message):
     import re
+
     (tmp_path / "plan.yaml").write_text(text)
     assert build_world.main([str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "a.world")]) == 1
     error = capsys.readouterr().err
@@ -230,30 +254,37 @@ def test_command_refuses_an_unknown_ending(tmp_path, capsys):
 # ---------------------------------------------------------------------------------------------- plans that nobody draws
 
 ROOM = {"from": [0, 0], "to": [4, 0]}
-LONG = 10 ** 400
+LONG = 10**400
 
 
-@pytest.mark.parametrize("plan, message", [
-    ({"walls": [{"path": [[LONG, 4.5], [0, 0]]}]}, r"walls\[0\].path\[0\]: \[1e400, 4.5\] is not 2 numbers"),
-    ({"walls": [ROOM], "wall": {"thickness": LONG}}, "wall.thickness: 1e400 is not a number"),
-    ({"walls": [ROOM], "wall": {"height": 2.5e300}}, "wall.height: 2.5e[+]300 is too much; at most 100000"),
-    ({"walls": [{"from": [0, 0], "to": [1e6, 0]}]}, r"walls\[0\].to: .* is too far away; at most 100000 m"),
-    ({"walls": [ROOM], "models": [{"model": "a", "at": [0, -1e308]}]}, r"models\[0\].at: .* is too far away"),
-    ({"walls": [dict(ROOM, thickness=1e-300)]}, r"walls\[0\].thickness: 1e-300 must be positive, at least 1e-06"),
-    ({"walls": [ROOM], "stairs": [{"at": [0, 0], "steps": 10 ** 9}]}, r"stairs\[0\].steps: 1000000000 is too much; at most 1000"),
-    ({"walls": [ROOM] * 5001}, "walls: 5001 entries; at most 5000 are built"),
-    ({"walls": [{"path": [[i % 2, i] for i in range(4000)]}] * 2}, r"walls\[1\]: more than 5000 pieces of wall on one floor"),
-    ({"walls": [ROOM], "levels": [{}] * 201}, "levels: 201 entries; at most 200 are built"),
-    ({"walls": [ROOM], "levels": [{"height": 9e4}, {"height": 9e4}, {}]}, r"levels\[2\]: its floor is .* m high"),
-    ({"walls": [ROOM], "name": [1]}, r"plan.name: \[1\] is no name"),
-    ({"walls": [ROOM], "name": "a\0b"}, "plan.name: 'a b' is no|'a.b' is no"),
-    ({"walls": [ROOM], "name": LONG}, "plan.name: 1e400 is no name"), ({"walls": [ROOM], "name": "\ud800"}, "is no name"),
-    ({"walls": [dict(ROOM, material={"a": 1})]}, r"walls\[0\].material: {'a': 1} is no name"),
-    ({"walls": [dict(ROOM, **{"k" * 9999: 1})]}, r"walls\[0\]: there is no 'kkkk"),
-    ({"walls": ["w" * 9999]}, r"walls\[0\]: must be a mapping"), ({"walls": [ROOM], 7: 7}, "plan: there is no 7 here"),
-    ({"image": "x" * 9999, "resolution": 1}, "is no name"), ({"image": "x\0y", "resolution": 1}, "is no name"),
-    ({"image": "gone.png", "resolution": 1e4}, "plan.resolution: 10000.0 is too much"),
-], ids=range(22))
+@pytest.mark.parametrize(
+    "plan, message",
+    [
+        ({"walls": [{"path": [[LONG, 4.5], [0, 0]]}]}, r"walls\[0\].path\[0\]: \[1e400, 4.5\] is not 2 numbers"),
+        ({"walls": [ROOM], "wall": {"thickness": LONG}}, "wall.thickness: 1e400 is not a number"),
+        ({"walls": [ROOM], "wall": {"height": 2.5e300}}, "wall.height: 2.5e[+]300 is too much; at most 100000"),
+        ({"walls": [{"from": [0, 0], "to": [1e6, 0]}]}, r"walls\[0\].to: .* is too far away; at most 100000 m"),
+        ({"walls": [ROOM], "models": [{"model": "a", "at": [0, -1e308]}]}, r"models\[0\].at: .* is too far away"),
+        ({"walls": [dict(ROOM, thickness=1e-300)]}, r"walls\[0\].thickness: 1e-300 must be positive, at least 1e-06"),
+        ({"walls": [ROOM], "stairs": [{"at": [0, 0], "steps": 10**9}]}, r"stairs\[0\].steps: 1000000000 is too much; at most 1000"),
+        ({"walls": [ROOM] * 5001}, "walls: 5001 entries; at most 5000 are built"),
+        ({"walls": [{"path": [[i % 2, i] for i in range(4000)]}] * 2}, r"walls\[1\]: more than 5000 pieces of wall on one floor"),
+        ({"walls": [ROOM], "levels": [{}] * 201}, "levels: 201 entries; at most 200 are built"),
+        ({"walls": [ROOM], "levels": [{"height": 9e4}, {"height": 9e4}, {}]}, r"levels\[2\]: its floor is .* m high"),
+        ({"walls": [ROOM], "name": [1]}, r"plan.name: \[1\] is no name"),
+        ({"walls": [ROOM], "name": "a\0b"}, "plan.name: 'a b' is no|'a.b' is no"),
+        ({"walls": [ROOM], "name": LONG}, "plan.name: 1e400 is no name"),
+        ({"walls": [ROOM], "name": "\ud800"}, "is no name"),
+        ({"walls": [dict(ROOM, material={"a": 1})]}, r"walls\[0\].material: {'a': 1} is no name"),
+        ({"walls": [dict(ROOM, **{"k" * 9999: 1})]}, r"walls\[0\]: there is no 'kkkk"),
+        ({"walls": ["w" * 9999]}, r"walls\[0\]: must be a mapping"),
+        ({"walls": [ROOM], 7: 7}, "plan: there is no 7 here"),
+        ({"image": "x" * 9999, "resolution": 1}, "is no name"),
+        ({"image": "x\0y", "resolution": 1}, "is no name"),
+        ({"image": "gone.png", "resolution": 1e4}, "plan.resolution: 10000.0 is too much"),
+    ],
+    ids=range(22),
+)
 def test_an_absurd_entry_is_named_in_one_short_line(plan, message):
     with pytest.raises(building.PlanError, match=message) as caught:
         building.building_of(plan, "/nowhere")
@@ -264,8 +295,7 @@ def test_a_value_that_holds_itself_many_times_is_shown_short():
     bomb = [1]
     for _ in range(60):
         bomb = [bomb, bomb]
-    for plan in ({"walls": bomb}, {"walls": [{"path": bomb}]}, {"walls": [ROOM], "name": bomb},
-                 {"walls": [dict(ROOM, color=bomb)]}):
+    for plan in ({"walls": bomb}, {"walls": [{"path": bomb}]}, {"walls": [ROOM], "name": bomb}, {"walls": [dict(ROOM, color=bomb)]}):
         with pytest.raises(building.PlanError) as caught:
             building.building_of(plan)
         assert len(str(caught.value)) < 400
@@ -274,16 +304,38 @@ def test_a_value_that_holds_itself_many_times_is_shown_short():
 MERGES = "a0: &a0 {k: 1}\n" + "".join(f"a{i}: &a{i} {{<<: [*a{i - 1}, *a{i - 1}], k{i}: 1}}\n" for i in range(1, 40))
 
 
-@pytest.mark.parametrize("text", [
-    b"[" * 5000, b"a: " + b"[" * 100 + b"]" * 100, MERGES.encode(), b"&a {<<: *a}", b"&a [*a]", b"walls: &a [*a]", b"", b"\0",
-    b"\xff\xfe\0",
-    b"walls: !!python/object/apply:os.system ['true']", b"walls: !!timestamp x", b"walls: !!int ''", b"name: 2024-13-45",
-    b"name: " + b"9" * 5000, b"? [a]\n: b", b"{[]: 1}", b"walls: !!binary x", b"- " * 3000, b"walls: 0x" + b"f" * 5000,
-    b"%YAML 9.9\n---\nx",
-    b"walls: !!bool x", b"!!set {a}", b"x" * 1_000_001,
-], ids=range(23))
+@pytest.mark.parametrize(
+    "text",
+    [
+        b"[" * 5000,
+        b"a: " + b"[" * 100 + b"]" * 100,
+        MERGES.encode(),
+        b"&a {<<: *a}",
+        b"&a [*a]",
+        b"walls: &a [*a]",
+        b"",
+        b"\0",
+        b"\xff\xfe\0",
+        b"walls: !!python/object/apply:os.system ['true']",
+        b"walls: !!timestamp x",
+        b"walls: !!int ''",
+        b"name: 2024-13-45",
+        b"name: " + b"9" * 5000,
+        b"? [a]\n: b",
+        b"{[]: 1}",
+        b"walls: !!binary x",
+        b"- " * 3000,
+        b"walls: 0x" + b"f" * 5000,
+        b"%YAML 9.9\n---\nx",
+        b"walls: !!bool x",
+        b"!!set {a}",
+        b"x" * 1_000_001,
+    ],
+    ids=range(23),
+)
 def test_any_text_is_a_plan_or_refused_at_once(tmp_path, text):
     import time
+
     path = tmp_path / "plan.yaml"
     path.write_bytes(text)
     begin = time.process_time()
@@ -308,10 +360,16 @@ def test_a_picture_of_noise_is_refused_at_once(tmp_path):
         building.read_plan(str(path), 0.05)
 
 
-@pytest.mark.parametrize("plan", [
-    {"walls": [{"from": [-1e5, 0], "to": [1e5, 0]}]}, {"walls": [{"from": [0, -1e5], "to": [0, 1e5]}]},
-    {"walls": [ROOM], "models": [{"model": "a", "at": [0, 1e5]}]}, {"walls": [ROOM], "levels": [{"walls": [ROOM]}] * 200},
-    {"walls": [{"from": [0, 0], "to": [2e-6, 0]}], "wall": {"thickness": 1e-6, "height": 1e-6}}])
+@pytest.mark.parametrize(
+    "plan",
+    [
+        {"walls": [{"from": [-1e5, 0], "to": [1e5, 0]}]},
+        {"walls": [{"from": [0, -1e5], "to": [0, 1e5]}]},
+        {"walls": [ROOM], "models": [{"model": "a", "at": [0, 1e5]}]},
+        {"walls": [ROOM], "levels": [{"walls": [ROOM]}] * 200},
+        {"walls": [{"from": [0, 0], "to": [2e-6, 0]}], "wall": {"thickness": 1e-6, "height": 1e-6}},
+    ],
+)
 def test_a_preview_has_a_size_that_can_be_looked_at(plan):
     image = preview.draw(building.building_of(plan))
     assert 1 <= image.width <= 20000 and 1 <= image.height <= 12000
@@ -319,9 +377,13 @@ def test_a_preview_has_a_size_that_can_be_looked_at(plan):
 
 def test_many_walls_are_joined_quickly():
     import time
+
     begin = time.process_time()
-    walls = building.building_of({"walls": [{"from": [i, 0], "to": [i, 1]} for i in range(3000)]
-                                  + [{"from": [-1, 0.5], "to": [3000, 0.5]}]}).levels[0].walls
+    walls = (
+        building.building_of({"walls": [{"from": [i, 0], "to": [i, 1]} for i in range(3000)] + [{"from": [-1, 0.5], "to": [3000, 0.5]}]})
+        .levels[0]
+        .walls
+    )
     assert not walls[-1].butts[0] and not any(walls[5].butts) and time.process_time() - begin < 20.0
 
 

@@ -1,4 +1,5 @@
 """What of Gazebo is not here says so to whoever includes it."""
+
 import pathlib
 import subprocess
 
@@ -8,12 +9,21 @@ INCLUDE = pathlib.Path(__file__).resolve().parents[1] / "include"
 ABSENT = sorted(path for path in INCLUDE.rglob("*.hh") if path.read_text().startswith("#error"))
 
 
-@pytest.mark.parametrize("name, words", [("rendering/UserCamera.hh", "no window of Gazebo"), ("rendering/Conversions.hh", "no Ogre"),
-                                         ("rendering/Light.hh", "lights"), ("gui/GuiPlugin.hh", "GUI plugin"),
-                                         ("ode/common.h", "over ODE are not here"), ("physics/ode/ODEPhysics.hh", "over ODE are not here")])
+@pytest.mark.parametrize(
+    "name, words",
+    [
+        ("rendering/UserCamera.hh", "no window of Gazebo"),
+        ("rendering/Conversions.hh", "no Ogre"),
+        ("rendering/Light.hh", "lights"),
+        ("gui/GuiPlugin.hh", "GUI plugin"),
+        ("ode/common.h", "over ODE are not here"),
+        ("physics/ode/ODEPhysics.hh", "over ODE are not here"),
+    ],
+)
 def test_the_first_line_of_the_compiler_says_what_is_not_here(name, words):
-    done = subprocess.run(["g++", "-fsyntax-only", "-x", "c++", f"-I{INCLUDE}", "-"], input=f"#include <gazebo/{name}>\n",
-                          capture_output=True, text=True)
+    done = subprocess.run(
+        ["g++", "-fsyntax-only", "-x", "c++", f"-I{INCLUDE}", "-"], input=f"#include <gazebo/{name}>\n", capture_output=True, text=True
+    )
     lines = [line for line in done.stderr.splitlines() if "error" in line]
     assert done.returncode and words in lines[0], done.stderr
 
@@ -27,6 +37,7 @@ def test_nothing_that_is_here_includes_what_is_not():
 
 def test_threads_of_boost_are_known_to_whoever_includes_gazebos_messages():
     source = "#include <gazebo/common/Console.hh>\nboost::thread thread;\nboost::mutex mutex;\nstd::thread own;\n"
-    done = subprocess.run(["g++", "-std=c++17", "-fsyntax-only", "-x", "c++", f"-I{INCLUDE}", "-"], input=source, capture_output=True,
-                          text=True)
+    done = subprocess.run(
+        ["g++", "-std=c++17", "-fsyntax-only", "-x", "c++", f"-I{INCLUDE}", "-"], input=source, capture_output=True, text=True
+    )
     assert not done.returncode, done.stderr

@@ -1,4 +1,5 @@
 """sdformat and ignition-math of the folder stand_in give the numbers that Debian 12's gave, and Debian 12's still give them."""
+
 import os
 import pathlib
 import subprocess
@@ -69,8 +70,9 @@ def test_files_of_this_workspace_for_pkg_config_are_not_taken_for_debians(tmp_pa
         if debian_has_them:
             (system / f"{name}.pc").write_text(PC.format(name=name).replace("/of/this/workspace", "/of/debian"))
     (project / "CMakeLists.txt").write_text(CHOICE.format(cmake=pathlib.Path(__file__).resolve().parents[1] / "cmake"))
-    environment = dict(os.environ, PKG_CONFIG_LIBDIR=str(system), PKG_CONFIG_PATH=str(workspace),
-                       CMAKE_PREFIX_PATH=str(tmp_path / "workspace"))
+    environment = dict(
+        os.environ, PKG_CONFIG_LIBDIR=str(system), PKG_CONFIG_PATH=str(workspace), CMAKE_PREFIX_PATH=str(tmp_path / "workspace")
+    )
     done = subprocess.run(["cmake", "-S", project, "-B", tmp_path / "build"], env=environment, capture_output=True, text=True, check=False)
     expected = "own: [] debian: [/of/debian]" if debian_has_them else "own: [sdformat12;ignition-math6] debian: []"
     assert expected in done.stdout, done.stdout + done.stderr

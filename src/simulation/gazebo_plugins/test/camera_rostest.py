@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Topics, rates, encodings, numbers and pixels of the camera plugins. The world cameras.world stands still and in
 lock-step: time passes only through the step service, so every frame and every stamp is known."""
+
 import hashlib
 import unittest
 
@@ -61,31 +62,44 @@ class Cameras(unittest.TestCase):
             return ear.wait(count)
 
     def assertBoxes(self, rgb, tolerance=0):
-        for (row, column), colour in {(60, 80 - OFF): RED, (60, 80 + OFF): GREEN, (60 - OFF, 80): BLUE,
-                                      (60 + OFF, 80): YELLOW, (60, 80): BACKGROUND}.items():
-            self.assertLessEqual(np.abs(rgb[row, column].astype(int) - colour).max(), tolerance,
-                                 f"pixel {row}, {column} is {rgb[row, column]}, not {colour}")
+        for (row, column), colour in {
+            (60, 80 - OFF): RED,
+            (60, 80 + OFF): GREEN,
+            (60 - OFF, 80): BLUE,
+            (60 + OFF, 80): YELLOW,
+            (60, 80): BACKGROUND,
+        }.items():
+            self.assertLessEqual(
+                np.abs(rgb[row, column].astype(int) - colour).max(), tolerance, f"pixel {row}, {column} is {rgb[row, column]}, not {colour}"
+            )
 
     def test_topics_and_types(self):
         types = dict(rospy.get_published_topics())
         config, description = "dynamic_reconfigure/Config", "dynamic_reconfigure/ConfigDescription"
         for topic, kind in {
-                "/eye/image_raw": "sensor_msgs/Image", "/eye/camera_info": "sensor_msgs/CameraInfo",
-                "/eye/image_raw/compressed": "sensor_msgs/CompressedImage",
-                "/eye/image_raw/compressed/parameter_descriptions": description,
-                "/eye/image_raw/compressed/parameter_updates": config,
-                "/eye/image_raw/compressedDepth": "sensor_msgs/CompressedImage",
-                "/eye/image_raw/compressedDepth/parameter_descriptions": description,
-                "/eye/image_raw/compressedDepth/parameter_updates": config,
-                "/eye/image_raw/theora": "theora_image_transport/Packet",
-                "/eye/image_raw/theora/parameter_descriptions": description,
-                "/eye/image_raw/theora/parameter_updates": config,
-                "/eye/parameter_descriptions": description, "/eye/parameter_updates": config,
-                "/robot/camera/image": "sensor_msgs/Image", "/robot/camera/info": "sensor_msgs/CameraInfo",
-                "/rig_ns/grey/image_raw": "sensor_msgs/Image", "/stereo/left/image_raw": "sensor_msgs/Image",
-                "/stereo/right/camera_info": "sensor_msgs/CameraInfo", "/kinect/depth/image_raw": "sensor_msgs/Image",
-                "/kinect/depth/camera_info": "sensor_msgs/CameraInfo", "/kinect/points": "sensor_msgs/PointCloud2",
-                "/depth_cam/points": "sensor_msgs/PointCloud2"}.items():
+            "/eye/image_raw": "sensor_msgs/Image",
+            "/eye/camera_info": "sensor_msgs/CameraInfo",
+            "/eye/image_raw/compressed": "sensor_msgs/CompressedImage",
+            "/eye/image_raw/compressed/parameter_descriptions": description,
+            "/eye/image_raw/compressed/parameter_updates": config,
+            "/eye/image_raw/compressedDepth": "sensor_msgs/CompressedImage",
+            "/eye/image_raw/compressedDepth/parameter_descriptions": description,
+            "/eye/image_raw/compressedDepth/parameter_updates": config,
+            "/eye/image_raw/theora": "theora_image_transport/Packet",
+            "/eye/image_raw/theora/parameter_descriptions": description,
+            "/eye/image_raw/theora/parameter_updates": config,
+            "/eye/parameter_descriptions": description,
+            "/eye/parameter_updates": config,
+            "/robot/camera/image": "sensor_msgs/Image",
+            "/robot/camera/info": "sensor_msgs/CameraInfo",
+            "/rig_ns/grey/image_raw": "sensor_msgs/Image",
+            "/stereo/left/image_raw": "sensor_msgs/Image",
+            "/stereo/right/camera_info": "sensor_msgs/CameraInfo",
+            "/kinect/depth/image_raw": "sensor_msgs/Image",
+            "/kinect/depth/camera_info": "sensor_msgs/CameraInfo",
+            "/kinect/points": "sensor_msgs/PointCloud2",
+            "/depth_cam/points": "sensor_msgs/PointCloud2",
+        }.items():
             self.assertEqual(types.get(topic), kind, topic)
         self.assertNotIn("/plain/image_raw", types)
         rate = rospy.wait_for_message("/eye/parameter_descriptions", ConfigDescription, 60)
@@ -102,8 +116,10 @@ class Cameras(unittest.TestCase):
 
     def test_pixels(self):
         frame = self.take("/eye/image_raw")[0]
-        self.assertEqual((frame.width, frame.height, frame.step, frame.encoding, frame.is_bigendian, len(frame.data)),
-                         (160, 120, 480, "rgb8", 0, 160 * 120 * 3))
+        self.assertEqual(
+            (frame.width, frame.height, frame.step, frame.encoding, frame.is_bigendian, len(frame.data)),
+            (160, 120, 480, "rgb8", 0, 160 * 120 * 3),
+        )
         self.assertEqual(frame.header.frame_id, "eye_optical")
         self.assertBoxes(picture(frame))
 
@@ -116,9 +132,12 @@ class Cameras(unittest.TestCase):
         info = self.take("/robot/camera/info", CameraInfo, steps=200)[0]
         f = 476.7014378
         self.assertEqual((info.width, info.height, info.distortion_model), (800, 800, "plumb_bob"))
-        for got, expected in ((info.K, [f, 0, 400.5, 0, f, 400.5, 0, 0, 1]), (info.R, [1, 0, 0, 0, 1, 0, 0, 0, 1]),
-                              (info.P, [f, 0, 400.5, -33.3691006, 0, f, 400.5, 0, 0, 0, 1, 0]),
-                              (info.D, [0.1, 0.2, 0.4, 0.5, 0.3])):
+        for got, expected in (
+            (info.K, [f, 0, 400.5, 0, f, 400.5, 0, 0, 1]),
+            (info.R, [1, 0, 0, 0, 1, 0, 0, 0, 1]),
+            (info.P, [f, 0, 400.5, -33.3691006, 0, f, 400.5, 0, 0, 0, 1, 0]),
+            (info.D, [0.1, 0.2, 0.4, 0.5, 0.3]),
+        ):
             np.testing.assert_allclose(got, expected, atol=1e-6)
         self.assertEqual(info.header.frame_id, "camera_link")
 
@@ -136,6 +155,7 @@ class Cameras(unittest.TestCase):
 
         def middle(rgb):  # of the green box
             return np.mean(np.argwhere((rgb == GREEN).all(axis=2)), axis=0)
+
         self.assertGreater(80 + OFF - middle(bent)[1], 2)  # a barrel draws towards the middle
         # from the inner edge of its back to the outer edge of its face
         np.testing.assert_allclose(middle(straight), (59.5, 79.5 + (0.4 / 2.2 + 0.8 / 2) / 2 * F), atol=0.5)
@@ -160,6 +180,7 @@ class Cameras(unittest.TestCase):
     def test_jpeg_then_png(self):
         def decode(message):
             return cv2.imdecode(np.frombuffer(message.data, np.uint8), cv2.IMREAD_UNCHANGED)[..., ::-1]
+
         with Ear("/eye/image_raw", Image) as raw:
             jpeg = self.take("/eye/image_raw/compressed", CompressedImage)[0]
             self.assertEqual(jpeg.format, "rgb8; jpeg compressed bgr8")
@@ -249,9 +270,11 @@ class Cameras(unittest.TestCase):
         self.assertAlmostEqual(sky.mean(), 51, delta=0.2)
 
     def test_stereo(self):
-        with Ear("/stereo/right/image_raw", Image) as rights, \
-                Ear("/stereo/left/camera_info", CameraInfo) as left_infos, \
-                Ear("/stereo/right/camera_info", CameraInfo) as right_infos:
+        with (
+            Ear("/stereo/right/image_raw", Image) as rights,
+            Ear("/stereo/left/camera_info", CameraInfo) as left_infos,
+            Ear("/stereo/right/camera_info", CameraInfo) as right_infos,
+        ):
             left, right = self.take("/stereo/left/image_raw")[0], rights.wait(1)[0]
             self.assertEqual(stamp_ns(left), stamp_ns(right))
             self.assertEqual(left_infos.wait(1)[0].P[3], 0)
@@ -294,8 +317,11 @@ class Cameras(unittest.TestCase):
         self.assertFalse(poll(response_namespace="answers", binning_x=2).success)
 
     def test_kinect(self):
-        with Ear("/kinect/points", PointCloud2) as clouds, Ear("/kinect/depth/camera_info", CameraInfo) as infos, \
-                Ear("/kinect/image_raw", Image) as images:
+        with (
+            Ear("/kinect/points", PointCloud2) as clouds,
+            Ear("/kinect/depth/camera_info", CameraInfo) as infos,
+            Ear("/kinect/image_raw", Image) as images,
+        ):
             depth = self.take("/kinect/depth/image_raw")[0]
             cloud, info, image = clouds.wait(1)[0], infos.wait(1)[0], images.wait(1)[0]
         self.assertEqual(len({stamp_ns(m) for m in (depth, cloud, info, image)}), 1)
@@ -305,10 +331,8 @@ class Cameras(unittest.TestCase):
         metres = np.frombuffer(depth.data, np.float32).reshape(120, 160)
         self.assertAlmostEqual(float(metres[60, 80 - OFF]), 2.0, places=4)
         self.assertTrue(np.isnan(metres[60, 80]))  # nothing within 3 m
-        self.assertEqual((cloud.height, cloud.width, cloud.point_step, cloud.row_step, cloud.is_dense),
-                         (120, 160, 32, 5120, False))
-        self.assertEqual([(f.name, f.offset, f.datatype) for f in cloud.fields],
-                         [("x", 0, 7), ("y", 4, 7), ("z", 8, 7), ("rgb", 16, 7)])
+        self.assertEqual((cloud.height, cloud.width, cloud.point_step, cloud.row_step, cloud.is_dense), (120, 160, 32, 5120, False))
+        self.assertEqual([(f.name, f.offset, f.datatype) for f in cloud.fields], [("x", 0, 7), ("y", 4, 7), ("z", 8, 7), ("rgb", 16, 7)])
         points = np.frombuffer(cloud.data, np.float32).reshape(120, 160, 8)
         np.testing.assert_allclose(points[60, 80 - OFF, :3], [2 * (0.5 - OFF) / F, 2 * 0.5 / F, 2], atol=1e-3)
         self.assertEqual(points[60, 80 - OFF, 4:5].view(np.uint8)[:3].tolist(), [0, 0, 255])  # b g r
@@ -333,7 +357,7 @@ class Cameras(unittest.TestCase):
         spawn = rospy.ServiceProxy("/gazebo/spawn_sdf_model", SpawnModel)
         delete = rospy.ServiceProxy("/gazebo/delete_model", DeleteModel)
         with Ear("/rosout", Log) as log:
-            for name, width in (("flat", 0), ("huge", 10 ** 7), ("words", "wide")):
+            for name, width in (("flat", 0), ("huge", 10**7), ("words", "wide")):
                 self.assertTrue(spawn("bad", BAD.format(name=name, width=width), "/", Pose(), "world").success)
                 until(lambda: any(f"sensor '{name}'" in m.msg for m in log.messages), f"line about {name}")
                 self.assertTrue(delete("bad").success)
@@ -349,8 +373,12 @@ class Cameras(unittest.TestCase):
         sensor = """<sensor name="{name}" type="camera"><update_rate>10</update_rate>
             <camera><image><width>{width}</width><height>24</height></image></camera>
             <plugin name="p" filename="libgazebo_ros_camera.so"><cameraName>twin</cameraName></plugin></sensor>"""
-        twins = ('<sdf version="1.6"><model name="twins"><static>true</static><link name="l">'
-                 + sensor.format(name="a", width=32) + sensor.format(name="b", width=48) + "</link></model></sdf>")
+        twins = (
+            '<sdf version="1.6"><model name="twins"><static>true</static><link name="l">'
+            + sensor.format(name="a", width=32)
+            + sensor.format(name="b", width=48)
+            + "</link></model></sdf>"
+        )
         with Ear("/rosout", Log) as log:
             self.assertTrue(spawn("twins", twins, "/", Pose(), "world").success)
             until(lambda: any("[/twin/set_camera_info]" in m.msg for m in log.messages), "line about the second camera")

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Whole server processes in lock-step: with one seed their pictures are the same, byte by byte."""
+
 import contextlib
 import hashlib
 import os
@@ -23,8 +24,13 @@ TUMBLING = """<sdf version="1.6"><model name="any"><link name="l"><inertial><mas
     <visual name="v"><geometry><box><size>0.3 0.2 0.4</size></box></geometry>
     <material><ambient>{} 0 1 1</ambient></material></visual></link></model></sdf>"""
 #: topic -> type and how many messages STEPS bring
-STREAMS = {"eye/image_raw": (Image, 15), "eye/image_raw/compressed": (CompressedImage, 15),
-           "robot/camera/image": (Image, 5), "kinect/depth/image_raw": (Image, 5), "kinect/points": (PointCloud2, 5)}
+STREAMS = {
+    "eye/image_raw": (Image, 15),
+    "eye/image_raw/compressed": (CompressedImage, 15),
+    "robot/camera/image": (Image, 5),
+    "kinect/depth/image_raw": (Image, 5),
+    "kinect/points": (PointCloud2, 5),
+}
 STEPS = 500
 
 
@@ -68,8 +74,10 @@ class Server:
         with contextlib.ExitStack() as ears:
             heard = {topic: ears.enter_context(self.hear(topic, kind)) for topic, (kind, _) in STREAMS.items()}
             step(STEPS)
-            return {topic: [(m.header.stamp.to_nsec(), hashlib.sha1(m.data).hexdigest())
-                            for m in ear.wait(STREAMS[topic][1])] for topic, ear in heard.items()}
+            return {
+                topic: [(m.header.stamp.to_nsec(), hashlib.sha1(m.data).hexdigest()) for m in ear.wait(STREAMS[topic][1])]
+                for topic, ear in heard.items()
+            }
 
 
 class Runs(test_support.TestCase):

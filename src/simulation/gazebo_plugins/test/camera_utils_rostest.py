@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A camera plugin in C++ that stands on gazebo_ros_camera_utils.h: its topics, while somebody listens."""
+
 import importlib.util
 import math
 import unittest
@@ -70,8 +71,9 @@ class CameraUtilsTest(test_support.TestCase):
         self.step(100, 2)
         image, info = self.images[-1], self.infos[-1]
         self.assertEqual([message.header.stamp.to_sec() for message in self.images], [0.05, 0.1])
-        self.assertEqual((image.header.frame_id, image.encoding, image.width, image.height, image.step),
-                         ("fleet/optical", "rgb8", 160, 120, 480))
+        self.assertEqual(
+            (image.header.frame_id, image.encoding, image.width, image.height, image.step), ("fleet/optical", "rgb8", 160, 120, 480)
+        )
         pixels = np.frombuffer(image.data, np.uint8).reshape(120, 160, 3).astype(int)
         red = np.argwhere(pixels[..., 0] > 2 * np.maximum(pixels[..., 1:].max(axis=-1), 20))
         f = 80 / math.tan(0.6)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """counting.py SECONDS TOPIC...: a subscriber without a bound that takes so long for each message; for each line on standard input it
 prints how many messages of each topic it has had, as JSON."""
+
 import json
 import sys
 import time

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A model plugin in C++ that stands on the headers gazebo_ros_utils.h and PubQueue.h."""
+
 import importlib.util
 import unittest
 
@@ -22,8 +23,10 @@ class HeadersTest(unittest.TestCase):
         self.assertTrue(done.success, done.status_message)
 
     def test_parameters_and_the_queue(self):
-        self.spawned("cart", "<wheelJoint>wheel</wheelJoint><publishOdom>false</publishOdom><turned>1</turned><side>right</side>"
-                             "<updateRate>50</updateRate>")
+        self.spawned(
+            "cart",
+            "<wheelJoint>wheel</wheelJoint><publishOdom>false</publishOdom><turned>1</turned><side>right</side><updateRate>50</updateRate>",
+        )
         told = rospy.wait_for_message("/cart/user", String, 20)
         self.assertEqual(told.data, "User(ns = cart) 50 robot7/base_footprint 0 1 2 wheel")
 

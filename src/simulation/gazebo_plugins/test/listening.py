@@ -1,4 +1,5 @@
 """What the rostests share: a subscriber that keeps everything, and conditions that come true in the end."""
+
 import time
 import xmlrpc.client
 
@@ -29,14 +30,12 @@ class Ear:
     def __init__(self, topic, kind, node="/gazebo"):
         self.messages = []
         before = connections(topic, node)
-        self.subscriber = rospy.Subscriber(topic, kind, self.messages.append, queue_size=None, buff_size=1 << 24,
-                                           tcp_nodelay=True)
+        self.subscriber = rospy.Subscriber(topic, kind, self.messages.append, queue_size=None, buff_size=1 << 24, tcp_nodelay=True)
         until(lambda: connections(topic, node) - before, f"connection of {topic}")
 
     def wait(self, count):
         """All messages, once there are at least ``count``."""
-        until(lambda: len(self.messages) >= count,
-              f"{count} messages on {self.subscriber.name}, only {len(self.messages)}")
+        until(lambda: len(self.messages) >= count, f"{count} messages on {self.subscriber.name}, only {len(self.messages)}")
         return self.messages
 
     def close(self):

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Lock-step: what the simulation publishes arrives, all of it, at subscribers in other processes that are as slow as they like."""
+
 import json
 import os
 import signal
@@ -23,8 +24,9 @@ class Counter:
 
     def __init__(self, case, seconds, *topics):
         before = {topic: connections(topic) for topic in topics}
-        self.process = subprocess.Popen([sys.executable, COUNTING, str(seconds), *topics], text=True, stdin=subprocess.PIPE,
-                                        stdout=subprocess.PIPE)
+        self.process = subprocess.Popen(
+            [sys.executable, COUNTING, str(seconds), *topics], text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE
+        )
         case.addCleanup(self.end)
         for topic in topics:
             until(lambda topic=topic: connections(topic) - before[topic], f"connection of {topic}")
@@ -42,10 +44,16 @@ class Counter:
 class Lockstep(PluginWorld):
     def setUp(self):
         camera = f"""<sensor name="eye" type="camera"><update_rate>30</update_rate><camera><image><width>640</width>
-            <height>480</height></image></camera>{plugin("gazebo_ros_camera", cameraName="eye", imageTopicName="image_raw",
-                                                         robotNamespace="/")}</sensor>"""
-        self.spawn("watcher", sdf(link("l", extra=camera), plugin("gazebo_ros_p3d", bodyName="l", topicName="truth",
-                                                                  robotNamespace="/"), static=True), 0, 0, 1)
+            <height>480</height></image></camera>{
+            plugin("gazebo_ros_camera", cameraName="eye", imageTopicName="image_raw", robotNamespace="/")
+        }</sensor>"""
+        self.spawn(
+            "watcher",
+            sdf(link("l", extra=camera), plugin("gazebo_ros_p3d", bodyName="l", topicName="truth", robotNamespace="/"), static=True),
+            0,
+            0,
+            1,
+        )
         self.addCleanup(self._delete_model, "watcher")
 
     def test_nothing_is_lost_on_the_way(self):
@@ -53,8 +61,9 @@ class Lockstep(PluginWorld):
         brisk, slow = Counter(self, 0, PICTURES, TRUTH), Counter(self, 0.002, PICTURES, TRUTH)
         self.step(2.0)
         for counter in (brisk, slow):
-            until(lambda counter=counter: counter.counts()[TRUTH] >= 2000 and counter.counts()[PICTURES] >= 60,
-                  "all messages; there are", 90)
+            until(
+                lambda counter=counter: counter.counts()[TRUTH] >= 2000 and counter.counts()[PICTURES] >= 60, "all messages; there are", 90
+            )
             self.assertEqual(counter.counts(), {PICTURES: 60, TRUTH: 2000})
 
     def test_a_subscriber_that_stands_still_is_waited_for_and_told_of(self):
@@ -65,8 +74,12 @@ class Lockstep(PluginWorld):
         with Ear("/rosout", Log) as log:
             stepping = threading.Thread(target=lambda: done.append(self._step(1500).success), daemon=True)
             stepping.start()
-            until(lambda: any("lock-step: the simulation stood still" in m.msg and "/counting" in m.msg and PICTURES in m.msg
-                              for m in log.messages), "line about the subscriber")
+            until(
+                lambda: any(
+                    "lock-step: the simulation stood still" in m.msg and "/counting" in m.msg and PICTURES in m.msg for m in log.messages
+                ),
+                "line about the subscriber",
+            )
         self.assertTrue(self._get_model_state("watcher", "").success)  # whoever waits for an answer gets it
         self.assertEqual(done, [])
         os.kill(stuck.process.pid, signal.SIGCONT)

@@ -3,6 +3,7 @@
 through the step service.
 
 With ~after_reset all of it is tested on plugins that have run for a while and were then reset with the simulation."""
+
 import math
 
 import numpy as np
@@ -32,10 +33,18 @@ class Moving(PluginWorld):
         arm = [link("base", (0, 0, 1), mass=5), joint("bolt", "fixed", "world", "base")]
         for name, z in (("leader", 1.0), ("follower", 1.5)):
             arm += [link(name + "_link", (0, 0, z)), joint(name, "revolute", "base", name + "_link", (1, 0, 0), -2, 2)]
-        self.spawn("linked", sdf(*arm, plugin("roboticsgroup_gazebo_mimic_joint_plugin", joint="leader", mimicJoint="follower",
-                                              multiplier=-0.5, offset=0.1),
-                                 plugin("gazebo_ros_joint_pose_trajectory", topicName="points"),
-                                 plugin("gazebo_ros_joint_state_publisher", jointName=" follower, leader ", updateRate=50)), 60, 0)
+        self.spawn(
+            "linked",
+            sdf(
+                *arm,
+                plugin("roboticsgroup_gazebo_mimic_joint_plugin", joint="leader", mimicJoint="follower", multiplier=-0.5, offset=0.1),
+                plugin("gazebo_ros_joint_pose_trajectory", topicName="points"),
+                plugin("gazebo_ros_joint_state_publisher", jointName=" follower, leader ", updateRate=50),
+            ),
+            60,
+            0,
+        )
+
         def trajectory(*points):
             return [JointTrajectoryPoint(positions=[q], time_from_start=rospy.Duration(seconds)) for q, seconds in points]
 
@@ -66,10 +75,18 @@ class Moving(PluginWorld):
             until(lambda: any("'nowhere' names no link" in m.msg for m in log.messages), "line about the frame")
 
     def test_elevator(self):
-        self.spawn("lift", sdf(link("cabin", (0, 0, 0.1), mass=50), joint("shaft", "prismatic", "world", "cabin", lower=0, upper=10),
-                               link("door", (0.5, 0, 0.1), mass=5), joint("slide", "prismatic", "cabin", "door", (0, 1, 0), 0, 1),
-                               plugin("gazebo_ros_elevator", lift_joint="shaft", door_joint="slide", floor_height=1.5,
-                                      door_wait_time=2)), 70, 0)
+        self.spawn(
+            "lift",
+            sdf(
+                link("cabin", (0, 0, 0.1), mass=50),
+                joint("shaft", "prismatic", "world", "cabin", lower=0, upper=10),
+                link("door", (0.5, 0, 0.1), mass=5),
+                joint("slide", "prismatic", "cabin", "door", (0, 1, 0), 0, 1),
+                plugin("gazebo_ros_elevator", lift_joint="shaft", door_joint="slide", floor_height=1.5, door_wait_time=2),
+            ),
+            70,
+            0,
+        )
         Mouth("/elevator", String).say("2")
         self.until_stepped(lambda: self.joint("lift::shaft") > 0.01, "start of the cabin")
         self.step(3.5)
@@ -101,8 +118,15 @@ class Moving(PluginWorld):
 
     def test_skid_steer(self):
         corners = dict(left_front=(0.15, 0.2), right_front=(0.15, -0.2), left_rear=(-0.15, 0.2), right_rear=(-0.15, -0.2))
-        self.spawn("skid", sdf(self.base(**corners), plugin("gazebo_ros_skid_steer_drive", robotNamespace="/skid",
-                                                             wheelSeparation=0.4, wheelDiameter=0.2, torque=20)), 0, 80)
+        self.spawn(
+            "skid",
+            sdf(
+                self.base(**corners),
+                plugin("gazebo_ros_skid_steer_drive", robotNamespace="/skid", wheelSeparation=0.4, wheelDiameter=0.2, torque=20),
+            ),
+            0,
+            80,
+        )
         odometry, first, last = self.drive("/skid", 0.5, 0, "/skid/odom", lambda t: abs(t.linear.x - 0.5) < 1e-3)
         self.assertAlmostEqual(last.position.x - first.position.x, 0.5, delta=0.005)
         self.assertAlmostEqual(last.position.y, 80, delta=0.005)
@@ -115,11 +139,30 @@ class Moving(PluginWorld):
         """Driven ahead, on the spot and on an arc, as the recorded robot of Gazebo 11.1: when the command ends, both wheels first
         jump to where the ramp left them, which is the same speed. It turned by 0.0042 rad (wheels that ramp down from the speeds
         they have: 0.024), and then went straight on."""
-        self.spawn("arc", sdf(self.base(left=(0, 0.19), right=(0, -0.19)).replace(
-            "</link>", f"""<collision name="s"><pose>0 0 -0.1 0 0 0</pose><geometry>{box(0.45, 0.01, 0.1)}</geometry><surface><friction>
-            <ode><mu>0</mu><mu2>0</mu2></ode></friction></surface></collision></link>""", 1), plugin(
-                "gazebo_ros_diff_drive", robotNamespace="/arc", leftJoint="left_joint", rightJoint="right_joint", wheelSeparation=0.38,
-                wheelDiameter=0.2, wheelTorque=30, wheelAcceleration=1.8, updateRate=100)), 0, 150)
+        self.spawn(
+            "arc",
+            sdf(
+                self.base(left=(0, 0.19), right=(0, -0.19)).replace(
+                    "</link>",
+                    f"""<collision name="s"><pose>0 0 -0.1 0 0 0</pose><geometry>{box(0.45, 0.01, 0.1)}</geometry><surface><friction>
+            <ode><mu>0</mu><mu2>0</mu2></ode></friction></surface></collision></link>""",
+                    1,
+                ),
+                plugin(
+                    "gazebo_ros_diff_drive",
+                    robotNamespace="/arc",
+                    leftJoint="left_joint",
+                    rightJoint="right_joint",
+                    wheelSeparation=0.38,
+                    wheelDiameter=0.2,
+                    wheelTorque=30,
+                    wheelAcceleration=1.8,
+                    updateRate=100,
+                ),
+            ),
+            0,
+            150,
+        )
         self.addCleanup(self._delete_model, "arc")
         self.drive("/arc", 0.3, 0.0, "/arc/odom", lambda t: abs(t.linear.x - 0.3) < 1e-3)
         self.drive("/arc", 0.0, 0.5, "/arc/odom", lambda t: abs(t.angular.z - 0.5) < 1e-2)
@@ -130,7 +173,7 @@ class Moving(PluginWorld):
         while True:
             self.step(0.001)
             now = state()
-            if abs(now.twist.linear.x ** 2 + now.twist.linear.y ** 2 - 0.04) > 1e-3:
+            if abs(now.twist.linear.x**2 + now.twist.linear.y**2 - 0.04) > 1e-3:
                 break
             before = now
         self.step(0.045)  # the jump itself makes these wheels slip, for some 0.03 s
@@ -161,20 +204,37 @@ class Moving(PluginWorld):
         self.assertAlmostEqual(yaw_of(last) - yaw_of(first), 0.5, delta=0.03)
 
         body = link("base_footprint", (0, 0, 0.05), mass=10, inertia=0.3, shape=box(0.5, 0.3, 0.1), mu=0)
-        self.spawn("nexus", sdf(body, plugin("nexus_ros_force_based_move", robotNamespace="/nexus", x_velocity_p_gain=1e9,
-                                             cmdVelTimeOut=0.25)), 0, 115)
+        self.spawn(
+            "nexus",
+            sdf(body, plugin("nexus_ros_force_based_move", robotNamespace="/nexus", x_velocity_p_gain=1e9, cmdVelTimeOut=0.25)),
+            0,
+            115,
+        )
         _, first, last = self.drive("/nexus", 2.0, 0.0, "/nexus/odom", lambda t: t.linear.x > 0.59)
         self.assertLess(last.position.x - first.position.x, 0.26 * 0.6)
         self.step(0.5)
         self.assertAlmostEqual(self.pose("nexus").position.x, last.position.x, delta=1e-6)
 
     def test_tricycle(self):
-        parts = sdf(self.base(left=(-0.2, 0.25), right=(-0.2, -0.25)), link("fork", (0.3, 0, 0.2)),
-                    joint("front_steering_joint", "revolute", "base_link", "fork"), wheel("front", (0.3, 0, 0.1)),
-                    joint("front_wheel_joint", "revolute", "fork", "front", (0, 1, 0)), plugin(
-                        "gazebo_ros_tricycle_drive", robotNamespace="/tricycle", encoderWheelLeftJoint="left_joint",
-                        encoderWheelRightJoint="right_joint", actuatedWheelDiameter=0.2, encoderWheelDiameter=0.2,
-                        encoderWheelSeparation=0.5, odometrySource="encoder", wheelTorque=20, publishWheelJointState="true"))
+        parts = sdf(
+            self.base(left=(-0.2, 0.25), right=(-0.2, -0.25)),
+            link("fork", (0.3, 0, 0.2)),
+            joint("front_steering_joint", "revolute", "base_link", "fork"),
+            wheel("front", (0.3, 0, 0.1)),
+            joint("front_wheel_joint", "revolute", "fork", "front", (0, 1, 0)),
+            plugin(
+                "gazebo_ros_tricycle_drive",
+                robotNamespace="/tricycle",
+                encoderWheelLeftJoint="left_joint",
+                encoderWheelRightJoint="right_joint",
+                actuatedWheelDiameter=0.2,
+                encoderWheelDiameter=0.2,
+                encoderWheelSeparation=0.5,
+                odometrySource="encoder",
+                wheelTorque=20,
+                publishWheelJointState="true",
+            ),
+        )
         self.spawn("tricycle", parts, 0, 100)
         steering = 0.4
         odometry, first, last = self.drive("/tricycle", 0.5, steering, "/tricycle/odom", lambda t: t.linear.x > 0.44)
@@ -186,12 +246,29 @@ class Moving(PluginWorld):
 
     def test_tricycle_gathers_speed(self):
         """Its limits are those of the wheel's rate, rad/s^2, as upstream compares them: 4 rad/s after 2 s at 2 rad/s^2."""
-        self.spawn("slowly", sdf(self.base(left=(-0.2, 0.25), right=(-0.2, -0.25)), link("fork", (0.3, 0, 0.2)),
-                    joint("front_steering_joint", "revolute", "base_link", "fork"), wheel("front", (0.3, 0, 0.1)),
-                    joint("front_wheel_joint", "revolute", "fork", "front", (0, 1, 0)), plugin(
-                        "gazebo_ros_tricycle_drive", robotNamespace="/slowly", encoderWheelLeftJoint="left_joint",
-                        encoderWheelRightJoint="right_joint", actuatedWheelDiameter=0.2, encoderWheelDiameter=0.2,
-                        encoderWheelSeparation=0.5, wheelTorque=20, wheelAcceleration=2)), 0, 160)
+        self.spawn(
+            "slowly",
+            sdf(
+                self.base(left=(-0.2, 0.25), right=(-0.2, -0.25)),
+                link("fork", (0.3, 0, 0.2)),
+                joint("front_steering_joint", "revolute", "base_link", "fork"),
+                wheel("front", (0.3, 0, 0.1)),
+                joint("front_wheel_joint", "revolute", "fork", "front", (0, 1, 0)),
+                plugin(
+                    "gazebo_ros_tricycle_drive",
+                    robotNamespace="/slowly",
+                    encoderWheelLeftJoint="left_joint",
+                    encoderWheelRightJoint="right_joint",
+                    actuatedWheelDiameter=0.2,
+                    encoderWheelDiameter=0.2,
+                    encoderWheelSeparation=0.5,
+                    wheelTorque=20,
+                    wheelAcceleration=2,
+                ),
+            ),
+            0,
+            160,
+        )
         self.addCleanup(self._delete_model, "slowly")
         Mouth("/slowly/cmd_vel", Twist).say(Vector3(0.4, 0, 0), Vector3(0, 0, 0))
         speed = lambda: self._get_model_state("slowly", "").twist.linear.x  # noqa: E731
@@ -202,15 +279,37 @@ class Moving(PluginWorld):
 
     def test_wheel_slip(self):
         """On a slope a rolling robot that slips sideways drifts; told not to, it keeps its line."""
-        wheels = "".join(f'<wheel link_name="{name}">' + elements(
-            slip_compliance_lateral=0, slip_compliance_longitudinal=0.5, wheel_normal_force=60, wheel_radius=0.1) + "</wheel>"
-            for name in ("left", "right"))
+        wheels = "".join(
+            f'<wheel link_name="{name}">'
+            + elements(slip_compliance_lateral=0, slip_compliance_longitudinal=0.5, wheel_normal_force=60, wheel_radius=0.1)
+            + "</wheel>"
+            for name in ("left", "right")
+        )
         slip = plugin("gazebo_ros_wheel_slip", robotNamespace="/slippy").replace("</plugin>", wheels + "</plugin>")
-        drive = plugin("gazebo_ros_diff_drive", robotNamespace="/slippy", leftJoint="left_joint", rightJoint="right_joint",
-                       wheelSeparation=0.5, wheelDiameter=0.2, wheelTorque=20)
-        self.spawn("slippy", sdf(self.base(left=(0, 0.25), right=(0, -0.25)).replace(
-            '</link>', f'<collision name="s"><pose>0 0 -0.1 0 0 0</pose><geometry>{box(0.45, 0.01, 0.1)}</geometry><surface><friction><ode>'
-            '<mu>0.3</mu><mu2>0.3</mu2></ode></friction></surface></collision></link>', 1), drive, slip), 0, 110)
+        drive = plugin(
+            "gazebo_ros_diff_drive",
+            robotNamespace="/slippy",
+            leftJoint="left_joint",
+            rightJoint="right_joint",
+            wheelSeparation=0.5,
+            wheelDiameter=0.2,
+            wheelTorque=20,
+        )
+        self.spawn(
+            "slippy",
+            sdf(
+                self.base(left=(0, 0.25), right=(0, -0.25)).replace(
+                    "</link>",
+                    f'<collision name="s"><pose>0 0 -0.1 0 0 0</pose><geometry>{box(0.45, 0.01, 0.1)}</geometry><surface><friction><ode>'
+                    "<mu>0.3</mu><mu2>0.3</mu2></ode></friction></surface></collision></link>",
+                    1,
+                ),
+                drive,
+                slip,
+            ),
+            0,
+            110,
+        )
         _, first, last = self.drive("/slippy", 0.5, 0, "/slippy/odom", lambda t: t.linear.x > 0.3)
         slow = last.position.x - first.position.x
         Client("/slippy/wheel_slip", timeout=60).update_configuration({"slip_compliance_unitless_longitudinal": 0.0})
@@ -230,16 +329,19 @@ class Moving(PluginWorld):
         plugins = plugins or plugin("gazebo_ros_ft_sensor", topicName=f"{name}_ft")
         scale = f"""<pose>0.02 0 0 0 0 0.7</pose><sensor name="s" type="force_torque"><pose>0 0 0 0 0.5 0</pose>
             <update_rate>50</update_rate><force_torque>{sensor}</force_torque>{plugins}</sensor>"""
-        self.spawn(name, sdf(WEIGHT, joint("hold", "fixed", "world", "base"),
-                             joint("j", held, "base", "w", lower=0, upper=0, extra=scale)), *place)
+        self.spawn(
+            name, sdf(WEIGHT, joint("hold", "fixed", "world", "base"), joint("j", held, "base", "w", lower=0, upper=0, extra=scale)), *place
+        )
         self.addCleanup(self._delete_model, name)
         self.step(0.2)
 
     def test_force_torque_sensor_in_a_joint(self):
         """What Gazebo 11.1 measured of this bench, in the axes of the child, the parent and the sensor."""
-        measured = {"child": ((0.0, -7.6326, -18.0528), (0.38163, 1.44422, -0.61061)),
-                    "parent": ((0.0, -3.8939, -19.2093), (-0.09879, 1.57865, -0.32001)),
-                    "sensor": ((4.3398, -5.8377, -18.2002), (1.36539, 0.85875, 0.05013))}
+        measured = {
+            "child": ((0.0, -7.6326, -18.0528), (0.38163, 1.44422, -0.61061)),
+            "parent": ((0.0, -3.8939, -19.2093), (-0.09879, 1.57865, -0.32001)),
+            "sensor": ((4.3398, -5.8377, -18.2002), (1.36539, 0.85875, 0.05013)),
+        }
         names = {"child": "w", "parent": "base", "sensor": "s"}
         for k, (frame, (force, torque)) in enumerate(measured.items()):
             for sign, direction in ((1, "child_to_parent"), (-1, "parent_to_child")):

@@ -1,11 +1,11 @@
 """What the tests of plugins share: the world plugins.world, paused."""
+
 import math
 
 import numpy as np
 import rospy
 import test_support
-from gazebo_msgs.srv import (DeleteModel, GetJointProperties, GetLinkState, GetModelState, SetModelState,
-                              SpawnModel)
+from gazebo_msgs.srv import DeleteModel, GetJointProperties, GetLinkState, GetModelState, SetModelState, SpawnModel
 from gazebo_ros.srv import StepWorld
 from geometry_msgs.msg import Point, Pose, Quaternion
 from listening import Ear, until
@@ -29,9 +29,15 @@ class PluginWorld(test_support.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.wait_for_message("/gazebo/ready", Bool, 60)
-        for name, kind in {"step": StepWorld, "spawn_sdf_model": SpawnModel, "get_model_state": GetModelState,
-                           "get_link_state": GetLinkState, "get_joint_properties": GetJointProperties,
-                           "set_model_state": SetModelState, "delete_model": DeleteModel}.items():
+        for name, kind in {
+            "step": StepWorld,
+            "spawn_sdf_model": SpawnModel,
+            "get_model_state": GetModelState,
+            "get_link_state": GetLinkState,
+            "get_joint_properties": GetJointProperties,
+            "set_model_state": SetModelState,
+            "delete_model": DeleteModel,
+        }.items():
             setattr(cls, "_" + name, staticmethod(rospy.ServiceProxy("/gazebo/" + name, kind, persistent=True)))
         cls._reset = staticmethod(rospy.ServiceProxy("/gazebo/reset_simulation", Empty))
         cls._after_reset = rospy.get_param("~after_reset", False)

@@ -2,6 +2,7 @@
 """Every plugin but the cameras against what the physics must give. Time passes only through the step service.
 
 With ~after_reset all of it is tested on plugins that have run for a while and were then reset with the simulation."""
+
 import math
 
 import numpy as np
@@ -9,10 +10,9 @@ import rospy
 import rostest
 import tf2_ros
 from gazebo_msgs.msg import ContactsState, ModelState, ODEJointProperties
-from gazebo_msgs.srv import (SetJointProperties)
+from gazebo_msgs.srv import SetJointProperties
 from gazebo_ros_link_attacher.srv import Attach
-from geometry_msgs.msg import (Point, Pose, Quaternion, TransformStamped, Twist, Vector3, Vector3Stamped, Wrench,
-                               WrenchStamped)
+from geometry_msgs.msg import Point, Pose, Quaternion, TransformStamped, Twist, Vector3, Vector3Stamped, Wrench, WrenchStamped
 from listening import Ear, Mouth, until
 from models import box, elements, joint, link, plugin, sdf
 from nav_msgs.msg import Odometry
@@ -31,15 +31,24 @@ class Plugins(PluginWorld):
         body = {"bodyName": "l"}
         sensor = f"""<sensor name="imu" type="imu"><pose>0.5 0 0 0 0 0</pose><update_rate>100</update_rate>
             {plugin("gazebo_ros_imu_sensor", topicName="imu", frameName="imu_link", robotNamespace="/{0}", updateRateHZ=100)}
-            </sensor><sensor name="slow" type="imu"><update_rate>50</update_rate>{plugin("gazebo_ros_imu_sensor",
-            topicName="slow_imu", frameName="l", robotNamespace="/{0}", rpyOffset="0 0 0.5")}</sensor>"""
-        plugins = (plugin("gazebo_ros_p3d", topicName="truth", frameName="map", robotNamespace="/{0}", updateRate=50, **body)
-                   + plugin("gazebo_ros_imu", topicName="bare_imu", serviceName="{0}/calibrate", robotNamespace="/{0}", **body)
-                   + plugin("hector_gazebo_ros_imu", topicName="hector_imu", robotNamespace="/{0}", **body)
-                   + plugin("hector_gazebo_ros_gps", robotNamespace="/{0}", updateRate=10, referenceLatitude=30,
-                            referenceLongitude=120, referenceAltitude=5, **body)
-                   + plugin("hector_gazebo_ros_magnetic", robotNamespace="/{0}", useMagneticFieldMsgs="true", inclination=60,
-                            **body))
+            </sensor><sensor name="slow" type="imu"><update_rate>50</update_rate>{
+            plugin("gazebo_ros_imu_sensor", topicName="slow_imu", frameName="l", robotNamespace="/{0}", rpyOffset="0 0 0.5")
+        }</sensor>"""
+        plugins = (
+            plugin("gazebo_ros_p3d", topicName="truth", frameName="map", robotNamespace="/{0}", updateRate=50, **body)
+            + plugin("gazebo_ros_imu", topicName="bare_imu", serviceName="{0}/calibrate", robotNamespace="/{0}", **body)
+            + plugin("hector_gazebo_ros_imu", topicName="hector_imu", robotNamespace="/{0}", **body)
+            + plugin(
+                "hector_gazebo_ros_gps",
+                robotNamespace="/{0}",
+                updateRate=10,
+                referenceLatitude=30,
+                referenceLongitude=120,
+                referenceAltitude=5,
+                **body,
+            )
+            + plugin("hector_gazebo_ros_magnetic", robotNamespace="/{0}", useMagneticFieldMsgs="true", inclination=60, **body)
+        )
         for name, gravity, x in (("turning", False, 10.0), ("standing", True, 12.0)):
             text = sdf(link("l", mass=2, gravity=gravity, shape=box(0.2, 0.2, 0.2), extra=sensor), plugins)
             self.spawn(name, text.replace("{0}", name), x, 0.0, 0.1 if gravity else 1.0)
@@ -107,8 +116,11 @@ class Plugins(PluginWorld):
         # As Gazebo 11.1 gives it of such a box: the box first, on each corner a quarter of its weight, about its middle.
         for index, state in enumerate(message.states):
             self.assertEqual((state.collision1_name, state.collision2_name), ("load::l::c", "floor::link::c"))
-            self.assertRegex(state.info, fr"^Debug:  i:\({index}/20\)     my geom:load::l::c   other geom:floor::link::c         "
-                                         r"time:\d+\.\d{9}\n$")
+            self.assertRegex(
+                state.info,
+                rf"^Debug:  i:\({index}/20\)     my geom:load::l::c   other geom:floor::link::c         "
+                r"time:\d+\.\d{9}\n$",
+            )
         times = [float(state.info.rpartition(":")[2]) for state in message.states]
         self.assertAlmostEqual(times[-1], message.header.stamp.to_sec() - 0.001, places=6)  # as in the record: those before it
         np.testing.assert_allclose(np.diff(times), 0.001, atol=1e-9)
@@ -124,16 +136,20 @@ class Plugins(PluginWorld):
         """Feels with all of itself on the topic of its name; spawned with its lower side at the height ``at[1]``."""
         sensor = f"""<sensor name="s" type="contact"><update_rate>50</update_rate><contact><collision>c</collision></contact>
             {plugin("gazebo_ros_bumper", bumperTopicName=name, frameName="world")}</sensor>"""
-        self.spawn(name, sdf(link("l", mass=mass, inertia=0.1, shape=box(*size), extra=sensor), static=static), at[0], 0,
-                   at[1] + size[2] / 2)
+        self.spawn(
+            name, sdf(link("l", mass=mass, inertia=0.1, shape=box(*size), extra=sensor), static=static), at[0], 0, at[1] + size[2] / 2
+        )
         self.addCleanup(self._delete_model, name)
 
     def first_of(self, topic, *pair):
         """The two names in the order in which they are told, and the vertical force that is told with them."""
         self.step(1.0)
         states = self.measure("/" + topic, ContactsState, 0.1, 5).states
-        found = {((s.collision1_name, s.collision2_name), round(s.total_wrench.force.z, 1)) for s in states
-                 if {s.collision1_name, s.collision2_name} == {f"{name}::l::c" for name in pair}}
+        found = {
+            ((s.collision1_name, s.collision2_name), round(s.total_wrench.force.z, 1))
+            for s in states
+            if {s.collision1_name, s.collision2_name} == {f"{name}::l::c" for name in pair}
+        }
         self.assertEqual(len(found), 1, found)
         return found.pop()
 
@@ -165,9 +181,19 @@ class Plugins(PluginWorld):
     def test_force_torque_sensor(self):
         """Of a weight that hangs on a fixed joint Gazebo 11.1 tells -29.4 N: what the child bears on its parent."""
         hang = joint("bolt", "fixed", "world", "post") + joint(
-            "scale", "fixed", "post", "weight", extra="<physics><provide_feedback>true</provide_feedback></physics>")
-        self.spawn("scales", sdf(link("post", (0, 0, 1)), link("weight", (0.3, 0, 0.8), mass=3), hang, plugin(
-            "gazebo_ros_ft_sensor", jointName="scale", topicName="ft", updateRate=100)), 22, 0)
+            "scale", "fixed", "post", "weight", extra="<physics><provide_feedback>true</provide_feedback></physics>"
+        )
+        self.spawn(
+            "scales",
+            sdf(
+                link("post", (0, 0, 1)),
+                link("weight", (0.3, 0, 0.8), mass=3),
+                hang,
+                plugin("gazebo_ros_ft_sensor", jointName="scale", topicName="ft", updateRate=100),
+            ),
+            22,
+            0,
+        )
         self.step(1.0)
         wrench = self.measure("/ft", WrenchStamped, 0.1, 10)
         self.assertEqual(wrench.header.frame_id, "weight")
@@ -176,7 +202,9 @@ class Plugins(PluginWorld):
 
     def test_force_torque_sensor_of_a_revolute_joint(self):
         """2 kg on a wrist that is rolled by 0.4 rad; the same bench in Gazebo 11.1, mean over 6 s of a ripple of 0.06 N."""
-        self.spawn("bench", f"""<robot name="bench"><link name="world"/><link name="base"><inertial><mass value="5"/>
+        self.spawn(
+            "bench",
+            f"""<robot name="bench"><link name="world"/><link name="base"><inertial><mass value="5"/>
             <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
             <joint name="fix" type="fixed"><parent link="world"/><child link="base"/><origin xyz="0 0 0.5"/></joint>
             <joint name="wrist" type="revolute"><parent link="base"/><child link="weight"/><origin xyz="0 -0.5 1" rpy="0.4 0 0"/>
@@ -184,7 +212,10 @@ class Plugins(PluginWorld):
             <link name="weight"><inertial><origin xyz="0.1 0 0.05"/><mass value="2"/>
             <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
             <gazebo reference="wrist"><provideFeedback>true</provideFeedback></gazebo><gazebo>
-            {plugin("gazebo_ros_ft_sensor", jointName="wrist", topicName="wrist_ft", updateRate=50)}</gazebo></robot>""", 42, 0)
+            {plugin("gazebo_ros_ft_sensor", jointName="wrist", topicName="wrist_ft", updateRate=50)}</gazebo></robot>""",
+            42,
+            0,
+        )
         self.addCleanup(self._delete_model, "bench")
         self.step(1.0)
         wrench = self.measure("/wrist_ft", WrenchStamped, 0.1, 5).wrench
@@ -192,8 +223,16 @@ class Plugins(PluginWorld):
         np.testing.assert_allclose(xyz(wrench.torque), (0.3816, 1.8053, -0.7632), atol=0.01)
 
     def test_force_in_and_force_felt(self):
-        self.spawn("pushed", sdf(link("l", gravity=False), plugin("gazebo_ros_force", bodyName="l", topicName="push")
-                                 + plugin("gazebo_ros_f3d", bodyName="l", topicName="felt")), 24, 0, 1)
+        self.spawn(
+            "pushed",
+            sdf(
+                link("l", gravity=False),
+                plugin("gazebo_ros_force", bodyName="l", topicName="push") + plugin("gazebo_ros_f3d", bodyName="l", topicName="felt"),
+            ),
+            24,
+            0,
+            1,
+        )
         push = Mouth("/push", Wrench)
         push.say(Vector3(0, 2, 0), Vector3(0, 0, 0))
         speed = lambda: self._get_model_state("pushed", "").twist.linear.y  # noqa: E731
@@ -208,11 +247,17 @@ class Plugins(PluginWorld):
         shape = '<collision><geometry><box size="0.2 0.2 0.1"/></geometry></collision>'
         inertial = '<inertial><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>'
         with Ear("/rosout", Log) as log:
-            self.spawn("rover", f"""<robot name="r"><link name="base">{inertial}{shape}</link><link name="pad">{shape}</link>
+            self.spawn(
+                "rover",
+                f"""<robot name="r"><link name="base">{inertial}{shape}</link><link name="pad">{shape}</link>
                 <joint name="j" type="fixed"><parent link="base"/><child link="pad"/><origin xyz="0 0 -0.1"/></joint>
                 <gazebo reference="pad"><sensor name="feel" type="contact"><update_rate>50</update_rate><contact>
                 <collision>pad_collision</collision><collision>paw_collision</collision></contact>
-                {plugin("gazebo_ros_bumper", bumperTopicName="pad")}</sensor></gazebo></robot>""", 26, 0, 0.15)
+                {plugin("gazebo_ros_bumper", bumperTopicName="pad")}</sensor></gazebo></robot>""",
+                26,
+                0,
+                0.15,
+            )
             until(lambda: any("'paw_collision', which does not exist" in m.msg for m in log.messages), "line about the paw")
         self.step(0.5)
         state = self.measure("/pad", ContactsState, 0.1, 5).states[-1]
@@ -222,12 +267,31 @@ class Plugins(PluginWorld):
     # ---------------------------------------------------------------------------------------------------- holding
 
     def test_holding(self):
-        self.spawn("sucker", sdf(link("cup", mass=5, gravity=False), plugin(
-            "gazebo_ros_vacuum_gripper", bodyName="cup", topicName="grasping", robotNamespace="/sucker")), 30, 0, 1)
+        self.spawn(
+            "sucker",
+            sdf(
+                link("cup", mass=5, gravity=False),
+                plugin("gazebo_ros_vacuum_gripper", bodyName="cup", topicName="grasping", robotNamespace="/sucker"),
+            ),
+            30,
+            0,
+            1,
+        )
         self.spawn("sucked", sdf(link("l", mass=0.1, inertia=0.001)), 30, 0, 0.98)
-        self.spawn("hanging", sdf(link("l", mass=20), plugin("gazebo_ros_harness", robotNamespace="/hanging").replace(
-            "</plugin>", f"""{joint('rope', 'prismatic', 'world', 'l', lower=-0.3, upper=1)}
-            <winch><joint>rope</joint></winch><detach>rope</detach></plugin>""")), 32, 0, 2)
+        self.spawn(
+            "hanging",
+            sdf(
+                link("l", mass=20),
+                plugin("gazebo_ros_harness", robotNamespace="/hanging").replace(
+                    "</plugin>",
+                    f"""{joint("rope", "prismatic", "world", "l", lower=-0.3, upper=1)}
+            <winch><joint>rope</joint></winch><detach>rope</detach></plugin>""",
+                ),
+            ),
+            32,
+            0,
+            2,
+        )
         for name, x in (("one", 34.0), ("two", 34.5)):
             self.spawn(name, sdf(link("l", gravity=name == "two", mass=10 if name == "one" else 0.1)), x, 0, 1)
         on, off = (rospy.ServiceProxy("/sucker/" + name, Empty) for name in ("on", "off"))
@@ -255,20 +319,33 @@ class Plugins(PluginWorld):
 
     def test_grasp_fix(self):
         """Two fingers close on a box too slippery to be held by friction; the hand rises with it, opens, and it falls."""
-        fingers = "".join(link(name, (0, y, 0.1), mass=0.2, shape=box(0.04, 0.02, 0.1), mu=0.01)
-                          + joint(name, "prismatic", "palm", name, (0, -math.copysign(1, y), 0), 0, 0.08)
-                          for name, y in (("left", 0.1), ("right", -0.1)))
-        fix = plugin("gazebo_grasp_fix", forces_angle_tolerance=100, update_rate=20, grip_count_threshold=3, max_grip_count=8,
-                     release_tolerance=0.005, arm=elements(arm_name="hand", palm_link="palm", gripper_link="left")
-                     + "").replace("</arm>", "<gripper_link>right</gripper_link></arm>")
+        fingers = "".join(
+            link(name, (0, y, 0.1), mass=0.2, shape=box(0.04, 0.02, 0.1), mu=0.01)
+            + joint(name, "prismatic", "palm", name, (0, -math.copysign(1, y), 0), 0, 0.08)
+            for name, y in (("left", 0.1), ("right", -0.1))
+        )
+        fix = plugin(
+            "gazebo_grasp_fix",
+            forces_angle_tolerance=100,
+            update_rate=20,
+            grip_count_threshold=3,
+            max_grip_count=8,
+            release_tolerance=0.005,
+            arm=elements(arm_name="hand", palm_link="palm", gripper_link="left") + "",
+        ).replace("</arm>", "<gripper_link>right</gripper_link></arm>")
         trajectory = plugin("gazebo_ros_joint_trajectory", topicName="hand_motion")
-        self.spawn("hand", sdf(link("palm", (0, 0, 0.25)), joint("lift", "prismatic", "world", "palm", lower=0, upper=1),
-                               fingers, fix, trajectory), 40, 0)
+        self.spawn(
+            "hand",
+            sdf(link("palm", (0, 0, 0.25)), joint("lift", "prismatic", "world", "palm", lower=0, upper=1), fingers, fix, trajectory),
+            40,
+            0,
+        )
         self.spawn("slippery", sdf(link("l", mass=0.3, inertia=0.0002, shape=box(0.04, 0.06, 0.12), mu=0.01)), 40, 0, 0.06)
         motor = rospy.ServiceProxy("/gazebo/set_joint_properties", SetJointProperties)
 
         def drive(name, speed, force):
             self.assertTrue(motor(f"hand::{name}", ODEJointProperties(vel=[speed], fmax=[force])).success)
+
         drive("lift", 0.0, 200.0)
         for name in ("left", "right"):
             drive(name, 0.2, 10.0)
@@ -297,11 +374,21 @@ class Plugins(PluginWorld):
 
     def test_unknown_and_unseen_ones(self):
         ear = Ear("/rosout", Log)
-        self.spawn("odd", sdf(link("l"), plugin("gazebo_ros_projector"), plugin("gazebo_ros_power_monitor"), plugin(
-            "gazebo_ros_p3d", bodyName="nothing", topicName="t")), 120, 0)
+        self.spawn(
+            "odd",
+            sdf(
+                link("l"),
+                plugin("gazebo_ros_projector"),
+                plugin("gazebo_ros_power_monitor"),
+                plugin("gazebo_ros_p3d", bodyName="nothing", topicName="t"),
+            ),
+            120,
+            0,
+        )
 
         def said(text):
             return [log for log in ear.messages if text in log.msg]
+
         until(lambda: said("<bodyName> names the link 'nothing'"), "error about a wrong link")
         self.assertEqual([log.level for log in said("power_monitor")], [Log.WARN])
         self.assertEqual([log.level for log in said("projector of model")], [Log.INFO])

@@ -2,6 +2,7 @@
 """Lasers and range sensors in a room, and before people, against geometry. Time passes only through the step service.
 
 With ~after_reset all of it is tested on plugins that have run for a while and were then reset with the simulation."""
+
 import math
 
 import numpy as np
@@ -32,8 +33,11 @@ def to_wall(angles):
 class Rays(PluginWorld):
     def scanner(self, library, message_type, **sensor):
         """The last message of one scanner in the room."""
-        rays = {key: sensor.pop(key) for key in ("samples", "low", "high", "near", "far", "noise", "resolution", "vertical", "kind")
-                if key in sensor}
+        rays = {
+            key: sensor.pop(key)
+            for key in ("samples", "low", "high", "near", "far", "noise", "resolution", "vertical", "kind")
+            if key in sensor
+        }
         tags = {"topicName": "scan", "frameName": "scanner", **sensor}
         self.spawn("scanner", sdf(link("l", extra=ray("rays", plugin(library, **tags), **rays)), static=True), *LASER)
         self.addCleanup(self._delete_model, "scanner")
@@ -54,8 +58,7 @@ class Rays(PluginWorld):
 
     def test_gpu_laser(self):
         scan = self.scanner("gazebo_ros_gpu_laser", LaserScan, kind="gpu_ray", samples=90)
-        np.testing.assert_allclose(np.minimum(scan.ranges, 3.2), np.minimum(to_wall(np.linspace(-math.pi, 3.12413936, 90)), 3.2),
-                                   atol=1e-4)
+        np.testing.assert_allclose(np.minimum(scan.ranges, 3.2), np.minimum(to_wall(np.linspace(-math.pi, 3.12413936, 90)), 3.2), atol=1e-4)
 
     def test_a_person_walks_by_and_both_kinds_of_laser_see_it(self):
         def look(kind):
@@ -144,13 +147,26 @@ class Rays(PluginWorld):
     def test_rays_too_close_and_too_far(self):
         """REP 117: -inf nearer than the near limit, +inf farther than the far limit; the robot's own housing is neither."""
         near, far, face = 0.2, 2.0, 0.15  # m: limits, and where a thick wall begins, ahead
-        housing = ('<collision name="housing"><geometry><cylinder><radius>0.1</radius><length>0.2</length></cylinder></geometry>'
-                   '</collision>')
-        self.spawn("wall", sdf(link("l", extra='<collision name="c"><geometry><box><size>1 6 1</size></box></geometry></collision>'),
-                               static=True), 20 + face + 0.5, 0, 1)
+        housing = '<collision name="housing"><geometry><cylinder><radius>0.1</radius><length>0.2</length></cylinder></geometry></collision>'
+        self.spawn(
+            "wall",
+            sdf(link("l", extra='<collision name="c"><geometry><box><size>1 6 1</size></box></geometry></collision>'), static=True),
+            20 + face + 0.5,
+            0,
+            1,
+        )
         for topic, noise in (("close", 0.0), ("close_noisy", 0.02)):
-            scanner = ray(topic, plugin("gazebo_ros_laser", topicName=topic, frameName="s"), samples=181, low=-1.5, high=1.5,
-                          near=near, far=far, noise=noise, at="0 0 0 0 0 0")
+            scanner = ray(
+                topic,
+                plugin("gazebo_ros_laser", topicName=topic, frameName="s"),
+                samples=181,
+                low=-1.5,
+                high=1.5,
+                near=near,
+                far=far,
+                noise=noise,
+                at="0 0 0 0 0 0",
+            )
             self.spawn(topic, sdf(link("l", extra=housing + scanner), static=True), 20, 0, 1)
             angles = np.linspace(-1.5, 1.5, 181)
             distance = face / np.cos(angles)

@@ -1,4 +1,5 @@
 """The plugin of cameras, on a sensor that sees through a wide-angle lens."""
+
 import xml.etree.ElementTree as ET
 from types import SimpleNamespace
 
@@ -12,8 +13,13 @@ CAMERA = """<camera name="eye"><horizontal_fov>{fov}</horizontal_fov><image><wid
 
 
 def made(kind, fov):
-    sensor = SimpleNamespace(name="eye", scoped_name="m::l::eye", link=SimpleNamespace(scoped_name="m::l"), model=SimpleNamespace(name="m"),
-                             description=SimpleNamespace(type=kind, pose=Pose()))
+    sensor = SimpleNamespace(
+        name="eye",
+        scoped_name="m::l::eye",
+        link=SimpleNamespace(scoped_name="m::l"),
+        model=SimpleNamespace(name="m"),
+        description=SimpleNamespace(type=kind, pose=Pose()),
+    )
     return camera_of(sensor, SimpleNamespace(get=lambda name, default: default), ET.fromstring(CAMERA.format(fov=fov)))
 
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The worlds of range_world.launch and elevator_world.launch, with their plugins."""
+
 import unittest
 
 import rospy
@@ -34,6 +35,7 @@ class Worlds(unittest.TestCase):
 
         def height():
             return link("elevator::cabin", "").link_state.pose.position.z
+
         step(0.1)
         self.assertAlmostEqual(height(), 0.0, places=4)
         mouth = Mouth("/elevator/elevator", String)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Plugins in C++ that read cameras: what they see, when, and that nothing is drawn for nobody."""
+
 import importlib.util
 import math
 import os
@@ -85,8 +86,12 @@ class CamerasTest(HearingCase):
         got = self.frames(self.spawned(), 100, 2)
         for frame in got:
             self.assertEqual(frame[WIDTH:HASH], (320, 240, 3))
-            for place, wanted in ((LEFT, 159.5 - F * 0.5 / 2.5), (RIGHT, 159.5 + F * 0.5 / 2.5), (TOP, 119.5 - F * 0.5 / 2.5),
-                                  (BOTTOM, 119.5 + F * 0.5 / 2.5)):
+            for place, wanted in (
+                (LEFT, 159.5 - F * 0.5 / 2.5),
+                (RIGHT, 159.5 + F * 0.5 / 2.5),
+                (TOP, 119.5 - F * 0.5 / 2.5),
+                (BOTTOM, 119.5 + F * 0.5 / 2.5),
+            ):
                 self.assertAlmostEqual(frame[place], wanted, delta=1.0)
             self.assertAlmostEqual(frame[RED], (2 * F * 0.5 / 2.5) ** 2, delta=300)
             self.assertEqual(frame[SAME], 1)
@@ -165,6 +170,7 @@ class CamerasTest(HearingCase):
 
     def test_a_picture_is_saved(self):
         import cv2
+
         self.frames(self.spawned(), 50, 1)
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "deep", "picture.png")

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Plugins in C++ whose faults nothing can mend: one line names the plugin before the process ends, or the world goes on."""
+
 import importlib.util
 import os
 import signal

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Plugins in C++, as their authors build them, on models and on the world."""
+
 import importlib.util
 import os
 import sys
@@ -40,10 +41,12 @@ CRATE = """<sdf version="1.6"><model name="crate"><pose>1 0 0.5 0 0 0</pose><lin
 class CompiledTest(Case):
     def setUp(self):
         self.told, self.log, self.seen = [], [], []
-        self.subscribers = [rospy.Subscriber("/keeper/told", String, lambda m: self.told.append(m.data)),
-                            rospy.Subscriber("/rosout", Log, lambda m: self.log.append(m.msg)),
-                            rospy.Subscriber("/arm/seen", PointStamped, self.seen.append),
-                            rospy.Subscriber("/box/seen", PointStamped, self.seen.append)]
+        self.subscribers = [
+            rospy.Subscriber("/keeper/told", String, lambda m: self.told.append(m.data)),
+            rospy.Subscriber("/rosout", Log, lambda m: self.log.append(m.msg)),
+            rospy.Subscriber("/arm/seen", PointStamped, self.seen.append),
+            rospy.Subscriber("/box/seen", PointStamped, self.seen.append),
+        ]
         self.orders = rospy.Publisher("/keeper/orders", String, queue_size=10)
         self.wait(lambda: heard(self.subscribers[:2]) and self.orders.get_num_connections())
         self.sim.empty("reset_simulation")
@@ -58,6 +61,7 @@ class CompiledTest(Case):
         def one_more():
             self.sim.step(1)
             return condition()
+
         self.wait(one_more)
 
     def spawn_arm(self, library="worker", more=""):
@@ -81,7 +85,7 @@ class CompiledTest(Case):
         effort.unregister()
 
     def test_a_joint_put_in_place_in_every_step_keeps_what_is_beyond_it_falling(self):
-        bolt = URDF[URDF.index('<joint name="bolt"'):URDF.index('<joint name="elbow"')]
+        bolt = URDF[URDF.index('<joint name="bolt"') : URDF.index('<joint name="elbow"')]
         free = URDF.replace('<link name="world"/>', "").replace(bolt, "")
         self.done(self.sim.spawn("arm", free.format(library="worker", more="<effort>0.25</effort><hold>true</hold>"), kind="urdf"))
         self.sim.step(200)
@@ -230,9 +234,11 @@ class CompiledTest(Case):
     def test_a_plugin_of_a_visual_is_left_out(self):
         """Its package builds, so that the others of it are there."""
         library = "libgazebo_ros_test_drawer.so"
-        model = (f"<sdf version='1.6'><model name='arm'><link name='l'><visual name='v'><geometry><sphere><radius>1</radius></sphere>"
-                 f"</geometry><plugin name='draws' filename='{library}'/></visual></link>"
-                 f"<plugin name='astray' filename='{library}'/></model></sdf>")
+        model = (
+            f"<sdf version='1.6'><model name='arm'><link name='l'><visual name='v'><geometry><sphere><radius>1</radius></sphere>"
+            f"</geometry><plugin name='draws' filename='{library}'/></visual></link>"
+            f"<plugin name='astray' filename='{library}'/></model></sdf>"
+        )
         self.done(self.sim.spawn("arm", model))
         self.logged(library, "plugins of a visual have no effect")
         self.logged("plugin astray", "is a visual plugin: there is nothing here that it could draw on")
@@ -244,8 +250,11 @@ class CompiledTest(Case):
         self.sim.delete("arm")
         self.spawn_arm(library="twin_other")
         self.logged("twin other loaded")
-        for place, words in (("Load", ("its Load() threw told to fail",)), ("Init", ("its Init() threw something that is no",)),
-                             ("time", ("libgazebo_ros_test_twin_one.so", "has not come back from its Load() for 5 s"))):
+        for place, words in (
+            ("Load", ("its Load() threw told to fail",)),
+            ("Init", ("its Init() threw something that is no",)),
+            ("time", ("libgazebo_ros_test_twin_one.so", "has not come back from its Load() for 5 s")),
+        ):
             self.sim.delete("arm")
             self.spawn_arm(library="twin_one", more=f"<fail_in>{place}</fail_in>")
             self.logged("plugin worker", "of model arm", *words)

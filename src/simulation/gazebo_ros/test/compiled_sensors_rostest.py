@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Plugins of sensors in C++: what Gazebo's own classes tell them."""
+
 import importlib.util
 import math
 import os
@@ -88,11 +89,21 @@ class SensorsTest(HearingCase):
 
     def test_contact_of_a_large_model_with_a_small_one(self):
         """The sensor's own collision need not be the first."""
-        self.done(self.sim.spawn("pebble", """<sdf version="1.6"><model name="any"><pose>0 0 1.1 0 0 0</pose><link name="l"><inertial>
+        self.done(
+            self.sim.spawn(
+                "pebble",
+                """<sdf version="1.6"><model name="any"><pose>0 0 1.1 0 0 0</pose><link name="l"><inertial>
             <mass>3</mass></inertial><collision name="c"><geometry><box><size>0.2 0.2 0.2</size></box></geometry></collision></link></model>
-            </sdf>"""))
-        got = self.values("/feel/contact", SENSOR.format(type="contact", rate=100, block="<contact><collision>top</collision></contact>"
-                                                         ), 50, 6, model=TABLE)
+            </sdf>""",
+            )
+        )
+        got = self.values(
+            "/feel/contact",
+            SENSOR.format(type="contact", rate=100, block="<contact><collision>top</collision></contact>"),
+            50,
+            6,
+            model=TABLE,
+        )
         _, points, own, force, other = got[-1]
         self.assertGreaterEqual(points, 3)
         self.assertEqual(own, 0.0)
@@ -125,8 +136,10 @@ class SensorsTest(HearingCase):
     def logical_camera(self, yaw):
         """What it tells of a wall, 3.5 m from the origin."""
         self.done(self.sim.spawn("wall", WALL))
-        block = ("<logical_camera><near>0.6</near><far>5</far><horizontal_fov>1</horizontal_fov><aspect_ratio>1.3</aspect_ratio>"
-                 "</logical_camera>")
+        block = (
+            "<logical_camera><near>0.6</near><far>5</far><horizontal_fov>1</horizontal_fov><aspect_ratio>1.3</aspect_ratio>"
+            "</logical_camera>"
+        )
         return self.feel("logical_camera", block=block, yaw=yaw)
 
     def test_logical_camera(self):

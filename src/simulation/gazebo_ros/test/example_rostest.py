@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The example of the documentation, a plugin in C++ beside its twin in Python: built as a user would, they move alike."""
+
 import importlib.util
 import os
 import subprocess
@@ -25,8 +26,7 @@ class ExampleTest(Case):
 
     def test_twins_move_alike(self):
         with tempfile.TemporaryDirectory() as folder:
-            for command in (["cmake", "-S", EXAMPLE, "-B", folder, f"-DCATKIN_DEVEL_PREFIX={folder}/devel"],
-                            ["cmake", "--build", folder]):
+            for command in (["cmake", "-S", EXAMPLE, "-B", folder, f"-DCATKIN_DEVEL_PREFIX={folder}/devel"], ["cmake", "--build", folder]):
                 done = subprocess.run(command, capture_output=True, text=True)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             for model in ET.parse(os.path.join(EXAMPLE, "worlds", "twins.world")).iter("model"):

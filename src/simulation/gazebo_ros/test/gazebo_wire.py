@@ -1,4 +1,5 @@
 """The bytes of Gazebo's transport, written and read by hand: who else speaks it must understand them."""
+
 import socket
 
 
@@ -19,6 +20,7 @@ def field(number, value):
 
 def fields(data):
     """{number: [values]} of a message without fixed-size fields."""
+
     def number(at):
         value = shift = 0
         while True:
@@ -26,12 +28,13 @@ def fields(data):
             at, shift = at + 1, shift + 7
             if data[at - 1] < 128:
                 return value, at
+
     found, at = {}, 0
     while at < len(data):
         tag, at = number(at)
         value, at = number(at)
         if tag & 7 == 2:
-            value, at = data[at:at + value], at + value
+            value, at = data[at : at + value], at + value
         found.setdefault(tag >> 3, []).append(value)
     return found
 

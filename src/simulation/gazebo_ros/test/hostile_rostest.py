@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A server among unfriendly neighbours: limits of the system, other locales, many clients, stopped for a while."""
+
 import os
 import signal
 import threading
@@ -10,7 +11,6 @@ import rosgraph
 import rospy
 import rostest
 from gazebo_msgs.srv import GetWorldProperties
-
 from processes import BENCH, Server
 from simulator import box, pose
 
@@ -92,6 +92,7 @@ class Clients(unittest.TestCase):
             call = rospy.ServiceProxy("/busy/gazebo/get_world_properties", GetWorldProperties, persistent=True)
             answers.extend(call().success for _ in range(20))
             call.close()
+
         threads = [threading.Thread(target=ask) for _ in range(50)]
         for thread in threads:
             thread.start()
@@ -118,6 +119,7 @@ class Clients(unittest.TestCase):
                 self.assertTrue(self.sim.delete("guest").success)
             status = dict(line.split(":", 1) for line in (place / "status").read_text().splitlines())
             return int(status["Threads"]), len(list((place / "fd").iterdir())), int(status["VmRSS"].split()[0])
+
         threads, files, memory = round_trips(60)
         after = round_trips(200)
         self.assertLessEqual(after[0], threads)

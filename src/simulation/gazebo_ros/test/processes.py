@@ -1,11 +1,11 @@
 """Whole server processes for the rostests."""
+
 import os
 import signal
 import subprocess
 import xmlrpc.client
 
 import rosgraph
-
 from simulator import Simulator
 
 BENCH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "worlds", "bench.world")
@@ -25,8 +25,9 @@ class Server:
         command = ["rosrun", "gazebo_ros", "gzserver", *arguments, f"__ns:=/{name}"]
         if limits:
             command = ["bash", "-c", f'ulimit {limits}; exec "$0" "$@"', *command]
-        self.process = subprocess.Popen(command, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                        start_new_session=True, env=self.environment)
+        self.process = subprocess.Popen(
+            command, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True, env=self.environment
+        )
 
     def __enter__(self):
         return self

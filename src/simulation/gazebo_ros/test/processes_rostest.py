@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Whole server processes: same bits in two runs, options, signals, several servers at once."""
+
 import io
 import math
 import os
@@ -20,9 +21,8 @@ from gazebo_msgs import srv
 from gazebo_ros.srv import DescribeWorld, TakePicture
 from ode_sim.description.exchange import loads
 from ode_sim.viewer.simulation import WorldRecord
-from rosgraph_msgs.msg import Clock
-
 from processes import BENCH, Server
+from rosgraph_msgs.msg import Clock
 from simulator import Simulator, box, pose, urdf
 
 PHYSICS = """{time_step: 0.001, max_update_rate: 1000.0, gravity: {z: -1.5}, ode_config: {sor_pgs_iters: 50, sor_pgs_w: 1.3,
@@ -37,6 +37,7 @@ def bits(message):
 
 def history(sim):
     """A pile of boxes falls over, an arm is driven, models come and go; every state on the way, as bytes."""
+
     def good(response):
         assert response.success, response.status_message
 
@@ -136,6 +137,7 @@ class Options(test_support.TestCase):
 
             def steps():
                 return {b - a for a, b in zip(times[1:], times[2:])}
+
             while len(times) < 12 or 10_000_000 not in steps():  # some may be missed
                 self.assertIsNone(server.process.poll())
                 rospy.rostime.wallsleep(0.01)
@@ -158,8 +160,9 @@ def master_place(case):
 
 def start_master(case, uri):
     """The process of a master that answers."""
-    process = subprocess.Popen(["rosmaster", "--core", "-p", uri.rpartition(":")[2]], stdout=subprocess.DEVNULL,
-                               env={**os.environ, "ROS_MASTER_URI": uri})
+    process = subprocess.Popen(
+        ["rosmaster", "--core", "-p", uri.rpartition(":")[2]], stdout=subprocess.DEVNULL, env={**os.environ, "ROS_MASTER_URI": uri}
+    )
     case.addCleanup(lambda: (process.kill(), process.wait()))
     while not rosgraph.is_master_online(uri):
         case.assertIsNone(process.poll())
@@ -172,6 +175,7 @@ class Masters(test_support.TestCase):
         uri = master_place(self)
         start_master(self, uri)
         with Server("", "-u", BENCH) as near, Server("", "-u", BENCH, master=uri) as far:
+
             def gz(*command):
                 return subprocess.run(["gz", *command], env=far.environment, text=True, capture_output=True, timeout=60)
 
@@ -197,11 +201,11 @@ class Masters(test_support.TestCase):
         process = start_master(self, uri)
         master = xmlrpc.client.ServerProxy(uri)
         with Server("", "-u", BENCH, master=uri) as server:
+
             def known():
                 """Topics, services and parameters of the node."""
                 state = master.getSystemState("/t")[2]
-                return [sorted(name for name, nodes in kind if "/gazebo" in nodes) for kind in state] + [
-                    master.getParam("/t", "/")[2]]
+                return [sorted(name for name, nodes in kind if "/gazebo" in nodes) for kind in state] + [master.getParam("/t", "/")[2]]
 
             def wait_until(condition):
                 while not condition():
@@ -257,8 +261,7 @@ class Ends(test_support.TestCase):
                 code, text = server.end(number)
                 self.assertEqual(code, 0, text)
                 self.assertNotIn("Traceback", text)
-                self.assertNotIn("/ends/gazebo", [node for _, nodes in rosgraph.Master("/t").getSystemState()[0]
-                                                  for node in nodes])
+                self.assertNotIn("/ends/gazebo", [node for _, nodes in rosgraph.Master("/t").getSystemState()[0] for node in nodes])
 
     def test_a_killed_server_can_be_started_again_under_its_name(self):
         with Server("again", BENCH) as server:
@@ -276,8 +279,14 @@ class Alone(test_support.TestCase):
         with socket.socket() as probe:
             probe.bind(("localhost", 0))
             uri = f"http://localhost:{probe.getsockname()[1]}"
-        process = subprocess.Popen(["gazebo", "--lockstep"], env={**os.environ, "ROS_MASTER_URI": uri}, text=True,
-                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
+        process = subprocess.Popen(
+            ["gazebo", "--lockstep"],
+            env={**os.environ, "ROS_MASTER_URI": uri},
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+        )
         try:
             said = ""
             for line in process.stdout:

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The services of the node gazebo: what they do, and what they say when they cannot. The world bench.world is paused;
 time passes only through the step service, so that every figure is exact."""
+
 import math
 import subprocess
 import tempfile
@@ -11,13 +12,12 @@ import rospy
 import rostest
 from gazebo_msgs import srv
 from gazebo_msgs.msg import LinkState, ModelState
-from geometry_msgs.msg import Pose, Vector3
-from rosgraph_msgs.msg import Clock
-from std_msgs.msg import Bool, ColorRGBA
-
 from gazebo_ros.msg import WorldContacts, WorldView
 from gazebo_ros.srv import TakePicture
+from geometry_msgs.msg import Pose, Vector3
+from rosgraph_msgs.msg import Clock
 from simulator import Case, box, pose, twist, urdf, xyz
+from std_msgs.msg import Bool, ColorRGBA
 
 NAN = float("nan")
 
@@ -65,6 +65,7 @@ class Stepping(Case):
 
         def steps():
             return [b - a for a, b in zip(times[1:], times[2:])]  # the first message is the latched one
+
         # a message per step, of which a slow reader may miss some
         self.wait(lambda: len(times) >= 50 and 1_000_000 in steps())
         clock.unregister()
@@ -251,12 +252,18 @@ class Joints(Case):
         """0.1 N m on 1 kg, J = 0.01, at 100 rad/m, left-handed: (J + m/p^2) a = tau."""
         link = "<link name='nut'><inertial><mass>1</mass><inertia><ixx>.01</ixx><iyy>.01</iyy><izz>.01</izz></inertia></inertial></link>"
         thread = "<thread_pitch>100</thread_pitch><axis><xyz>0 0 1</xyz></axis>"
-        self.done(self.sim.spawn("press", f"<sdf version='1.6'><model name='press'>{link}<joint name='thread' type='screw'><parent>world"
-                                 f"</parent><child>nut</child>{thread}</joint></model></sdf>", pose(5, 0, 2)))
+        self.done(
+            self.sim.spawn(
+                "press",
+                f"<sdf version='1.6'><model name='press'>{link}<joint name='thread' type='screw'><parent>world"
+                f"</parent><child>nut</child>{thread}</joint></model></sdf>",
+                pose(5, 0, 2),
+            )
+        )
         self.addCleanup(self.sim.delete, "press")
         self.done(self.sim.drive("thread", 0.1, 0.2))
         self.sim.step(200)
-        rate = 0.1 / (0.01 + 1.0 / 100.0 ** 2) * 0.2
+        rate = 0.1 / (0.01 + 1.0 / 100.0**2) * 0.2
         thread = self.done(self.sim.joint("press::thread"))
         self.assertEqual((len(thread.position), len(thread.rate)), (1, 1))
         self.assertAlmostEqual(thread.rate[0], rate, delta=1e-3 * rate)
@@ -369,8 +376,14 @@ class Lights(Case):
         get = self.sim.proxy("get_light_properties", srv.GetLightProperties)
         change = self.sim.proxy("set_light_properties", srv.SetLightProperties)
         delete = self.sim.proxy("delete_light", srv.DeleteLight)
-        self.done(self.sim.spawn("torch", """<sdf version="1.6"><light name="x" type="spot">
-            <diffuse>0.5 0.25 0.125 1</diffuse></light></sdf>""", pose(1, 2, 3)))
+        self.done(
+            self.sim.spawn(
+                "torch",
+                """<sdf version="1.6"><light name="x" type="spot">
+            <diffuse>0.5 0.25 0.125 1</diffuse></light></sdf>""",
+                pose(1, 2, 3),
+            )
+        )
         torch = self.done(get("torch"))
         self.assertEqual((torch.diffuse.r, torch.diffuse.g, torch.diffuse.b), (0.5, 0.25, 0.125))
         self.refused(self.sim.spawn("torch", "<sdf version='1.6'><light name='x'/></sdf>"), "already exists")
@@ -381,8 +394,14 @@ class Lights(Case):
         self.done(delete("torch"))
         self.refused(get("torch"), "torch", "lamp")
         self.refused(delete("torch"), "torch")
-        self.done(self.sim.spawn("car", """<sdf version="1.6"><model name="any"><static>1</static><link name="l">
-            <light name="beam" type="spot"><pose>1 0 0 0 0 0</pose></light></link></model></sdf>""", pose(7, 0, 1)))
+        self.done(
+            self.sim.spawn(
+                "car",
+                """<sdf version="1.6"><model name="any"><static>1</static><link name="l">
+            <light name="beam" type="spot"><pose>1 0 0 0 0 0</pose></light></link></model></sdf>""",
+                pose(7, 0, 1),
+            )
+        )
         self.done(change("car::l::beam", True, red, ColorRGBA(), 0.5, 0.25, 0.125, down, pose(8, 0, 1)))
         self.assertEqual((get("beam").diffuse.g, get("beam").attenuation_constant), (0, 0.5))
         self.done(delete("beam"))
@@ -393,8 +412,7 @@ class Lights(Case):
 
 class Physics(Case):
     def test_properties_act_at_once(self):
-        self.done(self.sim.set_physics(time_step=0.002, rate=500.0, gravity=(0, 0, -1.0), sor_pgs_iters=33,
-                                       max_contacts=11))
+        self.done(self.sim.set_physics(time_step=0.002, rate=500.0, gravity=(0, 0, -1.0), sor_pgs_iters=33, max_contacts=11))
         physics = self.done(self.sim.physics())
         self.assertEqual((physics.time_step, physics.max_update_rate, physics.gravity.z), (0.002, 500.0, -1.0))
         self.assertEqual((physics.ode_config.sor_pgs_iters, physics.ode_config.max_contacts), (33, 11))
@@ -407,8 +425,7 @@ class Physics(Case):
         wrong += [("max_update_rate", rate) for rate in (-1.0, NAN, 1e-300, 1e300)]
         wrong += [("sor_pgs_iters", 0), ("max_contacts", 0), ("max_contacts", 2**32 - 1), ("sor_pgs_w", 1e300)]
         for name, value in wrong:
-            asked = {"time_step": 0.002, "gravity": (1.0, 2.0, 3.0), "cfm": 0.5,
-                     "rate" if name == "max_update_rate" else name: value}
+            asked = {"time_step": 0.002, "gravity": (1.0, 2.0, 3.0), "cfm": 0.5, "rate" if name == "max_update_rate" else name: value}
             self.refused(self.sim.set_physics(**asked), "SetPhysicsProperties: ", name, f"{value:g}")
         self.refused(self.sim.set_physics(gravity=(0, NAN, 0), time_step=0.002), "nan")
         self.assertEqual(self.sim.physics(), before)
@@ -424,6 +441,7 @@ class Physics(Case):
 
     def test_dynamic_reconfigure(self):
         from dynamic_reconfigure.client import Client
+
         client = Client("/gazebo", timeout=60)
         names = {parameter["name"] for parameter in client.get_parameter_descriptions(60)}
         self.assertLessEqual({"time_step", "max_update_rate", "gravity_z", "sor_pgs_iters", "max_contacts"}, names)
@@ -435,6 +453,7 @@ class Physics(Case):
 
     def test_dynamic_reconfigure_shows_and_starts_from_what_is(self):
         from dynamic_reconfigure.client import Client
+
         client = Client("/gazebo", timeout=60)
         self.done(self.sim.set_physics(time_step=0.002, rate=5000.0, gravity=(0.0, 0.0, -3.7)))
         self.wait(lambda: client.get_configuration(60)["max_update_rate"] == 5000.0)  # beyond what a client may ask for

@@ -1,17 +1,17 @@
 """What the rostests share: service calls in one line, and the simulator under the namespace of the test."""
+
 import functools
 
 import rospy
 import test_support
 from gazebo_msgs import srv
 from gazebo_msgs.msg import LinkState, ModelState, ODEJointProperties, ODEPhysics
+from gazebo_ros.srv import StepWorld
 from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3, Wrench
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import Bool
 from std_srvs.srv import Empty
 from test_support.hearing import heard
-
-from gazebo_ros.srv import StepWorld
 
 BOX = """<sdf version="1.6"><model name="any"><link name="link">
 <inertial><mass>{mass}</mass></inertial>
@@ -94,12 +94,11 @@ class Simulator:
 
     def push(self, link, force, duration, torque=(0.0, 0.0, 0.0), point=(0.0, 0.0, 0.0), frame="", start=0.0):
         return self.proxy("apply_body_wrench", srv.ApplyBodyWrench)(
-            link, frame, Point(*point), Wrench(Vector3(*force), Vector3(*torque)), rospy.Time(start),
-            rospy.Duration(duration))
+            link, frame, Point(*point), Wrench(Vector3(*force), Vector3(*torque)), rospy.Time(start), rospy.Duration(duration)
+        )
 
     def drive(self, joint, effort, duration, start=0.0):
-        return self.proxy("apply_joint_effort", srv.ApplyJointEffort)(joint, effort, rospy.Time(start),
-                                                                      rospy.Duration(duration))
+        return self.proxy("apply_joint_effort", srv.ApplyJointEffort)(joint, effort, rospy.Time(start), rospy.Duration(duration))
 
     def spawn(self, name, text, where=pose(), frame="", namespace="", kind="sdf"):
         return self.proxy(f"spawn_{kind}_model", srv.SpawnModel)(name, text, namespace, where, frame)
@@ -114,7 +113,8 @@ class Simulator:
         config = self.physics().ode_config
         values = {name: getattr(config, name) for name in ODEPhysics.__slots__}
         return self.proxy("set_physics_properties", srv.SetPhysicsProperties)(
-            time_step, rate, Vector3(*gravity), ODEPhysics(**{**values, **ode}))
+            time_step, rate, Vector3(*gravity), ODEPhysics(**{**values, **ode})
+        )
 
 
 class Case(test_support.TestCase):
@@ -152,9 +152,11 @@ class Case(test_support.TestCase):
 
         rospy still asks for a topic that has gone meanwhile, and does not hear of one that comes under the same name and address then.
         """
+
         def published():
             names = {name for name, _ in rospy.get_published_topics()}
             return [subscriber for subscriber in subscribers if subscriber.resolved_name in names]
+
         self.wait(lambda: heard(published()))
         self.sim.clear()
         self.wait(lambda: not published())

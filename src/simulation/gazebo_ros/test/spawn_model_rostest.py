@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """spawn_model from the command line: options, exit codes, what it leaves in the world."""
+
 import os
 import signal
 import subprocess
@@ -9,14 +10,19 @@ import unittest
 import rosgraph
 import rospy
 import rostest
-
 from simulator import Simulator, box, pose, urdf
 
 
 def spawn(*arguments, stdin=None):
     """Run it to its end: (exit code, all it printed)."""
-    done = subprocess.run(["rosrun", "gazebo_ros", "spawn_model", *arguments], input=stdin, text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=60)
+    done = subprocess.run(
+        ["rosrun", "gazebo_ros", "spawn_model", *arguments],
+        input=stdin,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        timeout=60,
+    )
     return done.returncode, done.stdout
 
 
@@ -50,8 +56,9 @@ class SpawnModel(unittest.TestCase):
 
     def test_what_is_wrong_is_named_by_file_and_line(self):
         with tempfile.NamedTemporaryFile("w", suffix=".urdf") as file:
-            file.write("<robot name='r'>\n<link name='l'/>\n<joint name='j' type='bent'><parent link='l'/>"
-                       "<child link='l'/></joint>\n</robot>\n")
+            file.write(
+                "<robot name='r'>\n<link name='l'/>\n<joint name='j' type='bent'><parent link='l'/><child link='l'/></joint>\n</robot>\n"
+            )
             file.flush()
             code, text = spawn("-urdf", "-file", file.name, "-model", "wrong")
         self.assertEqual(code, 1, text)

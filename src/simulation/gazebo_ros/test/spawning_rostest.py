@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Spawning and deleting, and the topics of states: after services_rostest.py, in the same world."""
+
 import math
 
 import rospy
 import rostest
 import test_support
 from gazebo_msgs.msg import LinkStates, ModelStates
-
 from gazebo_ros import names
 from simulator import Case, box, pose, twist, urdf, xyz
 
@@ -65,9 +65,11 @@ class Spawning(Case):
 
     def test_a_missing_mesh_leaves_out_the_shape_only(self):
         self.done(self.sim.spawn("m", box(geometry="<mesh><uri>model://nothing/here.stl</uri></mesh>"), pose(30, 0, 3)))
-        mesh = urdf(extra="""<link name="extra"><visual><geometry><mesh filename="package://no_such_package/x.dae"/>
+        mesh = urdf(
+            extra="""<link name="extra"><visual><geometry><mesh filename="package://no_such_package/x.dae"/>
             </geometry></visual></link>
-            <joint name="f" type="fixed"><parent link="tip"/><child link="extra"/></joint>""")
+            <joint name="f" type="fixed"><parent link="tip"/><child link="extra"/></joint>"""
+        )
         self.done(self.sim.spawn("n", mesh, pose(30, 5, 3), kind="urdf"))
         self.sim.step(10)
 
@@ -95,8 +97,7 @@ class Names(test_support.TestCase):
         self.assertEqual(names.tf_prefix("/"), "")
         self.assertEqual(names.tf_prefix("/robot/eye"), "")
         rospy.set_param("/robot/tf_prefix", "r1")
-        self.assertEqual([names.tf_prefix(where) for where in ("/robot/eye", "/robot", "robot", "/", "/other")],
-                         ["r1", "r1", "r1", "", ""])
+        self.assertEqual([names.tf_prefix(where) for where in ("/robot/eye", "/robot", "robot", "/", "/other")], ["r1", "r1", "r1", "", ""])
         rospy.set_param("/tf_prefix", "all")
         self.assertEqual([names.tf_prefix(where) for where in ("/robot", "/", "/other")], ["r1", "all", "all"])
         rospy.delete_param("/tf_prefix")
@@ -107,8 +108,10 @@ class States(Case):
     def test_topics_agree_with_the_services(self):
         self.sim.set_model("crate", pose(5, 1, 3), twist((0.5, 0, 0), (0, 0, 0.25)))
         messages = {}
-        topics = [rospy.Subscriber("/gazebo/model_states", ModelStates, lambda m: messages.update(models=m)),
-                  rospy.Subscriber("/gazebo/link_states", LinkStates, lambda m: messages.update(links=m))]
+        topics = [
+            rospy.Subscriber("/gazebo/model_states", ModelStates, lambda m: messages.update(models=m)),
+            rospy.Subscriber("/gazebo/link_states", LinkStates, lambda m: messages.update(links=m)),
+        ]
         while len(messages) < 2 and not rospy.is_shutdown():
             self.sim.step(1)
             rospy.rostime.wallsleep(0.01)
@@ -124,8 +127,14 @@ class States(Case):
         self.assertEqual(len(messages["links"].pose), 4)
 
     def test_links_of_models_in_models_are_told_too(self):
-        self.done(self.sim.spawn("outer", """<sdf version="1.6"><model name="any"><link name="own"/><include>
-            <uri>model://unit_box</uri><name>sub</name></include></model></sdf>""", pose(30, 0, 3)))
+        self.done(
+            self.sim.spawn(
+                "outer",
+                """<sdf version="1.6"><model name="any"><link name="own"/><include>
+            <uri>model://unit_box</uri><name>sub</name></include></model></sdf>""",
+                pose(30, 0, 3),
+            )
+        )
         names = []
         topic = rospy.Subscriber("/gazebo/link_states", LinkStates, lambda m: names.append(m.name[-2:]))
         while ["outer::own", "outer::sub::link"] not in names and not rospy.is_shutdown():

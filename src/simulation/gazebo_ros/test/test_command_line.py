@@ -1,5 +1,4 @@
 import pytest
-
 from gazebo_ros import command_line
 
 
@@ -26,8 +25,9 @@ def test_only_the_first_world_counts_and_plugins_may_repeat():
     assert options.world == "a.world" and options.server_plugin == ["liba.so", "libb.so"]
 
 
-@pytest.mark.parametrize("arguments, said", [
-    ("-e bullet", "bullet"), ("-e havok", "havok"), ("-r", "rosbag"), ("--warp", "--warp"), ("-p log", "log")])
+@pytest.mark.parametrize(
+    "arguments, said", [("-e bullet", "bullet"), ("-e havok", "havok"), ("-r", "rosbag"), ("--warp", "--warp"), ("-p log", "log")]
+)
 def test_what_has_no_effect_is_said_once(arguments, said):
     options = command_line.parse(arguments.split())
     lines = command_line.remarks(options)

@@ -1,4 +1,5 @@
 """What lock-step knows of the subscribers: connections with real sockets, without a ROS network."""
+
 import socket
 import threading
 import time
@@ -63,10 +64,12 @@ def connected(name="/picture", queue_size=1):
 
 def read(transport, size):
     """In a thread; done when so many bytes have come."""
+
     def run():
         left = size
         while left:
             left -= len(transport.reader.recv(1 << 20))
+
     thread = threading.Thread(target=run, daemon=True)
     thread.start()
     return thread
@@ -138,6 +141,7 @@ def test_one_that_is_slow_is_never_given_up(delivery, lines, monkeypatch):
         while left:
             left -= len(transport.reader.recv(1 << 19))
             time.sleep(0.05)
+
     thread = threading.Thread(target=sip, daemon=True)
     thread.start()
     until(lambda: (delivery.wait(0.01), not delivery.pending)[1])

@@ -1,4 +1,5 @@
 """<gui><camera> of a world."""
+
 import math
 
 import pytest

@@ -1,8 +1,8 @@
 """gz sdf: files are checked and printed without a simulator."""
-import pytest
-from ode_sim.description import load_world, read_model
 
+import pytest
 from gazebo_ros import gz
+from ode_sim.description import load_world, read_model
 
 ROBOT = """<robot name="cart">
   <link name="base"><inertial><mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
@@ -34,8 +34,9 @@ def test_a_urdf_is_printed_as_the_model_that_it_is(tmp_path, capsys):
 
 def test_a_world_is_printed_whole(tmp_path, capsys):
     path = tmp_path / "a.world"
-    path.write_text("<sdf version='1.4'><world name='w'><gravity>0 0 -1</gravity>"
-                    "<include><uri>model://ground_plane</uri></include></world></sdf>")
+    path.write_text(
+        "<sdf version='1.4'><world name='w'><gravity>0 0 -1</gravity><include><uri>model://ground_plane</uri></include></world></sdf>"
+    )
     text, _ = printed(capsys, path)
     (tmp_path / "b.world").write_text(text)
     world, problems = load_world(str(tmp_path / "b.world"))

@@ -1,7 +1,6 @@
 import os
 
 import rospkg
-
 from gazebo_ros.node import make_finder
 
 
@@ -11,7 +10,8 @@ def package(folder, name, export, depend="<exec_depend>gazebo_ros</exec_depend>"
     (path / "package.xml").write_text(
         f"<package format='2'><name>{name}</name><version>0.0.1</version><description>d</description>"
         f"<maintainer email='a@b.c'>m</maintainer><license>BSD</license>{depend}"
-        f"<export><gazebo_ros {export}/></export></package>")
+        f"<export><gazebo_ros {export}/></export></package>"
+    )
     return path
 
 
@@ -37,8 +37,17 @@ def test_uris_stay_in_the_packages_and_folders_they_name(tmp_path, monkeypatch):
     (tmp_path / "secret.txt").write_text("x")
     finder = make_finder(rospkg.RosPack(ros_paths=[str(tmp_path / "ws")]))
     assert finder.find("package://one/x/../models") == os.path.join(one, "models")
-    for uri in ("package://one/../../secret.txt", "package://../secret.txt", "package://..", "package:///secret.txt",
-                f"package://one/{tmp_path}/secret.txt", "package://one/%2e%2e/%2e%2e/secret.txt", "model://../../../secret.txt",
-                "model://cup/../../../../secret.txt", f"model://{tmp_path}/secret.txt", "file://../../secret.txt",
-                "file://models/../../../secret.txt"):
+    for uri in (
+        "package://one/../../secret.txt",
+        "package://../secret.txt",
+        "package://..",
+        "package:///secret.txt",
+        f"package://one/{tmp_path}/secret.txt",
+        "package://one/%2e%2e/%2e%2e/secret.txt",
+        "model://../../../secret.txt",
+        "model://cup/../../../../secret.txt",
+        f"model://{tmp_path}/secret.txt",
+        "file://../../secret.txt",
+        "file://models/../../../secret.txt",
+    ):
         assert finder.find(uri) is None, uri

@@ -2,7 +2,6 @@ import math
 import xml.etree.ElementTree as ET
 
 import pytest
-
 from gazebo_ros import SdfElement
 
 
@@ -11,26 +10,29 @@ def element(text):
     return SdfElement(ET.fromstring(f"<plugin name='p'>{text}</plugin>"), lines.append), lines
 
 
-@pytest.mark.parametrize("text, default, value", [
-    ("<a> 30.0 </a>", 0.0, 30.0),
-    ("<a>0.3m</a>", 0.0, 0.3),
-    ("<a>-1e-3</a>", 0.0, -1e-3),
-    ("<a>.5</a>", 0.0, 0.5),
-    ("<a>12.9</a>", 0, 12),
-    ("<a>inf</a>", 0.0, math.inf),
-    ("<a>TRUE</a>", False, True),
-    ("<a>1</a>", False, True),
-    ("<a>yes</a>", True, False),
-    ("<a>0</a>", True, False),
-    ("<a>\n /cmd_vel \n</a>", "x", "/cmd_vel"),
-    ("<a/>", "x", ""),
-    ("<a/>", 2.0, 2.0),
-    ("<a>1 2  3</a>", (0.0, 0.0, 0.0), (1.0, 2.0, 3.0)),
-    ("", 2.0, 2.0),
-    ("", None, None),
-    ("<a> b </a>", None, "b"),
-    ("<a>1</a><a>2</a>", 0, 1),
-])
+@pytest.mark.parametrize(
+    "text, default, value",
+    [
+        ("<a> 30.0 </a>", 0.0, 30.0),
+        ("<a>0.3m</a>", 0.0, 0.3),
+        ("<a>-1e-3</a>", 0.0, -1e-3),
+        ("<a>.5</a>", 0.0, 0.5),
+        ("<a>12.9</a>", 0, 12),
+        ("<a>inf</a>", 0.0, math.inf),
+        ("<a>TRUE</a>", False, True),
+        ("<a>1</a>", False, True),
+        ("<a>yes</a>", True, False),
+        ("<a>0</a>", True, False),
+        ("<a>\n /cmd_vel \n</a>", "x", "/cmd_vel"),
+        ("<a/>", "x", ""),
+        ("<a/>", 2.0, 2.0),
+        ("<a>1 2  3</a>", (0.0, 0.0, 0.0), (1.0, 2.0, 3.0)),
+        ("", 2.0, 2.0),
+        ("", None, None),
+        ("<a> b </a>", None, "b"),
+        ("<a>1</a><a>2</a>", 0, 1),
+    ],
+)
 def test_get_is_typed_by_the_default(text, default, value):
     sdf, warnings = element(text)
     got = sdf.get("a", default)
@@ -43,8 +45,9 @@ def test_a_text_that_must_not_be_empty(text, value):
     assert element(text)[0].text_or("a", "x") == value
 
 
-@pytest.mark.parametrize("text, default", [
-    ("<a>fast</a>", 2.0), ("<a>...</a>", 2.0), ("<a>x 1</a>", (1.0, 2.0)), ("<a>inf</a>", 3), ("<a>nan</a>", 3)])
+@pytest.mark.parametrize(
+    "text, default", [("<a>fast</a>", 2.0), ("<a>...</a>", 2.0), ("<a>x 1</a>", (1.0, 2.0)), ("<a>inf</a>", 3), ("<a>nan</a>", 3)]
+)
 def test_unreadable_value_gives_the_default_and_a_warning(text, default):
     sdf, warnings = element(text)
     assert sdf.get("a", default) == default

@@ -2,11 +2,11 @@ import xml.etree.ElementTree as ET
 from types import SimpleNamespace
 
 import pytest
-from node_signals.rates import LatenessKept
-from ode_sim.description.model import Pose, Sensor as Description
-
 from gazebo_ros.api import metrics
 from gazebo_ros.sensors import Sensor
+from node_signals.rates import LatenessKept
+from ode_sim.description.model import Pose
+from ode_sim.description.model import Sensor as Description
 
 STEP = 1_000_000
 
@@ -94,6 +94,7 @@ def rates(eye, deliver, steps=3000, every=211):
     def measure(s):
         deliver(s, taken[0])
         taken[0] += 1
+
     eye.connect(measure)
     for i in range(1, steps + 1):
         eye.update(i * STEP)
@@ -104,10 +105,12 @@ def rates(eye, deliver, steps=3000, every=211):
 
 def test_the_rate_of_a_camera_is_that_of_its_pictures():
     """Of 30 updates a second two in three are left out, since the machine does not draw them: 10 Hz, wherever a message cuts."""
+
     def deliver(s, number):
         if number % 3 == 0:
             s.pictured(s.measurement_ns)
             s.pictured(s.measurement_ns)  # the other eye of a pair
+
     told = rates(sensor(rate=30.0), deliver)
     assert told[0] == 0.0 and len(told) > 10
     assert told[3:] == pytest.approx([10.0] * len(told[3:]), rel=0.02)

@@ -1,4 +1,5 @@
 """The step loop with a real world and no ROS network."""
+
 import threading
 import xml.etree.ElementTree as ET
 from dataclasses import replace
@@ -6,11 +7,11 @@ from dataclasses import replace
 import ode_sim
 import pytest
 import rospy
-from ode_sim.description import ResourceFinder, load_world, read_sdf_model
-
-from gazebo_ros import ModelPlugin, PluginError, SensorPlugin, WorldPlugin, server as server_module
+from gazebo_ros import ModelPlugin, PluginError, SensorPlugin, WorldPlugin
+from gazebo_ros import server as server_module
 from gazebo_ros.plugin_host import PluginHost, library_key
 from gazebo_ros.server import Server, Stopped
+from ode_sim.description import ResourceFinder, load_world, read_sdf_model
 
 WORLD = """<sdf version="1.6"><world name="w">
 <physics type="ode"><real_time_update_rate>0</real_time_update_rate></physics>
@@ -83,11 +84,14 @@ def host(tmp_path):
     (package / "package.xml").write_text("""<package format="2"><name>my_plugins</name><version>0.0.1</version>
         <description>d</description><maintainer email="a@b.c">m</maintainer><license>BSD</license>
         <depend>gazebo_ros</depend><export><gazebo_ros plugin="${prefix}/plugins.xml"/></export></package>""")
-    names = {"recorder": "Recorder", "world": "WorldRecorder", "eye": "Eye", "wrong": "Wrong", "breaks": "Breaks",
-             "driver": "Driver"}
-    (package / "plugins.xml").write_text('<library path=".">' + "".join(
-        f'<class name="lib{name}.so" type="{__name__}.{cls}"/>' for name, cls in names.items()) + "</library>")
+    names = {"recorder": "Recorder", "world": "WorldRecorder", "eye": "Eye", "wrong": "Wrong", "breaks": "Breaks", "driver": "Driver"}
+    (package / "plugins.xml").write_text(
+        '<library path=".">'
+        + "".join(f'<class name="lib{name}.so" type="{__name__}.{cls}"/>' for name, cls in names.items())
+        + "</library>"
+    )
     import rospkg
+
     return PluginHost(rospkg.RosPack(ros_paths=[str(tmp_path)]))
 
 
@@ -125,11 +129,27 @@ def test_old_ways_to_write_a_library_name(name):
 
 
 def test_order_of_loading_and_calling(host):
-    server = make(host, "<plugin name='w' filename='libworld.so'/>", recorder("a") + recorder("b"),
-                  "<plugin name='e' filename='libeye.so'/>", iterations=1)
+    server = make(
+        host,
+        "<plugin name='w' filename='libworld.so'/>",
+        recorder("a") + recorder("b"),
+        "<plugin name='e' filename='libeye.so'/>",
+        iterations=1,
+    )
     server.run()
-    assert LOG == ["load world", "load block::link::eye", "load a of block", "load b of block",
-                   "before world", "before a 1", "before b 1", "after a", "after b", "shutdown a", "shutdown b"]
+    assert LOG == [
+        "load world",
+        "load block::link::eye",
+        "load a of block",
+        "load b of block",
+        "before world",
+        "before a 1",
+        "before b 1",
+        "after a",
+        "after b",
+        "shutdown a",
+        "shutdown b",
+    ]
 
 
 def test_sensor_rate_in_sim_time(host):
@@ -143,12 +163,15 @@ def test_iterations_end_the_run(host):
     assert server.world.time_ns == 50_000_000
 
 
-@pytest.mark.parametrize("filename, said", [
-    ("librecordr.so", "plugin p (librecordr.so) of model block is not known here and is left out. "
-                      "Did you mean librecorder.so?"),
-    ("libunheard_of.so", "It is none of the "),
-    ("libunheard_of.so", "nor a library in GAZEBO_PLUGIN_PATH, LD_LIBRARY_PATH or a sourced workspace's lib"),
-    ("", "plugin p (no filename) of model block is left out: it names no library")])
+@pytest.mark.parametrize(
+    "filename, said",
+    [
+        ("librecordr.so", "plugin p (librecordr.so) of model block is not known here and is left out. Did you mean librecorder.so?"),
+        ("libunheard_of.so", "It is none of the "),
+        ("libunheard_of.so", "nor a library in GAZEBO_PLUGIN_PATH, LD_LIBRARY_PATH or a sourced workspace's lib"),
+        ("", "plugin p (no filename) of model block is left out: it names no library"),
+    ],
+)
 def test_unknown_plugin_is_one_short_line_that_helps(host, errors, filename, said):
     make(host, model=f"<plugin name='p' filename='{filename}'>...</plugin>" + recorder("a"), iterations=1).run()
     assert len(errors) == 1 and said in errors[0]
@@ -175,8 +198,7 @@ def test_plugin_in_the_wrong_place(host, errors):
 
 def test_call_runs_between_steps_and_passes_results_and_errors(host):
     with Running(make(host, paused=True)) as server:
-        assert server.call(lambda: server.call(lambda: threading.current_thread().name)) != \
-            threading.current_thread().name
+        assert server.call(lambda: server.call(lambda: threading.current_thread().name)) != threading.current_thread().name
         with pytest.raises(KeyError):
             server.call(lambda: {}["x"])
         assert server.world.time_ns == 0
@@ -237,13 +259,17 @@ def test_resets_reach_the_plugins(host):
         assert LOG.count("reset a") == 3
 
 
-DRIVEN = "".join(f"""<link name="{child}"/><joint name="{name}" type="revolute"><parent>link</parent><child>{child}</child>
-<axis><xyz>0 1 0</xyz></axis></joint>""" for name, child in (("axle", "wheel"), ("second", "other")))
+DRIVEN = "".join(
+    f"""<link name="{child}"/><joint name="{name}" type="revolute"><parent>link</parent><child>{child}</child>
+<axis><xyz>0 1 0</xyz></axis></joint>"""
+    for name, child in (("axle", "wheel"), ("second", "other"))
+)
 
 
 def test_two_plugins_that_drive_the_same_joints_are_one_line(host, errors):
     def driver(name, joints):
         return f"<plugin name='{name}' filename='libdriver.so'><joints>{joints}</joints></plugin>"
+
     plugins = driver("a", "axle second") + driver("b", "axle second") + driver("c", "")
     with Running(make(host, model=DRIVEN + plugins, paused=True)) as server:
         server.call(lambda: None)

@@ -4,11 +4,12 @@ import sys
 import xml.etree.ElementTree as ET
 
 import pytest
-
 from gazebo_ros import spawn_model
 
-ROBOT = '<?xml version="1.0"?><robot name="r"><!-- note --><link name="l"><visual><geometry>' \
-        '<mesh filename="package://p/m.stl"/></geometry></visual></link></robot>'
+ROBOT = (
+    '<?xml version="1.0"?><robot name="r"><!-- note --><link name="l"><visual><geometry>'
+    '<mesh filename="package://p/m.stl"/></geometry></visual></link></robot>'
+)
 
 
 def parse(text):
@@ -41,9 +42,19 @@ def test_angles(angle, axis):
     assert getattr(q, axis) == pytest.approx(math.sin(0.5)) and q.w == pytest.approx(math.cos(0.5))
 
 
-@pytest.mark.parametrize("arguments", [
-    "-urdf -stdin", "-stdin -model m", "-urdf -model m", "-urdf -sdf -stdin -model m", "-urdf -stdin -file f -model m",
-    "-urdf -stdin -model m -J elbow half", "-urdf -stdin -model m -x far", "-urdf -stdin -model m -warp"])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        "-urdf -stdin",
+        "-stdin -model m",
+        "-urdf -model m",
+        "-urdf -sdf -stdin -model m",
+        "-urdf -stdin -file f -model m",
+        "-urdf -stdin -model m -J elbow half",
+        "-urdf -stdin -model m -x far",
+        "-urdf -stdin -model m -warp",
+    ],
+)
 def test_wrong_options_exit_with_2(arguments):
     with pytest.raises(SystemExit) as end:
         parse(arguments)
@@ -68,8 +79,10 @@ def test_text_of_a_file(robot):
 
 @pytest.mark.parametrize("option, scheme", [("", "package"), ("-package_to_model", "model")])
 def test_the_text_keeps_its_lines_and_comments(tmp_path, option, scheme):
-    text = ("<?xml version='1.0' encoding='utf-8'?>\n<!-- two\nlines, Höhe -->\n<robot name='r'>\n<link name='l'/><mesh\n"
-            "scale='1 1 1' filename = 'package://p/m.stl'/>\n<note filename='package://p/n'/></robot>\n")
+    text = (
+        "<?xml version='1.0' encoding='utf-8'?>\n<!-- two\nlines, Höhe -->\n<robot name='r'>\n<link name='l'/><mesh\n"
+        "scale='1 1 1' filename = 'package://p/m.stl'/>\n<note filename='package://p/n'/></robot>\n"
+    )
     (tmp_path / "r.urdf").write_text(text, encoding="utf-8")
     sent, where = spawn_model.model_text(parse(f"-urdf -file {tmp_path / 'r.urdf'} -model m {option}"))
     assert where == str(tmp_path / "r.urdf")

@@ -1,5 +1,4 @@
 import pytest
-
 from gazebo_ros.throttle import Throttle
 
 MS = 1_000_000

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """libSimpleTrackedVehiclePlugin.so, as Gazebo's worlds have it."""
+
 import importlib.util
 import math
 import os
@@ -18,20 +19,26 @@ from simulator import Case  # noqa: E402
 TRACK = """<link name="{side}_track"><pose>0 {y} 0.05 0 0 0</pose><inertial><mass>5</mass><inertia><ixx>0.01</ixx><iyy>0.1</iyy>
 <izz>0.1</izz></inertia></inertial><collision name="c"><geometry><box><size>0.5 0.02 0.1</size></box></geometry></collision></link>
 <joint name="{side}" type="fixed"><parent>body</parent><child>{side}_track</child></joint>"""
-VEHICLE = """<sdf version="1.6"><model name="tank"><link name="body"><pose>0 0 0.15 0 0 0</pose><inertial><mass>20</mass><inertia>
-<ixx>0.2</ixx><iyy>0.4</iyy><izz>0.5</izz></inertia></inertial></link>""" + TRACK.format(side="left", y=0.2) + TRACK.format(
-    side="right", y=-0.2) + """<plugin name="tracks"
+VEHICLE = (
+    """<sdf version="1.6"><model name="tank"><link name="body"><pose>0 0 0.15 0 0 0</pose><inertial><mass>20</mass><inertia>
+<ixx>0.2</ixx><iyy>0.4</iyy><izz>0.5</izz></inertia></inertial></link>"""
+    + TRACK.format(side="left", y=0.2)
+    + TRACK.format(side="right", y=-0.2)
+    + """<plugin name="tracks"
 filename="/usr/lib/x86_64-linux-gnu/gazebo-11/plugins/libSimpleTrackedVehiclePlugin.so"><body>body</body><left_track>{left}</left_track><right_track>right_track</right_track><tracks_separation>0.4</tracks_separation>
 <max_angular_speed>2</max_angular_speed>{more}</plugin>
 <plugin name="rider" filename="libgazebo_ros_test_rider.so"/></model></sdf>"""
+)
 
 
 @unittest.skipUnless(importlib.util.find_spec("gazebo_cpp._core"), "this system lacks what Gazebo's headers need")
 class TracksTest(Case):
     def setUp(self):
         self.log, self.speeds = [], []
-        self.subscribers = [rospy.Subscriber("/rosout", Log, lambda m: self.log.append(m.msg)),
-                            rospy.Subscriber("/tank/tracks", Vector3, self.speeds.append)]
+        self.subscribers = [
+            rospy.Subscriber("/rosout", Log, lambda m: self.log.append(m.msg)),
+            rospy.Subscriber("/tank/tracks", Vector3, self.speeds.append),
+        ]
         self.command = rospy.Publisher("/tank/cmd_vel", Twist, queue_size=1)
         self.sim.empty("reset_simulation")
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Gazebo's transport between processes: gz topic, a program that is its client, and bytes by hand, against whole servers."""
+
 import importlib.util
 import os
 import random
@@ -58,8 +59,14 @@ class TransportTest(test_support.TestCase):
         return subprocess.run(["gz", "topic", *words], env=environment, text=True, capture_output=True, timeout=60)
 
     def stranger(self, *words):
-        process = subprocess.Popen(["rosrun", "gazebo_ros", "gazebo_ros_test_stranger", *words], env=self.server.environment, text=True,
-                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
+        process = subprocess.Popen(
+            ["rosrun", "gazebo_ros", "gazebo_ros_test_stranger", *words],
+            env=self.server.environment,
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+        )
         self.addCleanup(process.stdout.close)
         self.addCleanup(process.wait)
         self.addCleanup(lambda: process.poll() is None and os.killpg(process.pid, 9))
@@ -111,6 +118,7 @@ class TransportTest(test_support.TestCase):
         def turns():
             self.sim.step(1)
             return self.sim.joint("elbow").rate[0] > 0.1
+
         test_support.wait_until(turns)
 
     def test_gz_topic(self):
@@ -184,8 +192,14 @@ class TransportTest(test_support.TestCase):
 
     def test_who_does_not_read_stops_nobody(self):
         for i in range(4):
-            self.assertTrue(self.sim.spawn(f"post{i}", RAY.replace("<static>1</static>", f"<pose>{i} 0 0.5 0 0 0</pose>").replace(
-                "<sensor", '<collision name="c"><geometry><box><size>0.5 0.5 1</size></box></geometry></collision><sensor')).success)
+            self.assertTrue(
+                self.sim.spawn(
+                    f"post{i}",
+                    RAY.replace("<static>1</static>", f"<pose>{i} 0 0.5 0 0 0</pose>").replace(
+                        "<sensor", '<collision name="c"><geometry><box><size>0.5 0.5 1</size></box></geometry></collision><sensor'
+                    ),
+                ).success
+            )
         deaf = self.listen("/gazebo/compiled/physics/contacts", receive_buffer=4096)
         hears = self.listen("/gazebo/compiled/world_stats")
         for _ in range(6):

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 """What has come to rest wakes through the services: after spawning_rostest.py, in the same world."""
+
 import rospy
 import rostest
 from gazebo_msgs import srv
 from geometry_msgs.msg import Pose
-
 from simulator import Case, box, pose, xyz
 
 SHELF = box(geometry="<box><size>1 1 0.2</size></box>", extra="<static>1</static>")
 CAN = box(geometry="<box><size>0.2 0.2 0.2</size></box>")
-LOOK, FALLS = 200, 0.5 * 9.8 * 0.2 ** 2  # steps of 1 ms, and m fallen in them
+LOOK, FALLS = 200, 0.5 * 9.8 * 0.2**2  # steps of 1 ms, and m fallen in them
 
 
 class Waking(Case):
@@ -55,7 +55,7 @@ class Waking(Case):
         self.falls(lambda: self.sim.set_link("shelf::link", pose(-20, 5, 2.0)), "low", "high")
 
     def test_set_physics_properties(self):
-        self.falls(lambda: self.sim.set_physics(gravity=(0, 0, 1.0)), "low", "high", "apart", by=-0.5 * 0.2 ** 2)
+        self.falls(lambda: self.sim.set_physics(gravity=(0, 0, 1.0)), "low", "high", "apart", by=-0.5 * 0.2**2)
 
     def test_set_link_properties(self):
         """A board that two cans hold level: one gets heavier."""

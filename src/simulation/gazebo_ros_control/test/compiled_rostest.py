@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A controller in C++ beside its twin in Python on one simulated robot: the examples of the documentation, built as a user would."""
+
 import os
 import subprocess
 import sys
@@ -26,8 +27,7 @@ PARAMETERS = {
 def build(folder):
     """The example in C++, outside of the workspace."""
     source = os.path.join(EXAMPLES, "my_cpp_controllers")
-    for command in (["cmake", "-S", source, "-B", folder, f"-DCATKIN_DEVEL_PREFIX={folder}/devel"],
-                    ["cmake", "--build", folder, "-j2"]):
+    for command in (["cmake", "-S", source, "-B", folder, f"-DCATKIN_DEVEL_PREFIX={folder}/devel"], ["cmake", "--build", folder, "-j2"]):
         done = subprocess.run(command, capture_output=True, text=True)
         assert done.returncode == 0, done.stdout + done.stderr
     os.environ["CMAKE_PREFIX_PATH"] = f"{folder}/devel:{os.environ['CMAKE_PREFIX_PATH']}"
@@ -48,8 +48,13 @@ class CompiledTest(unittest.TestCase):
         position, effort = "hardware_interface/PositionJointInterface", "hardware_interface/EffortJointInterface"
         limit = '<limit lower="-3" upper="3" effort="10" velocity="5"/>'
         names = (("left", position), ("right", position), ("middle", effort))
-        return SimulatedRobot(urdf(*(joint(name, limit, y=2.0 * i) for i, (name, _) in enumerate(names)),
-                                   *(transmission(name, name, interface) for name, interface in names)), parameters=PARAMETERS)
+        return SimulatedRobot(
+            urdf(
+                *(joint(name, limit, y=2.0 * i) for i, (name, _) in enumerate(names)),
+                *(transmission(name, name, interface) for name, interface in names),
+            ),
+            parameters=PARAMETERS,
+        )
 
     def test_twins_move_alike(self):
         with self.robot() as robot:

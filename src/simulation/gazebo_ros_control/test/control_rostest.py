@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """gazebo_ros_control on a simulated robot: what commands do to joints, step by step."""
+
 import math
 import os
 import sys
@@ -12,8 +13,23 @@ import test_support
 from hardware_interface import EffortJointInterface, PositionJointInterface, VelocityJointInterface
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from simulated_robot import (DT, EFFORT, FORWARD, INERTIA, LIMIT, NO_LIMIT, POSITION, VELOCITY, Log, SimulatedRobot,  # noqa: E402
-                             gains, joint, one_joint, transmission, urdf)
+from simulated_robot import (  # noqa: E402
+    DT,
+    EFFORT,
+    FORWARD,
+    INERTIA,
+    LIMIT,
+    NO_LIMIT,
+    POSITION,
+    VELOCITY,
+    Log,
+    SimulatedRobot,
+    gains,
+    joint,
+    one_joint,
+    transmission,
+    urdf,
+)
 
 
 class PositionTest(test_support.TestCase):
@@ -30,8 +46,9 @@ class PositionTest(test_support.TestCase):
             self.assertEqual(robot.joint().position(), 1.0)
 
     def test_position_limits(self):
-        with SimulatedRobot(one_joint(POSITION, limit='<limit lower="-1" upper="0.2" effort="9" velocity="5"/>'),
-                            parameters=FORWARD) as robot:
+        with SimulatedRobot(
+            one_joint(POSITION, limit='<limit lower="-1" upper="0.2" effort="9" velocity="5"/>'), parameters=FORWARD
+        ) as robot:
             robot.start("pos")
             for command, reached in ((7.0, 0.2), (-7.0, -1.0)):
                 robot.command("pos", command)
@@ -76,15 +93,16 @@ class PositionTest(test_support.TestCase):
             self.assertEqual(robot.server.driven, [["j"]])
         with SimulatedRobot(one_joint(VELOCITY)) as robot:
             self.assertEqual(robot.server.driven, [["j"]])
-        with SimulatedRobot(one_joint(EFFORT), parameters={"eff": {
-                "type": "effort_controllers/JointEffortController", "joint": "j"}}) as robot:
+        with SimulatedRobot(
+            one_joint(EFFORT), parameters={"eff": {"type": "effort_controllers/JointEffortController", "joint": "j"}}
+        ) as robot:
             self.assertEqual(robot.server.driven, [])
             robot.start("eff")
             self.assertEqual(robot.server.driven, [["j"]])
 
     def test_no_p_gain_is_harmless_and_says_so(self):
         with Log.recorded() as log, SimulatedRobot(one_joint(POSITION)):
-            line, = log.having("No p gain specified for pid.  Namespace: /robot/gazebo_ros_control/pid_gains/j")
+            (line,) = log.having("No p gain specified for pid.  Namespace: /robot/gazebo_ros_control/pid_gains/j")
             self.assertTrue(line.endswith("pid_gains/j"), line)
             self.assertEqual(len(log.having("nothing is wrong", "set p", level="INFO")), 1)
             self.assertEqual(log.having("No p gain", level="ERROR") + log.having("No p gain", level="WARNING"), [])
@@ -112,8 +130,9 @@ class PositionTest(test_support.TestCase):
             self.assertAlmostEqual(robot.joint().velocity(), 10 * DT * 0.1 / INERTIA, delta=1e-5)
 
     def test_a_pid_takes_the_short_way_of_a_continuous_joint(self):
-        robot = SimulatedRobot(one_joint(POSITION, limit='<limit effort="10" velocity="100"/>', kind="continuous"),
-                               parameters=gains(p=50.0, d=5.0))
+        robot = SimulatedRobot(
+            one_joint(POSITION, limit='<limit effort="10" velocity="100"/>', kind="continuous"), parameters=gains(p=50.0, d=5.0)
+        )
         robot.joint().set_position(3.0)
         with robot:
             robot.start("pos")
@@ -198,9 +217,21 @@ class EffortTest(test_support.TestCase):
 
 class LimitsTest(test_support.TestCase):
     def test_parameters_override_the_description(self):
-        with SimulatedRobot(one_joint(POSITION), parameters={**FORWARD, "joint_limits": {"j": {
-                "has_velocity_limits": True, "max_velocity": 0.1, "has_position_limits": True, "min_position": 0.0,
-                "max_position": 0.05}}}) as robot:
+        with SimulatedRobot(
+            one_joint(POSITION),
+            parameters={
+                **FORWARD,
+                "joint_limits": {
+                    "j": {
+                        "has_velocity_limits": True,
+                        "max_velocity": 0.1,
+                        "has_position_limits": True,
+                        "min_position": 0.0,
+                        "max_position": 0.05,
+                    }
+                },
+            },
+        ) as robot:
             robot.start("pos")
             robot.command("pos", 1.0)
             robot.run(0.3)
@@ -217,20 +248,28 @@ class LimitsTest(test_support.TestCase):
             self.assertAlmostEqual(robot.joint().position(), 0.1, delta=1e-4)
 
     def test_zero_velocity_limit_is_pointed_out(self):
-        with Log.recorded() as log, SimulatedRobot(
-                one_joint(POSITION, limit='<limit lower="-1" upper="1" effort="9" velocity="0"/>')) as robot:
+        with (
+            Log.recorded() as log,
+            SimulatedRobot(one_joint(POSITION, limit='<limit lower="-1" upper="1" effort="9" velocity="0"/>')) as robot,
+        ):
             self.assertEqual(len(log.having("'j' has a velocity limit of 0", level="WARNING")), 1)
             robot.run(0.1)
             self.assertAlmostEqual(robot.joint().position(), 0.0, delta=1e-9)
 
     def test_gains_of_zero_of_a_safety_controller_are_pointed_out(self):
-        for interface, soft, said in ((EFFORT, 'k_position="5" k_velocity="0"', "k_velocity 0: no force can move it"),
-                                      (EFFORT, 'k_position="0" k_velocity="5"', "k_position 0: it cannot move"),
-                                      (POSITION, 'k_velocity="5"', "k_position 0: it cannot move"),
-                                      (VELOCITY, 'k_position="5" k_velocity="0"', ""), (EFFORT, 'k_position="5" k_velocity="5"', "")):
+        for interface, soft, said in (
+            (EFFORT, 'k_position="5" k_velocity="0"', "k_velocity 0: no force can move it"),
+            (EFFORT, 'k_position="0" k_velocity="5"', "k_position 0: it cannot move"),
+            (POSITION, 'k_velocity="5"', "k_position 0: it cannot move"),
+            (VELOCITY, 'k_position="5" k_velocity="0"', ""),
+            (EFFORT, 'k_position="5" k_velocity="5"', ""),
+        ):
             limit = LIMIT + f'<safety_controller soft_lower_limit="-1" soft_upper_limit="1" {soft}/>'
-            with self.subTest(interface=interface, soft=soft), Log.recorded() as log, \
-                    SimulatedRobot(one_joint(interface, limit=limit), parameters=FORWARD):
+            with (
+                self.subTest(interface=interface, soft=soft),
+                Log.recorded() as log,
+                SimulatedRobot(one_joint(interface, limit=limit), parameters=FORWARD),
+            ):
                 told = log.having("<safety_controller>", level="WARNING")
                 self.assertEqual(len(told), bool(said), told)
                 self.assertTrue(all(said in line and "'j'" in line for line in map(str, told)), told)
@@ -239,8 +278,11 @@ class LimitsTest(test_support.TestCase):
         for interface, controller in ((POSITION, "pos"), (VELOCITY, "vel"), (EFFORT, "eff")):
             for limit, kind in ((LIMIT, "revolute"), ("", "continuous")):
                 for bad in (math.nan, math.inf, -math.inf):
-                    with self.subTest(interface=interface, limit=limit, bad=bad), Log.recorded() as log, \
-                            SimulatedRobot(one_joint(interface, limit=limit, kind=kind), parameters=FORWARD) as robot:
+                    with (
+                        self.subTest(interface=interface, limit=limit, bad=bad),
+                        Log.recorded() as log,
+                        SimulatedRobot(one_joint(interface, limit=limit, kind=kind), parameters=FORWARD) as robot,
+                    ):
                         robot.start(controller)
                         robot.command(controller, 0.1)
                         robot.step(3)
@@ -256,14 +298,16 @@ class LimitsTest(test_support.TestCase):
 class TransmissionsTest(test_support.TestCase):
     def test_one_bad_transmission_does_not_take_the_others_along(self):
         description = urdf(
-            joint("j"), joint("k", y=1.0), joint("m", y=2.0),
+            joint("j"),
+            joint("k", y=1.0),
+            joint("m", y=2.0),
             transmission("good", "j", POSITION),
             transmission("unknown", "k", "hardware_interface/ForceJointInterface"),
             transmission("absent", "nowhere", POSITION),
-            transmission("two", "m", POSITION, joints=f'<joint name="k"><hardwareInterface>{POSITION}'
-                                                      "</hardwareInterface></joint>"),
+            transmission("two", "m", POSITION, joints=f'<joint name="k"><hardwareInterface>{POSITION}</hardwareInterface></joint>'),
             '<transmission name="old"><type>T</type><joint name="m"/><actuator name="a"><hardwareInterface>'
-            f"{POSITION}</hardwareInterface></actuator></transmission>")
+            f"{POSITION}</hardwareInterface></actuator></transmission>",
+        )
         with Log.recorded() as log, SimulatedRobot(description, parameters=FORWARD) as robot:
             self.assertEqual(robot.hw.get(PositionJointInterface).names(), ["j"])
             self.assertEqual(len(log.having("'unknown'", "ForceJointInterface", "possible are", level="ERROR")), 1)
@@ -315,8 +359,9 @@ class TransmissionsTest(test_support.TestCase):
 
 def suite():
     loader = unittest.TestLoader()
-    return unittest.TestSuite(loader.loadTestsFromTestCase(case) for case in (
-        PositionTest, VelocityTest, EffortTest, LimitsTest, TransmissionsTest))
+    return unittest.TestSuite(
+        loader.loadTestsFromTestCase(case) for case in (PositionTest, VelocityTest, EffortTest, LimitsTest, TransmissionsTest)
+    )
 
 
 if __name__ == "__main__":

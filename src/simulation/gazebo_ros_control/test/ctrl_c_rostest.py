@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Ctrl-C on a launched robot, soon and late: everything ends by the first signal and nobody prints a traceback."""
+
 import os
 import signal
 import subprocess
@@ -10,7 +11,6 @@ import unittest
 from xml.sax.saxutils import quoteattr
 
 import rostest
-
 from simulated_robot import joint, transmission, urdf
 from test_support import free_port
 
@@ -40,9 +40,13 @@ def launched_and_interrupted(after):
             file.write(LAUNCH.format(robot=quoteattr(robot)))
         port = free_port()
         process = subprocess.Popen(
-            ["roslaunch", "-p", str(port), f"--sigint-timeout={PATIENCE}", path], text=True, stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT, start_new_session=True,
-            env={**os.environ, "ROS_MASTER_URI": f"http://localhost:{port}", "ROS_HOME": folder, "PYTHONUNBUFFERED": "1"})
+            ["roslaunch", "-p", str(port), f"--sigint-timeout={PATIENCE}", path],
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+            env={**os.environ, "ROS_MASTER_URI": f"http://localhost:{port}", "ROS_HOME": folder, "PYTHONUNBUFFERED": "1"},
+        )
         lines = []
         try:
             for line in process.stdout:

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Robot hardware of a third party that raises, at the start and in the loop: one line, nobody waits, nothing stays behind."""
+
 import sys
 import threading
 import time

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """spawn_model -paused_until_controllers: an arm on effort joints does not fall before its controller runs, however late that is."""
+
 import subprocess
 
 import rospy
@@ -27,8 +28,13 @@ class Held(test_support.TestCase):
         physics = rospy.ServiceProxy("/gazebo/get_physics_properties", GetPhysicsProperties)
         rospy.wait_for_message("/held/joint_states", JointState, 90)
         self.wait(lambda: not physics().pause)  # the arm of the other test is held no more
-        done = subprocess.run(["rosrun", "gazebo_ros", "spawn_model", "-urdf", "-stdin", "-model", "bare", "-x", "5",
-                               "-paused_until_controllers"], input=BARE, text=True, capture_output=True, timeout=60)
+        done = subprocess.run(
+            ["rosrun", "gazebo_ros", "spawn_model", "-urdf", "-stdin", "-model", "bare", "-x", "5", "-paused_until_controllers"],
+            input=BARE,
+            text=True,
+            capture_output=True,
+            timeout=60,
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("no controllers to wait for", done.stdout + done.stderr)
         self.assertFalse(physics().pause)

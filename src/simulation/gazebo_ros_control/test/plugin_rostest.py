@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """gazebo_ros_control as a plugin of a model: its namespaces, periods, emergency stop, and the end of it."""
+
 import os
 import sys
 import tempfile
@@ -17,8 +18,7 @@ from std_msgs.msg import Bool
 from test_support import wait_until
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from simulated_robot import (EFFORT, FORWARD, NO_LIMIT, POSITION, Log, SimulatedRobot,  # noqa: E402
-                             joint, one_joint, transmission, urdf)
+from simulated_robot import EFFORT, FORWARD, NO_LIMIT, POSITION, Log, SimulatedRobot, joint, one_joint, transmission, urdf  # noqa: E402
 
 
 class PluginTest(test_support.TestCase):
@@ -27,9 +27,13 @@ class PluginTest(test_support.TestCase):
         return f"{namespace}/controller_manager/list_controllers" in services
 
     def test_namespaces(self):
-        for plugin, namespace in (("<robotNamespace>/a/b</robotNamespace>", "/a/b"), ("", "/model"),
-                                  ("<robotNamespace>/</robotNamespace>", ""), ("<robotNamespace/>", ""),
-                                  ("<robotNamespace>arm</robotNamespace>", "/arm")):
+        for plugin, namespace in (
+            ("<robotNamespace>/a/b</robotNamespace>", "/a/b"),
+            ("", "/model"),
+            ("<robotNamespace>/</robotNamespace>", ""),
+            ("<robotNamespace/>", ""),
+            ("<robotNamespace>arm</robotNamespace>", "/arm"),
+        ):
             with self.subTest(plugin=plugin):
                 with SimulatedRobot(one_joint(POSITION), plugin):
                     self.assertTrue(self.service_there(namespace))
@@ -42,16 +46,21 @@ class PluginTest(test_support.TestCase):
         self.assertEqual([name for name in types if "_tests/" in name], [])
 
     def test_description_in_a_parameter_of_another_name(self):
-        robot = SimulatedRobot(one_joint(POSITION), "<robotNamespace>/robot</robotNamespace>"
-                               "<robotParam>my_description</robotParam>", describe=False)
+        robot = SimulatedRobot(
+            one_joint(POSITION), "<robotNamespace>/robot</robotNamespace><robotParam>my_description</robotParam>", describe=False
+        )
         rospy.set_param("/robot/my_description", one_joint(POSITION))
         with robot:
             self.assertEqual(robot.hw.get(PositionJointInterface).names(), ["j"])
 
     def test_waiting_for_the_description_does_not_stop_the_world(self):
         with Log.recorded() as log, SimulatedRobot(one_joint(POSITION), describe=False) as robot:
-            wait_until(lambda: log.having("waiting for model URDF in parameter [robot_description] on the ROS param server",
-                                          "/robot and above", level="WARNING"), "the plugin's word")
+            wait_until(
+                lambda: log.having(
+                    "waiting for model URDF in parameter [robot_description] on the ROS param server", "/robot and above", level="WARNING"
+                ),
+                "the plugin's word",
+            )
             robot.run(0.1)
             self.assertIsNone(robot.manager)
             rospy.set_param("/robot_description", one_joint(POSITION))
@@ -74,9 +83,12 @@ class PluginTest(test_support.TestCase):
             robot.load()
 
     def test_control_period(self):
-        with Log.recorded() as log, SimulatedRobot(
-                one_joint(POSITION), "<robotNamespace>/robot</robotNamespace><controlPeriod>0.01</controlPeriod>",
-                FORWARD) as robot:
+        with (
+            Log.recorded() as log,
+            SimulatedRobot(
+                one_joint(POSITION), "<robotNamespace>/robot</robotNamespace><controlPeriod>0.01</controlPeriod>", FORWARD
+            ) as robot,
+        ):
             self.assertEqual(len(log.having("<controlPeriod>0.01 is longer", level="WARNING")), 1)
             robot.start("pos")
             periods = []
@@ -87,16 +99,19 @@ class PluginTest(test_support.TestCase):
             self.assertAlmostEqual(max(periods), 0.01, delta=1e-9)
 
     def test_control_period_shorter_than_the_step(self):
-        with Log.recorded() as log, SimulatedRobot(
-                one_joint(POSITION), "<robotNamespace>/robot</robotNamespace><controlPeriod>0.0001</controlPeriod>"):
+        with (
+            Log.recorded() as log,
+            SimulatedRobot(one_joint(POSITION), "<robotNamespace>/robot</robotNamespace><controlPeriod>0.0001</controlPeriod>"),
+        ):
             self.assertEqual(len(log.having("shorter than the time step", level="ERROR")), 1)
 
     def test_control_periods_that_are_no_time(self):
         robot = SimulatedRobot(one_joint(POSITION), "<controlPeriod>inf</controlPeriod>")
         with self.assertRaisesRegex(PluginError, "<controlPeriod> must be a number of seconds, it is infinite"):
             robot.load()
-        with SimulatedRobot(one_joint(POSITION), "<robotNamespace>/robot</robotNamespace><controlPeriod>nan</controlPeriod>",
-                            FORWARD) as robot:
+        with SimulatedRobot(
+            one_joint(POSITION), "<robotNamespace>/robot</robotNamespace><controlPeriod>nan</controlPeriod>", FORWARD
+        ) as robot:
             robot.start("pos")  # as without it: every step
 
     def test_unknown_robot_sim(self):
@@ -107,13 +122,13 @@ class PluginTest(test_support.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             files = {
                 "package.xml": '<package format="2"><name>third_sim</name><version>1.0.0</version><description>x'
-                               '</description><maintainer email="a@b.c">a</maintainer><license>BSD</license>'
-                               "<exec_depend>gazebo_ros_control</exec_depend><export><gazebo_ros_control "
-                               'plugin="${prefix}/sims.xml"/></export></package>',
+                '</description><maintainer email="a@b.c">a</maintainer><license>BSD</license>'
+                "<exec_depend>gazebo_ros_control</exec_depend><export><gazebo_ros_control "
+                'plugin="${prefix}/sims.xml"/></export></package>',
                 "sims.xml": '<library path="src"><class name="third_sim/Sim" type="third_sim_module.Sim"/></library>',
                 "src/third_sim_module.py": "from gazebo_ros_control import RobotHWSim\n\n\nclass Sim(RobotHWSim):\n"
-                                           "    written = 0\n\n    def init_sim(self, *arguments):\n        return True\n\n"
-                                           "    def write_sim(self, time, period):\n        self.written += 1\n",
+                "    written = 0\n\n    def init_sim(self, *arguments):\n        return True\n\n"
+                "    def write_sim(self, time, period):\n        self.written += 1\n",
             }
             os.mkdir(os.path.join(folder, "src"))
             for name, text in files.items():
@@ -127,11 +142,9 @@ class PluginTest(test_support.TestCase):
                 self.assertEqual((type(robot.hw).__name__, robot.hw.written), ("Sim", 5))
 
     def test_emergency_stop(self):
-        description = urdf(joint("j"), joint("k", NO_LIMIT, y=1.0), transmission("t", "j", POSITION),
-                           transmission("u", "k", EFFORT))
+        description = urdf(joint("j"), joint("k", NO_LIMIT, y=1.0), transmission("t", "j", POSITION), transmission("u", "k", EFFORT))
         parameters = {**FORWARD, "eff": {"type": "effort_controllers/JointEffortController", "joint": "k"}}
-        with SimulatedRobot(description, "<robotNamespace>/robot</robotNamespace><eStopTopic>e_stop</eStopTopic>",
-                            parameters) as robot:
+        with SimulatedRobot(description, "<robotNamespace>/robot</robotNamespace><eStopTopic>e_stop</eStopTopic>", parameters) as robot:
             robot.start("pos", "eff")
             robot.command("pos", 1.0)
             robot.command("eff", 0.5)
@@ -181,8 +194,7 @@ class PluginTest(test_support.TestCase):
                 robot.step()
             wait_until(lambda: len(messages) >= 49, "joint states")
             messages = messages[1:]
-            gaps = {(later.header.stamp - earlier.header.stamp).to_nsec()
-                    for earlier, later in zip(messages, messages[1:])}
+            gaps = {(later.header.stamp - earlier.header.stamp).to_nsec() for earlier, later in zip(messages, messages[1:])}
             self.assertEqual(gaps, {10_000_000})
             advances = [later.position[0] - earlier.position[0] for earlier, later in zip(messages, messages[1:])]
             self.assertAlmostEqual(max(advances), 0.005, delta=1e-9)
@@ -190,10 +202,11 @@ class PluginTest(test_support.TestCase):
 
     def test_same_commands_same_bits(self):
         def history():
-            description = urdf(joint("j"), joint("k", NO_LIMIT, y=1.0), transmission("t", "j", POSITION),
-                               transmission("u", "k", EFFORT))
-            parameters = {**FORWARD, "eff": {"type": "effort_controllers/JointVelocityController", "joint": "k",
-                                             "pid": {"p": 0.8, "i": 0.1, "i_clamp": 1.0}}}
+            description = urdf(joint("j"), joint("k", NO_LIMIT, y=1.0), transmission("t", "j", POSITION), transmission("u", "k", EFFORT))
+            parameters = {
+                **FORWARD,
+                "eff": {"type": "effort_controllers/JointVelocityController", "joint": "k", "pid": {"p": 0.8, "i": 0.1, "i_clamp": 1.0}},
+            }
             with SimulatedRobot(description, parameters=parameters) as robot:
                 for name in ("pos", "eff"):
                     assert robot.manager.load_controller(name)
@@ -208,6 +221,7 @@ class PluginTest(test_support.TestCase):
                     robot.step()
                     found.append((robot.joint().position(), robot.joint("k").position(), robot.joint("k").velocity()))
                 return base, found
+
         self.assertEqual(history(), history())
 
 

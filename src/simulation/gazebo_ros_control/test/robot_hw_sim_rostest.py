@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Hardware of a robot in C++, derived from the default one, in the simulator."""
+
 import importlib.util
 import sys
 import threading
@@ -18,12 +19,14 @@ from std_msgs.msg import Float64
 from test_support.hearing import heard
 
 KINDS = {"velocity": "Velocity", "position": "Position", "effort": "Effort"}
-PARTS = "".join(f"""<joint name="{name}" type="revolute"><parent link="world"/><child link="{name}_link"/>
+PARTS = "".join(
+    f"""<joint name="{name}" type="revolute"><parent link="world"/><child link="{name}_link"/>
 <origin xyz="0 {2 * i} 1"/><axis xyz="1 0 0"/><limit lower="-3" upper="3" effort="50" velocity="2"/></joint>
 <link name="{name}_link"><inertial><mass value="1"/><inertia ixx="0.5" ixy="0" ixz="0" iyy="0.5" iyz="0" izz="0.5"/></inertial></link>
 <transmission name="{name}_t"><type>transmission_interface/SimpleTransmission</type><joint name="{name}">
 <hardwareInterface>hardware_interface/{kind}JointInterface</hardwareInterface></joint><actuator name="{name}_m"/></transmission>"""
-                for i, (name, kind) in enumerate(KINDS.items()))
+    for i, (name, kind) in enumerate(KINDS.items())
+)
 ROBOT = """<robot name="robot"><link name="world"/>{parts}<gazebo><plugin name="control" filename="{library}">
 <robotNamespace>/robot</robotNamespace><robotSimType>{sim}</robotSimType></plugin></gazebo></robot>"""
 
@@ -54,8 +57,10 @@ class Robot(unittest.TestCase):
         text = ROBOT.format(parts=PARTS, sim=sim, library=library)
         if rospy.has_param("/robot"):
             rospy.delete_param("/robot")
-        rospy.set_param("/robot", {**parameters, **{name: {"type": f"{name}_controllers/Joint{kind}Controller", "joint": name}
-                                                    for name, kind in KINDS.items()}})
+        rospy.set_param(
+            "/robot",
+            {**parameters, **{name: {"type": f"{name}_controllers/Joint{kind}Controller", "joint": name} for name, kind in KINDS.items()}},
+        )
         if described:
             rospy.set_param("/robot_description", text)
         answer = service("/gazebo/spawn_urdf_model", SpawnModel)("robot", text, "", Pose(), "")
@@ -86,6 +91,7 @@ class Robot(unittest.TestCase):
         def one_more():
             self.step(1)
             return condition()
+
         self.wait(one_more)
         publisher.unregister()
 
@@ -108,10 +114,11 @@ class RobotHWSimTest(Robot):
 
     def test_what_cannot_start_is_one_line(self):
         for sim, parameters, words in (
-                ("test/Halved", {"fail_in": "initSim"}, ("cannot start", "its initSim() threw told to fail in initSim")),
-                ("test/Absent", {}, ("NoSuchClass", "its constructor threw")),
-                ("test/Controller", {}, ("is no simulated hardware", "plugins.xml")),
-                ("test/NoLibrary", {}, ("no_such_library.so is not found in",))):
+            ("test/Halved", {"fail_in": "initSim"}, ("cannot start", "its initSim() threw told to fail in initSim")),
+            ("test/Absent", {}, ("NoSuchClass", "its constructor threw")),
+            ("test/Controller", {}, ("is no simulated hardware", "plugins.xml")),
+            ("test/NoLibrary", {}, ("no_such_library.so is not found in",)),
+        ):
             self.spawn(sim, **parameters)
             self.logged(*words)
             service("/gazebo/delete_model", DeleteModel)("robot")

@@ -1,4 +1,5 @@
 """A robot of a few joints under the plugin, in this process: the test steps the world itself."""
+
 import contextlib
 import logging
 import threading
@@ -39,9 +40,11 @@ def joint(name, limit=LIMIT, kind="revolute", y=0.0):
 
 def transmission(name, joint_name, *interfaces, joints=""):
     tags = "".join(f"<hardwareInterface>{interface}</hardwareInterface>" for interface in interfaces)
-    return (f'<transmission name="{name}"><type>transmission_interface/SimpleTransmission</type>'
-            f'<joint name="{joint_name}">{tags}</joint>{joints}'
-            f'<actuator name="{name}_motor"><mechanicalReduction>50</mechanicalReduction></actuator></transmission>')
+    return (
+        f'<transmission name="{name}"><type>transmission_interface/SimpleTransmission</type>'
+        f'<joint name="{joint_name}">{tags}</joint>{joints}'
+        f'<actuator name="{name}_motor"><mechanicalReduction>50</mechanicalReduction></actuator></transmission>'
+    )
 
 
 def urdf(*parts):
@@ -97,6 +100,7 @@ class Server:
             except Exception as error:  # as the simulator's server
                 rospy.logerr("%s", error)
                 world.before_step.remove(call)
+
         self.world.before_step.append(call)
 
     def call(self, f):
@@ -106,8 +110,15 @@ class Server:
 class SimulatedRobot:
     """``step`` and ``run`` move time; ``switch`` asks for controllers and steps until they have changed."""
 
-    def __init__(self, description, plugin="<robotNamespace>/robot</robotNamespace>", parameters=None, name="model",
-                 describe=True, namespace="/robot"):
+    def __init__(
+        self,
+        description,
+        plugin="<robotNamespace>/robot</robotNamespace>",
+        parameters=None,
+        name="model",
+        describe=True,
+        namespace="/robot",
+    ):
         self.namespace = namespace
         if rospy.has_param("/robot"):
             rospy.delete_param("/robot")

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Cars whose steering is position-commanded, under the steering controllers, in the simulator. In simulated time."""
+
 import math
 import time
 import unittest
@@ -74,8 +75,12 @@ class Car:
         points = []
         for _ in range(round(seconds / 0.2)):
             pose = self.run(0.2)
-            points.append((pose.position.x + forwards * math.cos(heading(pose.orientation)),
-                           pose.position.y + forwards * math.sin(heading(pose.orientation))))
+            points.append(
+                (
+                    pose.position.x + forwards * math.cos(heading(pose.orientation)),
+                    pose.position.y + forwards * math.sin(heading(pose.orientation)),
+                )
+            )
         return points
 
 
@@ -98,8 +103,9 @@ class SteeredCars(unittest.TestCase):
         car.command(message, speed)
         start = car.run(1.0)  # the wheels spin at first
         end = car.run(metres / speed)
-        self.assertAlmostEqual(math.dist((start.position.x, start.position.y), (end.position.x, end.position.y)), metres,
-                               delta=0.03 * metres)
+        self.assertAlmostEqual(
+            math.dist((start.position.x, start.position.y), (end.position.x, end.position.y)), metres, delta=0.03 * metres
+        )
         self.assertAlmostEqual(heading(end.orientation), heading(start.orientation), delta=0.01)
         self.assertAlmostEqual(end.position.z, 0.06, delta=1e-3)
 

@@ -1,4 +1,5 @@
 """Sources that name every header, class and member of ros_control's C++ compile in the three standards that packages ask for."""
+
 import importlib.util
 import os
 import subprocess
@@ -16,10 +17,12 @@ find_package(catkin REQUIRED COMPONENTS {components})
 include_directories(${{catkin_INCLUDE_DIRS}} ${{GAZEBO_INCLUDE_DIRS}})
 add_library(api OBJECT {sources})
 """
-CONTROL = ("actionlib angles combined_robot_hw control_msgs control_toolbox controller_interface controller_manager dynamic_reconfigure "
-           "effort_controllers forward_command_controller hardware_interface joint_limits_interface joint_trajectory_controller "
-           "pluginlib position_controllers realtime_tools roscpp std_msgs transmission_interface urdf urdf_geometry_parser "
-           "velocity_controllers")
+CONTROL = (
+    "actionlib angles combined_robot_hw control_msgs control_toolbox controller_interface controller_manager dynamic_reconfigure "
+    "effort_controllers forward_command_controller hardware_interface joint_limits_interface joint_trajectory_controller "
+    "pluginlib position_controllers realtime_tools roscpp std_msgs transmission_interface urdf urdf_geometry_parser "
+    "velocity_controllers"
+)
 
 
 def compile_all(folder, standard, components, find, sources):

@@ -1,4 +1,5 @@
 """Gains that are too high for the inertia and the step drive a joint, whoever computes the effort. Without ROS."""
+
 import math
 import sys
 from types import SimpleNamespace
@@ -69,8 +70,14 @@ def test_of_the_simulated_drives(joint):
     speed.handle.command = 3.0
     run(joint, speed)
     assert joint.velocity() == pytest.approx(3.0, abs=1e-6)
-    place = PositionPidMode(joint, handle_of(joint), LIMITS, Pid(p=500.0, d=1.0),
-                            SimpleNamespace(error=lambda position, target: target - position), sys.float_info.max)
+    place = PositionPidMode(
+        joint,
+        handle_of(joint),
+        LIMITS,
+        Pid(p=500.0, d=1.0),
+        SimpleNamespace(error=lambda position, target: target - position),
+        sys.float_info.max,
+    )
     place.handle.command = 4.0
     run(joint, place, steps=4000)
     assert joint.position() == pytest.approx(4.0, abs=1e-4) and abs(joint.velocity()) < 1e-3

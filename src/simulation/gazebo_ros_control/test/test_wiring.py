@@ -1,5 +1,6 @@
 """What the wiring does for all joints in one call is what a robot does that limits its commands by joint_limits_interface and gives them
 to the joints of ode_sim one by one, to the last bit. Without ROS."""
+
 import math
 import random
 
@@ -8,16 +9,32 @@ import pytest
 from gazebo_ros_control.joint_sim import EffortMode, JointSim, PositionMode, VelocityMode
 from gazebo_ros_control.wiring import Wiring
 from hardware_interface import JointHandle, JointStateHandle
-from joint_limits_interface import (EffortJointSaturationHandle, EffortJointSoftLimitsHandle, JointLimits, PositionJointSaturationHandle,
-                                    PositionJointSoftLimitsHandle, SoftJointLimits, VelocityJointSaturationHandle,
-                                    VelocityJointSoftLimitsHandle)
+from joint_limits_interface import (
+    EffortJointSaturationHandle,
+    EffortJointSoftLimitsHandle,
+    JointLimits,
+    PositionJointSaturationHandle,
+    PositionJointSoftLimitsHandle,
+    SoftJointLimits,
+    VelocityJointSaturationHandle,
+    VelocityJointSoftLimitsHandle,
+)
 
 DT = 0.001
 ARM = """<robot name="arm"><link name="world"/><link name="bar"><inertial><mass value="0.1"/>
 <inertia ixx="4e-4" ixy="0" ixz="0" iyy="4e-4" iyz="0" izz="4e-4"/></inertial></link><joint name="hinge" type="revolute">
 <parent link="world"/><child link="bar"/><axis xyz="0 0 1"/><limit lower="-2" upper="2" effort="9" velocity="40"/></joint></robot>"""
-HARD = JointLimits(min_position=-1.5, max_position=1.5, max_velocity=20.0, max_acceleration=900.0, max_effort=8.0,
-                   has_position_limits=True, has_velocity_limits=True, has_acceleration_limits=True, has_effort_limits=True)
+HARD = JointLimits(
+    min_position=-1.5,
+    max_position=1.5,
+    max_velocity=20.0,
+    max_acceleration=900.0,
+    max_effort=8.0,
+    has_position_limits=True,
+    has_velocity_limits=True,
+    has_acceleration_limits=True,
+    has_effort_limits=True,
+)
 ENDLESS = JointLimits(max_velocity=20.0, max_effort=8.0, has_velocity_limits=True, has_effort_limits=True)
 NONE = JointLimits(max_velocity=math.inf, max_effort=math.inf, has_velocity_limits=True, has_effort_limits=True)
 SOFT = SoftJointLimits(min_position=-0.8, max_position=0.8, k_position=20.0, k_velocity=40.0)
@@ -44,8 +61,18 @@ class Robot:
 
     def seen(self):
         commanded_effort = None if self.sim.mode.bears else self.state.effort
-        return [(self.sim.mode.handle.command, self.state.position, self.state.velocity, commanded_effort, self.joint.core.drive_mode,
-                 self.joint.core.drive_target, self.joint.motor(), self.joint.effort())]
+        return [
+            (
+                self.sim.mode.handle.command,
+                self.state.position,
+                self.state.velocity,
+                commanded_effort,
+                self.joint.core.drive_mode,
+                self.joint.core.drive_target,
+                self.joint.motor(),
+                self.joint.effort(),
+            )
+        ]
 
 
 class ByHand(Robot):
@@ -168,7 +195,14 @@ def test_a_robot_that_holds_itself_up_reports_what_its_joints_bear(lifting):
     reach = math.cos(0.6) - math.sin(0.6) * sims["lift"].state.position  # m, of the hook; a motor that keeps a speed has sagged a little
     assert sims["luff"].state.effort == pytest.approx(-(2 * 0.5 * math.cos(0.6) + 3 * reach) * GRAVITY, rel=1e-6)
     assert sims["lift"].state.effort == pytest.approx(3 * math.cos(0.6) * GRAVITY, rel=1e-6)
-    sims["luff"].add("EffortMode", EffortMode(sims["luff"].joint, JointHandle(sims["luff"].state, 0.0),
-                                              EffortJointSaturationHandle(JointHandle(sims["luff"].state, 0.0), HARD), 90.0))
+    sims["luff"].add(
+        "EffortMode",
+        EffortMode(
+            sims["luff"].joint,
+            JointHandle(sims["luff"].state, 0.0),
+            EffortJointSaturationHandle(JointHandle(sims["luff"].state, 0.0), HARD),
+            90.0,
+        ),
+    )
     sims["luff"].switch("EffortMode")
     assert sims["luff"].state.effort == 0.0

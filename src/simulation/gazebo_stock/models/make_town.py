@@ -7,9 +7,42 @@ are composed of is our own. Cars stand along x with the front at +x, ambulances,
 from typing import Dict, Tuple
 
 from pieces import Model, Shape, box, colour
-from town_shapes import (BLUE, BRICK, CREAM, GREY, LEAVES, RED, WHITE, YELLOW, block, cafe, car, coach, fast_food, fire_station, flat,
-                         fountain, gas_station, hatchback, house, lamp, maze_wall, number, oak, pallet, pickup, pine, speed_limit,
-                         stop_light, stop_light_post, telephone_pole, tote, tower, truss, water_tower)
+from town_shapes import (
+    BLUE,
+    BRICK,
+    CREAM,
+    GREY,
+    LEAVES,
+    RED,
+    WHITE,
+    YELLOW,
+    block,
+    cafe,
+    car,
+    coach,
+    fast_food,
+    fire_station,
+    flat,
+    fountain,
+    gas_station,
+    hatchback,
+    house,
+    lamp,
+    maze_wall,
+    number,
+    oak,
+    pallet,
+    pickup,
+    pine,
+    speed_limit,
+    stop_light,
+    stop_light_post,
+    telephone_pole,
+    tote,
+    tower,
+    truss,
+    water_tower,
+)
 
 
 def static(title: str, description: str, shapes: Tuple[Shape, ...], name: str = "", **more) -> Model:

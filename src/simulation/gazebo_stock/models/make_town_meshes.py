@@ -3,13 +3,13 @@
 
 Run after a change: ``python3 make_town_meshes.py``.
 """
+
 import math
 from pathlib import Path
 from typing import Dict, List, NamedTuple, Tuple
 from xml.etree import ElementTree
 
 import numpy as np
-
 from make_meshes import Solid, box, collada, cylinder, turned
 from make_town import TOWN
 

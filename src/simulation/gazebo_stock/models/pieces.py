@@ -1,4 +1,5 @@
 """What the stock models are made of: elements of SDF, shapes, a model of one link, and its files."""
+
 from dataclasses import dataclass, field
 from typing import Dict, Optional, Tuple
 from xml.sax.saxutils import escape
@@ -9,6 +10,7 @@ GAZEBO_SCRIPT = "file://media/materials/scripts/gazebo.material"
 
 
 # ---------------------------------------------------------------------------------------------- pieces of SDF
+
 
 def tag(kind, /, *content, **attributes):
     """One element; content that spans lines is indented."""
@@ -42,8 +44,11 @@ def friction(mu, mu2=None):
 
 
 def contact(torsional=False, **values):
-    rolling = tag("friction", tag("torsional", tag("coefficient", 1.0), tag("use_patch_radius", 0),
-                                  tag("surface_radius", 0.01))) if torsional else ""
+    rolling = (
+        tag("friction", tag("torsional", tag("coefficient", 1.0), tag("use_patch_radius", 0), tag("surface_radius", 0.01)))
+        if torsional
+        else ""
+    )
     return tag("surface", rolling, tag("contact", tag("ode", *(tag(key, value) for key, value in values.items()))))
 
 
@@ -52,8 +57,7 @@ def script(name, *uris):
 
 
 def colour(r, g, b):
-    return tag("material", tag("ambient", numbers((r, g, b, 1))), tag("diffuse", numbers((r, g, b, 1))),
-               tag("specular", "0.1 0.1 0.1 1"))
+    return tag("material", tag("ambient", numbers((r, g, b, 1))), tag("diffuse", numbers((r, g, b, 1))), tag("specular", "0.1 0.1 0.1 1"))
 
 
 @dataclass
@@ -103,38 +107,68 @@ def model_sdf(directory: str, model: Model) -> str:
     if model.mass is not None:
         ixx, iyy, izz = model.inertia
         tensor = (("ixx", ixx), ("ixy", 0), ("ixz", 0), ("iyy", iyy), ("iyz", 0), ("izz", izz))
-        content.append(tag("inertial", pose(model.com) if any(model.com) else "", tag("mass", f"{model.mass:.10g}"),
-                           tag("inertia", *(tag(key, f"{value:.10g}") for key, value in tensor))))
+        content.append(
+            tag(
+                "inertial",
+                pose(model.com) if any(model.com) else "",
+                tag("mass", f"{model.mass:.10g}"),
+                tag("inertia", *(tag(key, f"{value:.10g}") for key, value in tensor)),
+            )
+        )
     for shape in model.shapes:
         if shape.collides:
-            content.append(tag("collision", pose(shape.pose), tag("geometry", shape.geometry), shape.surface,
-                               name=shape.name))
+            content.append(tag("collision", pose(shape.pose), tag("geometry", shape.geometry), shape.surface, name=shape.name))
     for shape in model.shapes:
         if shape.seen and not model.mesh:
-            content.append(tag("visual", pose(shape.pose), tag("geometry", shape.geometry), shape.material,
-                               name=shape.name + "_visual" if len(model.shapes) > 1 else "visual"))
+            content.append(
+                tag(
+                    "visual",
+                    pose(shape.pose),
+                    tag("geometry", shape.geometry),
+                    shape.material,
+                    name=shape.name + "_visual" if len(model.shapes) > 1 else "visual",
+                )
+            )
     if model.mesh:
         scale = SCALES.get(directory)
-        content.append(tag("visual", pose(model.mesh_pose), tag("geometry", tag(
-            "mesh", tag("uri", f"model://{directory}/meshes/{model.mesh}"),
-            tag("scale", numbers(scale)) if scale else "")), name="visual"))
+        content.append(
+            tag(
+                "visual",
+                pose(model.mesh_pose),
+                tag(
+                    "geometry",
+                    tag("mesh", tag("uri", f"model://{directory}/meshes/{model.mesh}"), tag("scale", numbers(scale)) if scale else ""),
+                ),
+                name="visual",
+            )
+        )
     content.append(model.extra)
     link = tag("link", pose(model.link_pose), *content, name=model.link)
-    body = tag("model", tag("static", "true") if model.static else "", pose(model.pose), link,
-               name=model.name or directory)
+    body = tag("model", tag("static", "true") if model.static else "", pose(model.pose), link, name=model.name or directory)
     return '<?xml version="1.0"?>\n' + tag("sdf", body, version="1.5") + "\n"
 
 
 def model_config(model: Model) -> str:
     author = tag("author", tag("name", "noetic_labs"), tag("email", "noetic-labs@users.noreply.github.com"))
-    return '<?xml version="1.0"?>\n' + tag(
-        "model", tag("name", model.title), tag("version", "1.0"), tag("sdf", "model.sdf", version="1.5"), author,
-        tag("description", escape(model.description))) + "\n"
+    return (
+        '<?xml version="1.0"?>\n'
+        + tag(
+            "model",
+            tag("name", model.title),
+            tag("version", "1.0"),
+            tag("sdf", "model.sdf", version="1.5"),
+            author,
+            tag("description", escape(model.description)),
+        )
+        + "\n"
+    )
 
 
 def ogre_script(materials) -> str:
     blocks = []
     for name, (r, g, b) in materials.items():
-        blocks.append(f"material {name}\n{{\n  technique\n  {{\n    pass\n    {{\n      ambient {r} {g} {b} 1\n"
-                      f"      diffuse {r} {g} {b} 1\n      specular 0.1 0.1 0.1 1 5\n    }}\n  }}\n}}\n")
+        blocks.append(
+            f"material {name}\n{{\n  technique\n  {{\n    pass\n    {{\n      ambient {r} {g} {b} 1\n"
+            f"      diffuse {r} {g} {b} 1\n      specular 0.1 0.1 0.1 1 5\n    }}\n  }}\n}}\n"
+        )
     return "\n".join(blocks)

@@ -1,10 +1,10 @@
 """The person that walks through worlds: the files are what their script writes, and the person keeps its feet on the ground."""
+
 import importlib.util
 from pathlib import Path
 
 import numpy as np
 import pytest
-
 from ode_sim import World, math3
 from ode_sim.description import ResourceFinder
 from ode_sim.mesh import load as load_mesh
@@ -27,9 +27,11 @@ def test_files_are_what_their_script_writes(monkeypatch):
 
 
 def walker(name, waypoints="", along="true"):
-    return (f"<sdf version='1.6'><world name='w'><actor name='p'><skin><filename>{name}</filename></skin><animation name='a'>"
-            f"<filename>file://media/models/{name}</filename><interpolate_x>{along}</interpolate_x></animation>"
-            f"<script><loop>false</loop><trajectory id='0' type='a'>{waypoints}</trajectory></script></actor></world></sdf>")
+    return (
+        f"<sdf version='1.6'><world name='w'><actor name='p'><skin><filename>{name}</filename></skin><animation name='a'>"
+        f"<filename>file://media/models/{name}</filename><interpolate_x>{along}</interpolate_x></animation>"
+        f"<script><loop>false</loop><trajectory id='0' type='a'>{waypoints}</trajectory></script></actor></world></sdf>"
+    )
 
 
 @pytest.mark.parametrize("name", PEOPLE)
@@ -63,7 +65,7 @@ TOES = (0.0, 0.96, -0.28)
 
 def test_the_feet_of_who_walks_hardly_slide():
     """With <interpolate_x> and a straight way: while the sole of a foot is on the ground its ankle stays where it is."""
-    way = ("<waypoint><time>0</time><pose>0 0 0 0 0 0</pose></waypoint><waypoint><time>4</time><pose>4 0 0 0 0 0</pose></waypoint>")
+    way = "<waypoint><time>0</time><pose>0 0 0 0 0 0</pose></waypoint><waypoint><time>4</time><pose>4 0 0 0 0 0</pose></waypoint>"
     world = World.load(walker("walk.dae", way), finder=FINDER)
     on_ground = {"LeftFoot": [], "RightFoot": []}
     for _ in range(110):
@@ -87,8 +89,13 @@ def test_who_is_played_by_a_plugin_stands_where_it_was_put_until_then():
 def test_bones_lie_along_their_y_as_those_of_gazebos_files():
     """So a skin of those files is bent by our animations, and the other way round."""
     links = World.load(walker("walk.dae"), finder=FINDER).models["p"].links
-    for bone, child in (("LeftUpLeg", "LeftLeg"), ("RightLeg", "RightFoot"), ("LeftArm", "LeftForeArm"), ("RightForeArm", "RightHand"),
-                        ("Spine", "Spine1")):
+    for bone, child in (
+        ("LeftUpLeg", "LeftLeg"),
+        ("RightLeg", "RightFoot"),
+        ("LeftArm", "LeftForeArm"),
+        ("RightForeArm", "RightHand"),
+        ("Spine", "Spine1"),
+    ):
         along = np.subtract(links[child].pose.p, links[bone].pose.p)
         y_axis = math3.rotate(links[bone].pose, (0.0, 1.0, 0.0))
         assert np.dot(along, y_axis) / np.linalg.norm(along) > 0.99, bone

@@ -1,10 +1,10 @@
 """The models and worlds that come with the simulator."""
+
 import importlib.util
 from pathlib import Path
 
 import numpy as np
 import pytest
-
 from ode_sim import World, math3, mesh
 from ode_sim.description import ResourceFinder, load_world
 from ode_sim.description.model import Mesh
@@ -27,8 +27,9 @@ def generated(folder, script):
     return module.files()
 
 
-@pytest.mark.parametrize("folder, script", [
-    ("models", "make_meshes"), ("models", "make_models"), ("models", "make_town_meshes"), ("worlds", "make_worlds")])
+@pytest.mark.parametrize(
+    "folder, script", [("models", "make_meshes"), ("models", "make_models"), ("models", "make_town_meshes"), ("worlds", "make_worlds")]
+)
 def test_files_are_what_their_script_writes(folder, script, monkeypatch):
     monkeypatch.syspath_prepend(str(STOCK / "models"))
     for name, text in generated(folder, script).items():
@@ -64,8 +65,13 @@ def test_what_collides_is_where_it_is_seen(name):
             if isinstance(g, Mesh):
                 corners = mesh.load(g).vertices
             else:
-                half = (tuple(v / 2 for v in g.size) if hasattr(g, "size") else
-                        (g.radius, g.radius, g.length / 2) if hasattr(g, "length") else (g.radius,) * 3)
+                half = (
+                    tuple(v / 2 for v in g.size)
+                    if hasattr(g, "size")
+                    else (g.radius, g.radius, g.length / 2)
+                    if hasattr(g, "length")
+                    else (g.radius,) * 3
+                )
                 corners = [(x * half[0], y * half[1], z * half[2]) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
             points += [math3.transform(shape.pose, tuple(c)) for c in corners]
         return np.array([np.min(points, axis=0), np.max(points, axis=0)])
@@ -110,7 +116,7 @@ def test_what_can_fall_stands(name):
     roll, pitch, _ = math3.to_rpy(model.pose)
     assert abs(roll) < 0.02 and abs(pitch) < 0.02 and math3.norm(link.com_velocity()) < 1e-3
     drop = start[2] - link.pose.p[2]
-    assert (0.13 < drop < 0.14 if name == "car_wheel" else -0.01 < drop < 0.005)  # the wheel lies down from its rim
+    assert 0.13 < drop < 0.14 if name == "car_wheel" else -0.01 < drop < 0.005  # the wheel lies down from its rim
     assert math3.norm(math3.sub(start, link.pose.p)[:2] + (0.0,)) < 0.005
     assert not world.messages
 
@@ -126,8 +132,7 @@ def test_a_world_loads_without_a_word_and_runs(name):
 def test_only_the_slippery_boxes_slide():
     world = World.load("worlds/friction_demo.world", finder=FINDER)
     world.step(2000)
-    gone = {name for name, model in world.models.items()
-            if math3.norm(math3.sub(model.pose.p, model.initial_pose.p)) > 0.1}
+    gone = {name for name, model in world.models.items() if math3.norm(math3.sub(model.pose.p, model.initial_pose.p)) > 0.1}
     assert gone == {"box_mu_0.05", "box_mu_0.15", "box_mu_0.25"}
 
 
@@ -139,11 +144,14 @@ def test_the_seesaw_tips_to_the_heavy_side():
 
 
 def test_every_textured_gazebo_material_has_its_picture():
+    from ode_sim.description import materials
     from PIL import Image
 
-    from ode_sim.description import materials
-    pictures = {material.name: material.texture for material in
-                (materials.gazebo_material(name, FINDER) for name in materials.NAMES) if material.texture}
+    pictures = {
+        material.name: material.texture
+        for material in (materials.gazebo_material(name, FINDER) for name in materials.NAMES)
+        if material.texture
+    }
     assert {"Gazebo/Wood", "Gazebo/Bricks", "Gazebo/CeilingTiled", "Gazebo/Grass", "Gazebo/Road"} <= set(pictures)
     for picture in set(pictures.values()):
         with Image.open(picture) as image:

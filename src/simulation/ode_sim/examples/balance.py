@@ -4,6 +4,7 @@
 CMA-ES (the library ``cma``) finds the four weights by which position and velocity of cart and pole become the force on the cart. Each
 generation's policies play side by side in a vector environment; the pole starts up to 0.3 rad off upright.
 """
+
 import argparse
 import pathlib
 
@@ -32,8 +33,16 @@ def fallen(episodes, action):
     return abs(episodes.position("hinge")) > FALLEN
 
 
-CARTPOLE = dict(robot=str(pathlib.Path(__file__).with_name("cartpole.urdf")), commands=[Command("slider", "effort")],
-                joints=["slider", "hinge"], reward=reward, terminated=fallen, start=leaning, limit=ACTIONS, period=0.02)
+CARTPOLE = dict(
+    robot=str(pathlib.Path(__file__).with_name("cartpole.urdf")),
+    commands=[Command("slider", "effort")],
+    joints=["slider", "hinge"],
+    reward=reward,
+    terminated=fallen,
+    start=leaning,
+    limit=ACTIONS,
+    period=0.02,
+)
 
 
 def make(number):
@@ -96,8 +105,10 @@ def main():
         print(f"generation {generation}: mean reward {scores.mean():.3f}, the pole stays up for {lasted.mean():.2f} s", flush=True)
     one = make(1)
     results = [play(one, search.mean[None], seed=1000 + number) for number in range(10)]
-    print(f"10 new starts: mean reward {np.mean([r[0] for r in results]):.3f}, "
-          f"the pole stays up for {np.mean([r[1] for r in results]):.2f} of 10 s")
+    print(
+        f"10 new starts: mean reward {np.mean([r[0] for r in results]):.3f}, "
+        f"the pole stays up for {np.mean([r[1] for r in results]):.2f} of 10 s"
+    )
     if options.film:
         film(search.mean[None], 1000, options.film)
 

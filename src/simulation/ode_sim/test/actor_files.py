@@ -51,8 +51,17 @@ def rig(animated=True, unit=1.0, joints="hips arm", v="0 0 0 0 0 0 0 0 1 0 1 0 1
     """Text of the file. ``unit``: m, in which it is written; it stands for the same person."""
     points = [c / unit for base in (1.0, 1.5) for x, y, z in SOLID for c in (x, y, z + base)]
     animation = ANIMATION.format(h0=1.0 / unit, h1=1.1 / unit, x1=0.5 / unit, x2=1.0 / unit) if animated else ""
-    return RIG.format(unit=unit, points=" ".join(map(str, points)), joints=joints, bind=-1.0 / unit, arm_bind=-1.5 / unit, v=v,
-                      animation=animation, high=1.0 / unit, arm=0.5 / unit)
+    return RIG.format(
+        unit=unit,
+        points=" ".join(map(str, points)),
+        joints=joints,
+        bind=-1.0 / unit,
+        arm_bind=-1.5 / unit,
+        v=v,
+        animation=animation,
+        high=1.0 / unit,
+        arm=0.5 / unit,
+    )
 
 
 WALK = """<trajectory id="0" type="walk"><waypoint><time>0</time><pose>0 2 0 0 0 0</pose></waypoint>
@@ -62,8 +71,10 @@ WALK = """<trajectory id="0" type="walk"><waypoint><time>0</time><pose>0 2 0 0 0
 def actor(skin, script=f"<loop>true</loop>{WALK}", extra="", animation="", name="walker", scale=1.0):
     """``<actor>``; its skin is its animation 'walk' as well, which goes with the way."""
     animation = animation or (f'<animation name="walk"><filename>{skin}</filename><interpolate_x>true</interpolate_x></animation>')
-    return (f'<actor name="{name}"><pose>7 7 7 0 0 0</pose><skin><filename>{skin}</filename><scale>{scale}</scale></skin>{animation}'
-            f'<script>{script}</script>{extra}</actor>')
+    return (
+        f'<actor name="{name}"><pose>7 7 7 0 0 0</pose><skin><filename>{skin}</filename><scale>{scale}</scale></skin>{animation}'
+        f"<script>{script}</script>{extra}</actor>"
+    )
 
 
 def world(*parts):

@@ -1,10 +1,10 @@
 """Small worlds that between them take every road through the core. Each function makes one: models and the commands of each step."""
+
 import math
 from dataclasses import replace
 
 import ode_sim
-from ode_sim.description.model import (
-    Axis, Box, Capsule, Collision, Cylinder, Inertial, Joint, Link, Model, Pose, Surface)
+from ode_sim.description.model import Axis, Box, Capsule, Collision, Cylinder, Inertial, Joint, Link, Model, Pose, Surface
 from ode_sim.math3 import quat_from_rpy
 from physics_models import arm, box, box_inertia, car_urdf, diff_drive, gripper, ground, pendulum, sphere
 
@@ -18,16 +18,27 @@ def world_with(*models, **more):
 
 def ur5():
     """Six joints with the masses, lengths and limits of the real arm, bolted to the world. Efforts N m, speeds rad/s."""
-    parts = ((3.7, 0.15, 0.089, (0, 0, 1), 150, 3.15), (8.393, 0.425, 0.136, (0, 1, 0), 150, 3.15),
-             (2.275, 0.392, 0.425, (0, 1, 0), 150, 3.15), (1.219, 0.1, 0.392, (0, 1, 0), 28, 3.2),
-             (1.219, 0.1, 0.095, (0, 0, 1), 28, 3.2), (0.1879, 0.05, 0.095, (0, 1, 0), 28, 3.2))
+    parts = (
+        (3.7, 0.15, 0.089, (0, 0, 1), 150, 3.15),
+        (8.393, 0.425, 0.136, (0, 1, 0), 150, 3.15),
+        (2.275, 0.392, 0.425, (0, 1, 0), 150, 3.15),
+        (1.219, 0.1, 0.392, (0, 1, 0), 28, 3.2),
+        (1.219, 0.1, 0.095, (0, 0, 1), 28, 3.2),
+        (0.1879, 0.05, 0.095, (0, 1, 0), 28, 3.2),
+    )
     links = [Link("base", Pose(), box_inertia(4.0, (0.15, 0.15, 0.09)), (Collision("c", Pose(), Cylinder(0.075, 0.09)),))]
     joints, height = [Joint("bolt", "fixed", "world", "base")], 0.0
     for i, (mass, length, rise, axis, effort, speed) in enumerate(parts):
         height += rise
         middle = Pose((0, 0, length / 2))
-        links.append(Link(f"link{i}", Pose((0, 0, height)), box_inertia(mass, (0.1, 0.1, length), middle),
-                          (Collision("c", middle, Cylinder(0.05, length)),)))
+        links.append(
+            Link(
+                f"link{i}",
+                Pose((0, 0, height)),
+                box_inertia(mass, (0.1, 0.1, length), middle),
+                (Collision("c", middle, Cylinder(0.05, length)),),
+            )
+        )
         joints.append(Joint(f"j{i}", "revolute", links[-2].name, f"link{i}", axes=(Axis(axis, -2 * math.pi, 2 * math.pi, effort, speed),)))
     return Model("ur5", Pose(), tuple(links), tuple(joints))
 
@@ -93,7 +104,7 @@ def ur5_on_efforts():
 
 def pile():
     """Twenty boxes fall in a heap: the iterative solver and its random numbers."""
-    world, = world_with(seed=3)
+    (world,) = world_with(seed=3)
     rng = world.rng("heap")
     for i in range(20):
         world.spawn(box(f"box{i}", tuple(rng.uniform(-0.04, 0.04, 2)) + (0.06 + 0.07 * i,), rpy=tuple(rng.uniform(-0.2, 0.2, 3))))
@@ -114,8 +125,16 @@ def rolling():
     """Balls, a cylinder and a capsule roll down a slope, with friction of every kind."""
     world = ode_sim.World()
     world.spawn(ground(pitch=0.15, surface=Surface(mu=0.8, mu2=0.8)))
-    for i, surface in enumerate((Surface(), Surface(mu=0.05, mu2=0.05), Surface(mu=1.0, mu2=0.2, fdir1=(1.0, 1.0, 0.0)),
-                                 Surface(restitution=0.5, bounce_threshold=0.01), Surface(slip1=0.1, slip2=0.3), Surface(kp=1e4, kd=10.0))):
+    for i, surface in enumerate(
+        (
+            Surface(),
+            Surface(mu=0.05, mu2=0.05),
+            Surface(mu=1.0, mu2=0.2, fdir1=(1.0, 1.0, 0.0)),
+            Surface(restitution=0.5, bounce_threshold=0.01),
+            Surface(slip1=0.1, slip2=0.3),
+            Surface(kp=1e4, kd=10.0),
+        )
+    ):
         world.spawn(sphere(f"ball{i}", (0.0, 0.3 * i, 0.12), surface=surface))
     turned = quat_from_rpy(math.pi / 2, 0, 0)
     for i, shape in enumerate((Cylinder(0.08, 0.2), Capsule(0.08, 0.2), Cylinder(0.1, 0.1))):
@@ -126,8 +145,11 @@ def rolling():
 
 def grip():
     """A hand with position-commanded fingers takes a block and lifts it; the fingers become motors as they touch."""
-    world, hand, *_ = world_with(gripper(), box("part", at=(0, 0, 0.225), size=(0.05, 0.05, 0.05), mass=0.2),
-                                 box("stand", at=(0, 0, 0.1), size=(0.1, 0.03, 0.2), static=True))
+    world, hand, *_ = world_with(
+        gripper(),
+        box("part", at=(0, 0, 0.225), size=(0.05, 0.05, 0.05), mass=0.2),
+        box("stand", at=(0, 0, 0.1), size=(0.1, 0.03, 0.2), static=True),
+    )
     for joint in hand.joints.values():
         joint.feedback()
 
@@ -142,16 +164,21 @@ def grip():
 
 def loop():
     """A linkage of four bars that a force drives; a finger whose second joint follows the first, and whose third hangs free."""
+
     def bar(name, at, length, rpy=(0, 0, 0)):
         return Link(name, Pose(at, quat_from_rpy(*rpy)), box_inertia(0.5, (length, 0.04, 0.04), Pose((length / 2, 0, 0))))
 
     links = (bar("crank", (0, 0, 1), 0.2), bar("rocker", (0.6, 0, 1), 0.2), bar("coupler", (0.2, 0, 1), 0.6))
     hinge = (Axis((0, 1, 0), damping=0.01),)
-    joints = (Joint("drive", "revolute", "world", "crank", axes=hinge), Joint("pin", "revolute", "world", "rocker", axes=hinge),
-              Joint("a", "revolute", "crank", "coupler", axes=hinge),
-              Joint("b", "revolute", "coupler", "rocker", pose=Pose((0.2, 0, 0)), axes=hinge))
-    world, linkage, finger, swing = world_with(Model("linkage", Pose(), links, joints), arm(3, name="finger", at=(0, 2, 0)),
-                                               pendulum(name="swing"))
+    joints = (
+        Joint("drive", "revolute", "world", "crank", axes=hinge),
+        Joint("pin", "revolute", "world", "rocker", axes=hinge),
+        Joint("a", "revolute", "crank", "coupler", axes=hinge),
+        Joint("b", "revolute", "coupler", "rocker", pose=Pose((0.2, 0, 0)), axes=hinge),
+    )
+    world, linkage, finger, swing = world_with(
+        Model("linkage", Pose(), links, joints), arm(3, name="finger", at=(0, 2, 0)), pendulum(name="swing")
+    )
     finger.joints["j1"].follow(finger.joints["j0"], 0.5, 0.1)
     swing.joints["hinge"].set_position(0.7)
 
@@ -165,7 +192,7 @@ def loop():
 
 def islands():
     """Boxes side by side fall asleep; a ball that rolls wakes one after the other."""
-    world, = world_with()
+    (world,) = world_with()
     for i in range(12):
         world.spawn(box(f"box{i}", at=(0.4 * i, 0, 0.0505)))
     ball = world.spawn(sphere(at=(-2.5, 0.0, 0.1), mass=3.0))
@@ -175,7 +202,7 @@ def islands():
 
 def carried():
     """A car whose steering is position-commanded and whose wheels turn by motors; a load tied to it; a trailer on a rope of welds."""
-    world, = world_with()
+    (world,) = world_with()
     robot = world.spawn_urdf(car_urdf(), pose=Pose((0, 0, 0.06)))
     load = world.spawn(box("load", at=(0, 0, 0.22)))
     world.step(5)

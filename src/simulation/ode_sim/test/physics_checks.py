@@ -1,4 +1,5 @@
 """What the tests of hostile inputs ask of every world."""
+
 import numpy as np
 import pytest
 

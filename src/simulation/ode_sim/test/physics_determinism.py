@@ -1,4 +1,5 @@
 """Run a busy world and print a digest of every bit of its state. Started by the tests in processes of their own."""
+
 import hashlib
 import sys
 

@@ -1,4 +1,5 @@
 """Scenes of a few coloured bodies, and their pixels."""
+
 import numpy as np
 import pytest
 from ode_sim.description.model import Link, Material, Model, Scene, Visual

@@ -1,6 +1,6 @@
 """What the tests of SDF share: models in a folder, and short ways to read a body."""
-import pytest
 
+import pytest
 from ode_sim.description import ResourceFinder, load_world, read_sdf_model
 
 BOX = "<geometry><box><size>1 2 3</size></box></geometry>"
@@ -19,8 +19,8 @@ def models(tmp_path):
         (folder / "model.config").write_text(config)
         (folder / "model.sdf").write_text(sdf)
         return folder
-    add.finder = ResourceFinder([tmp_path / "models"], [tmp_path], environment=False, stock="/nowhere",
-                                package_path=lambda name: None)
+
+    add.finder = ResourceFinder([tmp_path / "models"], [tmp_path], environment=False, stock="/nowhere", package_path=lambda name: None)
     return add
 
 

@@ -1,13 +1,13 @@
 """Actors: where the script has them at what time, what of them is in the world, and what broken files do."""
+
 import json
 import math
 from dataclasses import replace
 
 import numpy as np
+import ode_sim
 import pytest
 from actor_files import BVH, WALK, actor, rig, world
-
-import ode_sim
 from ode_sim.actors.animation import load_animation
 from ode_sim.actors.script import Path, Script
 from ode_sim.actors.skeleton import load_skeleton
@@ -18,7 +18,6 @@ from ode_sim.description.model import ActorScript, DescriptionError, Pose, Traje
 from ode_sim.description.sdf_writer import world_text
 from ode_sim.math3 import quat_from_rpy
 from ode_sim.mesh import load_surface, load_visual
-
 
 FINDER = ResourceFinder(environment=False, package_path=lambda name: None)
 
@@ -79,6 +78,7 @@ def test_curves_are_those_of_the_original(closed, tension, index, t, known):
 
 # ---------------------------------------------------------------------------------------------- scripts
 
+
 def script(*trajectories, **rest):
     return Script(ActorScript(trajectories=trajectories, **rest), {"walk": 2.0, "wave": 3.0})
 
@@ -100,7 +100,14 @@ def test_trajectories_follow_one_another_by_their_ids():
 def test_it_loops_and_waits_anew_in_every_round():
     played = script(straight(0, 0, 1, 4.0), delay_start=1.0)
     assert [at(played, s) for s in (0.0, 0.9, 1.5, 4.9, 5.5, 6.5, 16.5)] == [
-        (0, 0.0, 0), (0, 0.0, 0), (0, 0.5, 0), (0, 3.9, 0), (0, 0.0, 1), (0, 0.5, 1), (0, 0.5, 3)]
+        (0, 0.0, 0),
+        (0, 0.0, 0),
+        (0, 0.5, 0),
+        (0, 3.9, 0),
+        (0, 0.0, 1),
+        (0, 0.5, 1),
+        (0, 0.5, 3),
+    ]
 
 
 def test_what_does_not_loop_stays_at_its_end():
@@ -132,6 +139,7 @@ def test_a_loop_of_one_trajectory_walks_on():
 
 
 # ---------------------------------------------------------------------------------------------- files
+
 
 @pytest.mark.parametrize("unit", [1.0, 0.01])
 def test_bones_rest_and_move_as_the_file_says(tmp_path, unit):
@@ -201,8 +209,10 @@ def test_a_broken_skin_is_one_line_and_the_rest_of_the_world_is_there(tmp_path, 
 
 def test_times_without_end_and_frames_without_number_are_refused(tmp_path):
     path = tmp_path / "walk.dae"
-    for old, new, reason in (("0 1 2</float_array>", "0 1 1e300</float_array>", "no clock"),
-                             ("0 90</float_array>", "0 90 5</float_array>", "3 values")):
+    for old, new, reason in (
+        ("0 1 2</float_array>", "0 1 1e300</float_array>", "no clock"),
+        ("0 90</float_array>", "0 90 5</float_array>", "3 values"),
+    ):
         path.write_text(rig().replace(old, new))
         with pytest.raises(DescriptionError, match=reason):
             load_animation(str(path))
@@ -219,12 +229,19 @@ def test_motion_capture_is_played_in_the_bones_of_the_skin(tmp_path, skin):
     assert arm.q == pytest.approx(quat_from_rpy(0.0, math.radians(45.0), 0.0), abs=0.02)
 
 
-@pytest.mark.parametrize("old, new, reason", [
-    ("HIERARCHY", "", "does not begin"), ("MOTION", "", "no MOTION"), ("Frames: 3", "Frames: 0", "0 usable frames"),
-    ("0.5", "1e9", "nothing to play"), ("5 6 7 0 0 0 0 90 0", "5 6 7 0 0 0 0 nan 0", "none"),
-    ("  JOINT arm\n  {\n    OFFSET", "  JOINT less\n  {\n OFFSET 0 0 1\n CHANNELS 0\n JOINT arm\n  {\n    OFFSET",
-     "is not that of"),
-    ("CHANNELS 3 Zrotation Yrotation Xrotation", "", "without CHANNELS"), ("  End Site", "  JOINT more", "without CHANNELS")])
+@pytest.mark.parametrize(
+    "old, new, reason",
+    [
+        ("HIERARCHY", "", "does not begin"),
+        ("MOTION", "", "no MOTION"),
+        ("Frames: 3", "Frames: 0", "0 usable frames"),
+        ("0.5", "1e9", "nothing to play"),
+        ("5 6 7 0 0 0 0 90 0", "5 6 7 0 0 0 0 nan 0", "none"),
+        ("  JOINT arm\n  {\n    OFFSET", "  JOINT less\n  {\n OFFSET 0 0 1\n CHANNELS 0\n JOINT arm\n  {\n    OFFSET", "is not that of"),
+        ("CHANNELS 3 Zrotation Yrotation Xrotation", "", "without CHANNELS"),
+        ("  End Site", "  JOINT more", "without CHANNELS"),
+    ],
+)
 def test_broken_motion_capture_is_one_line(tmp_path, skin, old, new, reason):
     path = tmp_path / "wave.bvh"
     path.write_text(BVH.replace(old, new, 1))
@@ -245,6 +262,7 @@ def test_an_animation_of_another_skeleton_is_left_out_by_name(tmp_path, skin):
 
 
 # ---------------------------------------------------------------------------------------------- in the world
+
 
 def test_it_is_where_the_script_has_it_with_its_bones(skin):
     w = load(actor(skin))
@@ -284,8 +302,10 @@ def test_a_scaled_skin_scales_bones_and_way(skin):
 
 
 def test_boxes_move_as_their_actor_without_any_skin():
-    w = load('<actor name="walker"><link name="box"><collision name="c"><geometry><box><size>.2 .2 .2</size></box></geometry>'
-             f'</collision></link><script>{WALK}</script></actor>')
+    w = load(
+        '<actor name="walker"><link name="box"><collision name="c"><geometry><box><size>.2 .2 .2</size></box></geometry>'
+        f"</collision></link><script>{WALK}</script></actor>"
+    )
     run_to(w, 2.0)
     assert place(w, "box") == pytest.approx([2.0, 2.0, 0.0], abs=0.05)
 
@@ -295,7 +315,7 @@ def test_a_snapshot_whose_actors_are_damaged_changes_nothing(skin):
     early = w.save()
     run_to(w, 1.0)
     now = bytes(w.save())
-    for damaged in ('[]', '[[1, 2]]', '[["x", true, 0, null, 0.0, false]]', '[null]'):
+    for damaged in ("[]", "[[1, 2]]", '[["x", true, 0, null, 0.0, false]]', "[null]"):
         kept = json.loads(early.generators)
         kept["actors"] = json.loads(damaged)
         with pytest.raises(ValueError, match="its random numbers or actors are damaged"):
@@ -352,8 +372,9 @@ def test_it_comes_and_goes_while_the_world_runs(skin):
 
 
 def test_it_waits_where_it_begins(skin):
-    w = load(actor(skin, script=f"<delay_start>1</delay_start>{WALK}"),
-             actor(skin, script=f"<auto_start>false</auto_start>{WALK}", name="idle"))
+    w = load(
+        actor(skin, script=f"<delay_start>1</delay_start>{WALK}"), actor(skin, script=f"<auto_start>false</auto_start>{WALK}", name="idle")
+    )
     run_to(w, 0.9)
     assert place(w) == pytest.approx([0.0, 2.0, 1.0]) and w.models["idle"].links["hips"].pose.p == pytest.approx((7.0, 7.0, 7.0))
     run_to(w, 3.0)
@@ -374,8 +395,7 @@ def test_rays_see_its_skin_and_nothing_feels_it(skin):
 
 
 def test_what_was_let_collide_pushes(skin):
-    extra = ('<link name="belly"><collision name="c"><geometry><sphere><radius>0.3</radius></sphere></geometry></collision>'
-             '</link>')
+    extra = '<link name="belly"><collision name="c"><geometry><sphere><radius>0.3</radius></sphere></geometry></collision></link>'
     w = load(actor(skin, extra=extra), BALL)
     w.actors["walker"].let_collide()
     run_to(w, 1.5)

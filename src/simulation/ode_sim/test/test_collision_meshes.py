@@ -1,17 +1,17 @@
 """Search trees of collision meshes: built once, beforehand if wanted, shared."""
+
 import gc
 import math
 import threading
 from dataclasses import replace
 
 import numpy as np
-import pytest
-from PIL import Image
-
 import ode_sim
+import pytest
 from ode_sim import collision_meshes, math3
 from ode_sim.description.model import Box, Collision, Heightmap, Inertial, Link, Mesh, Model, Polyline, Pose
 from physics_models import ground
+from PIL import Image
 
 
 def dome(rings, radius=0.2):
@@ -138,8 +138,9 @@ def rod():
     return corners, "".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "".join(f"f {a} {b} {c}\nf {a} {c} {d}\n" for a, b, c, d in quads)
 
 
-FUNNEL = ("v 0 0 0\n" + "".join(f"v {x} {y} 1\n" for x, y in ((2, 2), (-2, 2), (-2, -2), (2, -2)))
-          + "f 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 2\n")  # no hull of it is empty above it: z = max(|x|, |y|) / 2
+FUNNEL = (
+    "v 0 0 0\n" + "".join(f"v {x} {y} 1\n" for x, y in ((2, 2), (-2, 2), (-2, -2), (2, -2))) + "f 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 2\n"
+)  # no hull of it is empty above it: z = max(|x|, |y|) / 2
 
 
 @pytest.mark.parametrize("on", ("plane", "mesh", "funnel"))
@@ -165,6 +166,7 @@ def test_a_mesh_that_falls_and_turns_touches_when_its_lowest_corner_does(tmp_pat
         turned = np.array([math3.transform(rods.pose, tuple(corner)) for corner in corners])
         below = np.max(np.abs(turned[:, :2]), axis=1) / 2 if on == "funnel" else 0.0
         return float(np.min(turned[:, 2] - below))
+
     for _ in range(2000):
         height = above()
         world.step(1)

@@ -1,4 +1,5 @@
 """Runs test_core.cpp: the pure functions of the core."""
+
 import pathlib
 import subprocess
 

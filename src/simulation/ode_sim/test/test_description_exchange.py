@@ -1,11 +1,13 @@
 """Descriptions that travel to another process and into a world file come back as they were."""
+
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from ode_sim import World
-from ode_sim.description import load_world, model as d, read_model
+from ode_sim.description import load_world, read_model
+from ode_sim.description import model as d
 from ode_sim.description.exchange import dumps, loads
 from ode_sim.description.sdf_writer import light_text, model_text, world_text
 from ode_sim.viewer.saving import describe_now
@@ -49,7 +51,7 @@ def test_a_written_model_is_read_as_the_same(robot):
     assert not problems
     for ours, theirs in zip(robot.links, back.links):
         np.testing.assert_allclose(theirs.pose.p + theirs.pose.q, ours.pose.p + ours.pose.q, atol=1e-9)
-        assert theirs.inertial == ours.inertial and theirs.sensors[0:1] == theirs.sensors[0:len(ours.sensors)]
+        assert theirs.inertial == ours.inertial and theirs.sensors[0:1] == theirs.sensors[0 : len(ours.sensors)]
         assert [v.geometry for v in theirs.visuals] == [v.geometry for v in ours.visuals]
         assert [v.material.diffuse for v in theirs.visuals] == [v.material.diffuse for v in ours.visuals]
         assert [c.surface for c in theirs.collisions] == [c.surface for c in ours.collisions]
@@ -61,8 +63,8 @@ def test_a_written_model_is_read_as_the_same(robot):
 
 def test_a_light_is_read_as_the_same():
     from ode_sim.description import read_light
-    light = d.Light("lamp", "spot", d.Pose((1.0, 2.0, 3.0)), diffuse=(0.5, 0.25, 1.0, 1.0), range=7.0,
-                    spot=(0.2, 0.4, 1.0))
+
+    light = d.Light("lamp", "spot", d.Pose((1.0, 2.0, 3.0)), diffuse=(0.5, 0.25, 1.0, 1.0), range=7.0, spot=(0.2, 0.4, 1.0))
     assert dumps(read_light(light_text(light))[0]) == dumps(light)
 
 
@@ -73,7 +75,8 @@ def test_a_road_is_saved_as_it_was_read():
     again = World.load(world_text(describe_now(world)))
     assert len(world.scene.roads) == 1 and not again.problems
     assert [dumps(replace(r, source=d.Source())) for r in again.scene.roads] == [
-        dumps(replace(r, source=d.Source())) for r in world.scene.roads]
+        dumps(replace(r, source=d.Source())) for r in world.scene.roads
+    ]
 
 
 @pytest.mark.parametrize("name", ["worlds/shapes.world", "worlds/seesaw.world", "worlds/cafe.world"])

@@ -1,8 +1,8 @@
 """Where files are looked for, and in which order."""
+
 import time
 
 import pytest
-
 from ode_sim.description import DescriptionError, read_model
 from ode_sim.description.finder import ResourceFinder, find_ros_package
 from ode_sim.description.materials import script_material
@@ -26,9 +26,15 @@ def home(tmp_path, monkeypatch):
 def test_model_paths_in_gazebos_order(home, monkeypatch):
     monkeypatch.setenv("GAZEBO_MODEL_PATH", f"{home}/first::{home}/second")
     finder = ResourceFinder([home / "exported"], stock=str(home / "stock"))
-    assert finder.model_paths == [f"{home}/home/.gazebo/models", f"{home}/first", f"{home}/second", f"{home}/exported",
-                                  f"{home}/home/model_editor_models", f"{home}/home/building_editor_models",
-                                  f"{home}/stock/models"]
+    assert finder.model_paths == [
+        f"{home}/home/.gazebo/models",
+        f"{home}/first",
+        f"{home}/second",
+        f"{home}/exported",
+        f"{home}/home/model_editor_models",
+        f"{home}/home/building_editor_models",
+        f"{home}/stock/models",
+    ]
     for folder in ("stock/models", "home/model_editor_models", "exported", "second", "first", "home/.gazebo/models"):
         expected = touch(home / folder / "m/mesh.dae")
         assert finder.find("model://m/mesh.dae") == expected  # each new one hides the ones before
@@ -88,7 +94,8 @@ def test_a_file_of_a_package_that_is_named_by_another_path_is_told(home, monkeyp
     assert finder.explain("/home/author/ws/src/pkg/meshes/a b.stl") == finder.explain("file:///home/author/pkg/meshes/a%20b.stl") == told
     assert finder.explain("/home/author/ws/src/pkg/meshes/b.stl") == finder.explain("/home/author/meshes/a b.stl") == "no such file"
     assert finder.explain("model://pkg/meshes/a b.stl").endswith(
-        f"; the ROS package 'pkg' has it: name its parent in GAZEBO_MODEL_PATH, export GAZEBO_MODEL_PATH=$GAZEBO_MODEL_PATH:{home}/ws/src")
+        f"; the ROS package 'pkg' has it: name its parent in GAZEBO_MODEL_PATH, export GAZEBO_MODEL_PATH=$GAZEBO_MODEL_PATH:{home}/ws/src"
+    )
     assert "ROS package" not in finder.explain("model://pkg/meshes/b.stl")
 
 
@@ -128,20 +135,44 @@ def traps(home, monkeypatch):
     touch(home / "r/media/a.txt")
     monkeypatch.setenv("GAZEBO_RESOURCE_PATH", f"{home}/r")
     monkeypatch.chdir(home / "r")
-    return ResourceFinder([home / "models"], stock="", package_path={
-        "pkg": f"{home}/ws/pkg", "..": f"{home}", ".": f"{home}", "": f"{home}"}.get)
+    return ResourceFinder(
+        [home / "models"], stock="", package_path={"pkg": f"{home}/ws/pkg", "..": f"{home}", ".": f"{home}", "": f"{home}"}.get
+    )
 
 
-@pytest.mark.parametrize("uri", [
-    "model://../secret/a.txt", "model://m/../../secret/a.txt", "model:///../secret/a.txt", "model://%2e%2e/secret/a.txt",
-    "model://m/%2E%2E/..%2fsecret/a.txt", "model://..", "model://../models/../secret", "model:////../secret/a.txt",
-    "model://{home}/secret/a.txt",
-    "package://pkg/../../secret/a.txt", "package://../secret/a.txt", "package://./secret/a.txt", "package:///secret/a.txt",
-    "package://pkg/x/../../../secret/a.txt", "package://pkg/{home}/secret/a.txt", "package://pkg/%2e%2e/%2e%2e/secret/a.txt",
-    "file://media/../../secret/a.txt", "file://../secret/a.txt", "file://media/%2e%2e/%2e%2e/secret/a.txt",
-    "file://model/../../secret/a.txt",
-    "http://models/..", "https://models/../", "model://a\0b", "model://" + "x" * 9999, "\0", "package://pkg/\0", "ftp://x/a.txt"],
-                         ids=lambda uri: uri[:40])
+@pytest.mark.parametrize(
+    "uri",
+    [
+        "model://../secret/a.txt",
+        "model://m/../../secret/a.txt",
+        "model:///../secret/a.txt",
+        "model://%2e%2e/secret/a.txt",
+        "model://m/%2E%2E/..%2fsecret/a.txt",
+        "model://..",
+        "model://../models/../secret",
+        "model:////../secret/a.txt",
+        "model://{home}/secret/a.txt",
+        "package://pkg/../../secret/a.txt",
+        "package://../secret/a.txt",
+        "package://./secret/a.txt",
+        "package:///secret/a.txt",
+        "package://pkg/x/../../../secret/a.txt",
+        "package://pkg/{home}/secret/a.txt",
+        "package://pkg/%2e%2e/%2e%2e/secret/a.txt",
+        "file://media/../../secret/a.txt",
+        "file://../secret/a.txt",
+        "file://media/%2e%2e/%2e%2e/secret/a.txt",
+        "file://model/../../secret/a.txt",
+        "http://models/..",
+        "https://models/../",
+        "model://a\0b",
+        "model://" + "x" * 9999,
+        "\0",
+        "package://pkg/\0",
+        "ftp://x/a.txt",
+    ],
+    ids=lambda uri: uri[:40],
+)
 def test_no_uri_leads_out_of_its_folder(home, traps, uri):
     assert traps.find(uri.format(home=home), base=str(home / "r")) is None
     assert traps.find_model_sdf(uri.format(home=home)) is None
@@ -158,8 +189,9 @@ def test_uris_that_go_up_and_down_inside_their_folder_and_links_are_followed(hom
     assert traps.find("../secret/a.txt") == traps.find(f"file://{home}/secret/a.txt") == f"{home}/secret/a.txt"  # said plainly
 
 
-@pytest.mark.parametrize("name", ["../../secret/model.sdf", "{home}/secret/model.sdf", "x/../../../secret/model.sdf", "\t",
-    "y" * 9999, ".."], ids=range(6))
+@pytest.mark.parametrize(
+    "name", ["../../secret/model.sdf", "{home}/secret/model.sdf", "x/../../../secret/model.sdf", "\t", "y" * 9999, ".."], ids=range(6)
+)
 def test_a_model_config_names_a_file_of_its_model(home, traps, name):
     (home / "models/m/model.config").write_text(f"<model><sdf version='1.6'>{name.format(home=home)}</sdf></model>")
     with pytest.raises(ValueError, match="model.config: names '.*', which is not there") as error:
@@ -167,10 +199,21 @@ def test_a_model_config_names_a_file_of_its_model(home, traps, name):
     assert len(str(error.value)) < 400
 
 
-@pytest.mark.parametrize("text", ["", "<", "<model/>", "<model>" * 2000,
-    "<!DOCTYPE m [<!ENTITY a 'b'>]><model><sdf>&a;</sdf></model>",
-                                  f"<model><sdf version='{'9' * 5000}'>a</sdf></model>",
-                                      "<model><sdf version='x.y'>a</sdf></model>", "\0", "\udcff"], ids=range(9))
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "<",
+        "<model/>",
+        "<model>" * 2000,
+        "<!DOCTYPE m [<!ENTITY a 'b'>]><model><sdf>&a;</sdf></model>",
+        f"<model><sdf version='{'9' * 5000}'>a</sdf></model>",
+        "<model><sdf version='x.y'>a</sdf></model>",
+        "\0",
+        "\udcff",
+    ],
+    ids=range(9),
+)
 def test_a_model_config_that_is_none_is_refused_in_one_line(home, traps, text):
     (home / "models/m/model.config").write_text(text, errors="surrogateescape")
     with pytest.raises(DescriptionError, match="model.config") as error:
@@ -180,6 +223,7 @@ def test_a_model_config_that_is_none_is_refused_in_one_line(home, traps, text):
 
 # ---------------------------------------------------------------------------------------------- material scripts
 
+
 def look(folder, text, name="A"):
     (folder / "x.material").write_text(text)
     return script_material(name, [str(folder)])
@@ -187,21 +231,47 @@ def look(folder, text, name="A"):
 
 def test_material_scripts_of_any_shape(tmp_path):
     red = "{ technique { pass { ambient 1 0 0 } } }"
-    for text in (f"material A {red}", f"material A\n\n{red}", f"material \"A\"{red}", f"material A: B {red}", f"material A:B{red}",
-                 f"/* material A {{ */ material A /* x */ {red}", f"material B {red.replace('1', '0')} material A {red}",
-                 f"/* open\nmaterial A {red}", f"material A {red[:-6]}", f"}} material A {red}"):
+    for text in (
+        f"material A {red}",
+        f"material A\n\n{red}",
+        f'material "A"{red}',
+        f"material A: B {red}",
+        f"material A:B{red}",
+        f"/* material A {{ */ material A /* x */ {red}",
+        f"material B {red.replace('1', '0')} material A {red}",
+        f"/* open\nmaterial A {red}",
+        f"material A {red[:-6]}",
+        f"}} material A {red}",
+    ):
         assert look(tmp_path, text).ambient == (1.0, 0.0, 0.0, 1.0), text
-    for text in ("", "material A", f"// material A {red}", f"/* material A {red} */", f"material AB {red}", f"material B : A {red}",
-                 f"x {{ material A {red} }}"):
+    for text in (
+        "",
+        "material A",
+        f"// material A {red}",
+        f"/* material A {red} */",
+        f"material AB {red}",
+        f"material B : A {red}",
+        f"x {{ material A {red} }}",
+    ):
         assert look(tmp_path, text) is None, text
     assert look(tmp_path, f"material A B {red}", "A B").ambient
     assert look(tmp_path, "material A { pass { ambient nan 0 0\n diffuse 1e300 0 0\n specular x\n emissive 1 } }").ambient is None
     assert look(tmp_path, "material A { texture\ntexture a\0b\ntexture " + "x" * 9999 + "\n}").texture == ""
 
 
-@pytest.mark.parametrize("text", ["/*" * 400_000, "//" * 400_000, "\n" * 800_000, " " * 800_000, "{" * 800_000,
-    "material A {" + "}{" * 400_000,
-                                  "material A\n" * 80_000], ids=range(7))
+@pytest.mark.parametrize(
+    "text",
+    [
+        "/*" * 400_000,
+        "//" * 400_000,
+        "\n" * 800_000,
+        " " * 800_000,
+        "{" * 800_000,
+        "material A {" + "}{" * 400_000,
+        "material A\n" * 80_000,
+    ],
+    ids=range(7),
+)
 def test_material_scripts_take_linear_time(tmp_path, text):
     begin = time.process_time()
     look(tmp_path, text)
@@ -229,20 +299,26 @@ def test_materials_on_the_resource_path_are_known_by_their_name_alone(tmp_path, 
     textures.mkdir(parents=True)
     (textures / "team.png").write_text("x")
     monkeypatch.setenv("GAZEBO_RESOURCE_PATH", f"/nowhere:{tmp_path / 'field'}")
-    for finder in (ResourceFinder(stock="/nowhere", package_path=lambda name: None),
-                   ResourceFinder(environment=False, resource_paths=[tmp_path / "field"], stock="/nowhere",
-                                  package_path=lambda name: None)):
+    for finder in (
+        ResourceFinder(stock="/nowhere", package_path=lambda name: None),
+        ResourceFinder(environment=False, resource_paths=[tmp_path / "field"], stock="/nowhere", package_path=lambda name: None),
+    ):
         robot, problems = read_model(
             '<robot name="r"><link name="a"><inertial><mass value="1"/>'
             '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
             '<visual><geometry><box size="1 1 1"/></geometry></visual></link>'
             '<gazebo reference="a"><material>Team/Red</material></gazebo></robot>',
-            finder=finder)
+            finder=finder,
+        )
         red = robot.links[0].visuals[0].material
         assert (red.diffuse, red.ambient, red.texture) == ((1, 0, 0, 0.5), (0.1, 0.1, 0.1, 1), str(textures / "team.png")) and not problems
         box = "<visual name='{0}'><geometry><box/></geometry><material><script><name>{0}</name></script></material></visual>"
-        model, problems = read_model("<sdf version='1.6'><model name='m'><link name='l'>" + "".join(
-            map(box.format, ("Team/Dark", "Team/Grass", "Team/None"))) + "</link></model></sdf>", finder=finder)
+        model, problems = read_model(
+            "<sdf version='1.6'><model name='m'><link name='l'>"
+            + "".join(map(box.format, ("Team/Dark", "Team/Grass", "Team/None")))
+            + "</link></model></sdf>",
+            finder=finder,
+        )
         dark, grass, none = (visual.material for visual in model.links[0].visuals)
         assert (dark.ambient, dark.diffuse) == ((0, 0, 0, 1), (1, 0, 0, 0.5))
         assert (grass.diffuse, grass.specular) == ((0, 1, 0, 1), (1, 1, 1, 1)) and none.diffuse is None

@@ -1,14 +1,14 @@
 """SDF worlds and models of all versions in use, and what happens when they are not right."""
-import pytest
 
+import pytest
 from ode_sim import math3
 from ode_sim.description import DescriptionError, read_model
 from ode_sim.description.model import Box, Capsule, Cylinder, Heightmap, Inertial, Mesh, Plane, Polyline, Sphere
 from ode_sim.description.sdf_writer import model_text
 from sdf_texts import BOX, MODEL, finder, model, models, text, world
 
-
 # ---------------------------------------------------------------------------------------------- defaults
+
 
 def test_an_empty_world_has_gazebos_defaults(finder):
     w, problems = world("", finder)
@@ -18,7 +18,8 @@ def test_an_empty_world_has_gazebos_defaults(finder):
 
 
 def test_world_settings(finder):
-    w, problems = world("""
+    w, problems = world(
+        """
         <gravity>0 0 -1</gravity><magnetic_field>1 2 3</magnetic_field><gui fullscreen="1"><camera name="c"/></gui>
         <physics type="ode"><max_step_size>0.01</max_step_size><real_time_update_rate>100</real_time_update_rate>
           <max_contacts>7</max_contacts><ode><solver><type>world</type><iters>20</iters><sor>1.0</sor></solver>
@@ -27,24 +28,34 @@ def test_world_settings(finder):
         <scene><ambient>0.1 0.2 0.3 1</ambient><background>0 0 0</background><shadows>0</shadows><sky/></scene>
         <atmosphere type="adiabatic"/><wind/><audio/>
         <spherical_coordinates><latitude_deg>48</latitude_deg><heading_deg>90</heading_deg></spherical_coordinates>
-        <plugin name="p" filename=" libp.so "/>""", finder)
+        <plugin name="p" filename=" libp.so "/>""",
+        finder,
+    )
     p = w.physics
     assert (w.gravity, w.magnetic_field, p.max_step_size, p.real_time_update_rate, p.max_contacts) == (
-        (0.0, 0.0, -1.0), (1.0, 2.0, 3.0), 0.01, 100.0, 7)
+        (0.0, 0.0, -1.0),
+        (1.0, 2.0, 3.0),
+        0.01,
+        100.0,
+        7,
+    )
     assert (p.solver, p.iters, p.sor, p.cfm, p.erp, p.contact_surface_layer) == ("world", 20, 1.0, 0.1, 0.3, 0.002)
-    assert (w.scene.ambient, w.scene.background, w.scene.shadows, w.scene.sky) == (
-        (0.1, 0.2, 0.3, 1.0), (0.0, 0.0, 0.0, 1.0), False, True)
+    assert (w.scene.ambient, w.scene.background, w.scene.shadows, w.scene.sky) == ((0.1, 0.2, 0.3, 1.0), (0.0, 0.0, 0.0, 1.0), False, True)
     assert w.spherical_coordinates == (48.0, 0.0, 0.0, 90.0) and w.plugins[0].filename == "libp.so" and not problems
 
 
 def test_the_default_physics_block_counts(finder):
-    w, _ = world('<physics name="a"><max_step_size>0.1</max_step_size></physics>'
-                 '<physics name="b" default="true"><max_step_size>0.2</max_step_size></physics>', finder)
+    w, _ = world(
+        '<physics name="a"><max_step_size>0.1</max_step_size></physics>'
+        '<physics name="b" default="true"><max_step_size>0.2</max_step_size></physics>',
+        finder,
+    )
     assert w.physics.max_step_size == 0.2
 
 
 def test_link_defaults_and_surface(finder):
-    m, _ = model(f"""<link name="a"><collision name="c">{BOX}</collision></link>
+    m, _ = model(
+        f"""<link name="a"><collision name="c">{BOX}</collision></link>
         <link name="b"><gravity>0</gravity><self_collide>1</self_collide><kinematic>true</kinematic>
         <velocity_decay><linear>0.1</linear><angular>0.2</angular></velocity_decay>
         <inertial><mass>2</mass><pose>1 0 0 0 0 0</pose><inertia><ixx>3</ixx><ixy>0.1</ixy></inertia></inertial>
@@ -55,7 +66,9 @@ def test_link_defaults_and_surface(finder):
         <bounce><restitution_coefficient>0.5</restitution_coefficient><threshold>0.01</threshold></bounce>
         <contact><collide_bitmask>0x02</collide_bitmask><collide_without_contact>1</collide_without_contact>
         <ode><kp>6</kp><kd>7</kd><max_vel>8</max_vel><min_depth>9</min_depth></ode></contact>
-        </surface></collision></link>""", finder)
+        </surface></collision></link>""",
+        finder,
+    )
     a, b = m.links
     plain = a.collisions[0]
     assert a.inertial == Inertial() and a.gravity and a.self_collide is None
@@ -65,7 +78,7 @@ def test_link_defaults_and_surface(finder):
     s = b.collisions[0].surface
     assert (s.mu, s.mu2, s.fdir1, s.slip1) == (0.1, 0.2, (0.0, 1.0, 0.0), 0.3)
     assert (s.torsional_mu, s.use_patch_radius, s.patch_radius, s.surface_radius, s.torsional_slip) == (0.4, False, 0.05, 0.06, 0.7)
-    same, = read_model(model_text(m))[0].links[1].collisions
+    (same,) = read_model(model_text(m))[0].links[1].collisions
     assert same.surface == s
     assert (s.restitution, s.bounce_threshold, s.collide_bitmask, s.collide_without_contact) == (0.5, 0.01, 2, True)
     assert (s.kp, s.kd, s.max_vel, s.min_depth) == (6.0, 7.0, 8.0, 9.0)
@@ -78,21 +91,29 @@ def test_a_plugin_of_a_link_is_one_warning(finder):
 
 
 def test_a_plugin_of_a_visual_is_one_warning(finder):
-    m, problems = model(f'<link name="l"><visual name="v">{BOX}<plugin name="p" filename="libgazebo_ros_video.so"/></visual>'
-                        '</link>', finder)
+    m, problems = model(
+        f'<link name="l"><visual name="v">{BOX}<plugin name="p" filename="libgazebo_ros_video.so"/></visual></link>', finder
+    )
     assert m.links[0].visuals[0].geometry == Box((1.0, 2.0, 3.0))
     assert len(problems) == 1 and "libgazebo_ros_video.so: plugins of a visual" in str(problems[0])
 
 
-@pytest.mark.parametrize("shape, expected", [
-    ("<box><size>1 2 3</size></box>", Box((1.0, 2.0, 3.0))),
-    ("<sphere><radius>2</radius></sphere>", Sphere(2.0)),
-    ("<cylinder><radius>2</radius><length>3</length></cylinder>", Cylinder(2.0, 3.0)),
-    ("<capsule><radius>2</radius><length>3</length></capsule>", Capsule(2.0, 3.0)),
-    ("<plane><normal>0 2 0</normal><size>5 6</size></plane>", Plane((0.0, 1.0, 0.0), (5.0, 6.0))),
-    ("<polyline><point>0 0</point><point>1 0</point><point>1 1</point><height>4</height></polyline>",
-     Polyline(((0.0, 0.0), (1.0, 0.0), (1.0, 1.0)), 4.0)),
-    ("<empty/>", None), ("<image/>", None)])
+@pytest.mark.parametrize(
+    "shape, expected",
+    [
+        ("<box><size>1 2 3</size></box>", Box((1.0, 2.0, 3.0))),
+        ("<sphere><radius>2</radius></sphere>", Sphere(2.0)),
+        ("<cylinder><radius>2</radius><length>3</length></cylinder>", Cylinder(2.0, 3.0)),
+        ("<capsule><radius>2</radius><length>3</length></capsule>", Capsule(2.0, 3.0)),
+        ("<plane><normal>0 2 0</normal><size>5 6</size></plane>", Plane((0.0, 1.0, 0.0), (5.0, 6.0))),
+        (
+            "<polyline><point>0 0</point><point>1 0</point><point>1 1</point><height>4</height></polyline>",
+            Polyline(((0.0, 0.0), (1.0, 0.0), (1.0, 1.0)), 4.0),
+        ),
+        ("<empty/>", None),
+        ("<image/>", None),
+    ],
+)
 def test_geometry(finder, shape, expected):
     m, _ = model(f'<link name="a"><visual name="v"><geometry>{shape}</geometry></visual></link>', finder)
     assert m.links[0].visuals[0].geometry == expected
@@ -101,11 +122,14 @@ def test_geometry(finder, shape, expected):
 def test_meshes_and_heightmaps_resolve(models, finder):
     folder = models("thing", MODEL.format(name="thing"))
     (folder / "a.dae").write_text("x")
-    m, problems = model("""<link name="a">
+    m, problems = model(
+        """<link name="a">
         <visual name="v"><geometry><mesh><uri>model://thing/a.dae</uri><scale>2 2 2</scale>
           <submesh><name>s</name><center>true</center></submesh></mesh></geometry></visual>
         <visual name="h"><geometry><heightmap><uri>file://models/thing/a.dae</uri><size>4 5 6</size></heightmap>
-        </geometry></visual></link>""", finder)
+        </geometry></visual></link>""",
+        finder,
+    )
     mesh, height = (visual.geometry for visual in m.links[0].visuals)
     assert mesh == Mesh(str(folder / "a.dae"), "model://thing/a.dae", (2.0, 2.0, 2.0), "s", True)
     assert isinstance(height, Heightmap) and height.path == str(folder / "a.dae") and height.size == (4.0, 5.0, 6.0)
@@ -113,13 +137,16 @@ def test_meshes_and_heightmaps_resolve(models, finder):
 
 
 def test_sensor_light_and_plugins_of_a_link(finder):
-    m, _ = model("""<link name="a"><pose>1 0 0 0 0 0</pose>
+    m, _ = model(
+        """<link name="a"><pose>1 0 0 0 0 0</pose>
         <sensor name="s" type="ray"><pose>0 0 1 0 0 0</pose><update_rate>5</update_rate><ray><range/></ray>
           <plugin name="p" filename="
             libp.so"/></sensor>
         <light name="l" type="spot"><pose>0 0 2 0 0 0</pose><spot><inner_angle>0.1</inner_angle></spot></light>
-        </link>""", finder)
-    a, = m.links
+        </link>""",
+        finder,
+    )
+    (a,) = m.links
     assert (a.sensors[0].pose.p, a.sensors[0].update_rate) == ((0.0, 0.0, 1.0), 5.0)
     assert a.sensors[0].element.find("ray/range") is not None and a.sensors[0].plugins[0].filename == "libp.so"
     assert (a.lights[0].type, a.lights[0].pose.p, a.lights[0].spot) == ("spot", (0.0, 0.0, 2.0), (0.1, 0.0, 0.0))
@@ -127,8 +154,7 @@ def test_sensor_light_and_plugins_of_a_link(finder):
 
 # ---------------------------------------------------------------------------------------------- frames and joints
 
-TWO_LINKS = '<link name="a"><pose>1 0 0 0 0 1.5707963267948966</pose></link>' \
-            '<link name="b"><pose>1 2 0 0 0 3.141592653589793</pose></link>'
+TWO_LINKS = '<link name="a"><pose>1 0 0 0 0 1.5707963267948966</pose></link><link name="b"><pose>1 2 0 0 0 3.141592653589793</pose></link>'
 
 
 def hinge(inside="", kind="revolute"):
@@ -143,8 +169,7 @@ def test_an_axis_of_1_4_is_in_the_model_frame(finder):
 def test_an_axis_of_1_5_is_in_the_joint_frame_unless_it_says_otherwise(finder):
     m, _ = model(TWO_LINKS + hinge("<axis><xyz>1 0 0</xyz></axis>"), finder, "1.5")
     assert m.joints[0].axes[0].xyz == (1.0, 0.0, 0.0)
-    m, _ = model(TWO_LINKS + hinge("<axis><xyz>1 0 0</xyz><use_parent_model_frame>1</use_parent_model_frame></axis>"),
-                 finder, "1.5")
+    m, _ = model(TWO_LINKS + hinge("<axis><xyz>1 0 0</xyz><use_parent_model_frame>1</use_parent_model_frame></axis>"), finder, "1.5")
     assert m.joints[0].axes[0].xyz == pytest.approx((-1.0, 0.0, 0.0))
 
 
@@ -170,13 +195,17 @@ def test_joint_pose_is_in_the_child(finder):
 
 
 def test_relative_to_and_frames(finder):
-    m, problems = model("""
+    m, problems = model(
+        """
         <frame name="f" attached_to="a"><pose>0 1 0 0 0 0</pose></frame>
         <link name="a"><pose>1 0 0 0 0 1.5707963267948966</pose></link>
         <link name="b"><pose relative_to="f">0 0 5 0 0 0</pose>
           <visual name="v"><pose relative_to="a">0 0 0 0 0 0</pose><geometry><empty/></geometry></visual></link>
         <joint name="j" type="revolute"><pose relative_to="a"/><parent>a</parent><child>b</child></joint>
-        <link name="c"><pose relative_to="j">0 0 1 0 0 0</pose></link>""", finder, "1.7")
+        <link name="c"><pose relative_to="j">0 0 1 0 0 0</pose></link>""",
+        finder,
+        "1.7",
+    )
     a, b, c = m.links
     assert b.pose.p == pytest.approx((0.0, 0.0, 5.0))  # y of a is -x of the model
     assert b.visuals[0].pose.p == pytest.approx((0.0, -1.0, -5.0)) and not problems
@@ -195,15 +224,18 @@ def test_the_empty_frame_attribute_of_old_files(finder):
 
 
 def test_joint_values(finder):
-    m, _ = model(TWO_LINKS + hinge("""<axis><limit><lower>-1</lower><upper>1</upper><effort>2</effort>
+    m, _ = model(
+        TWO_LINKS
+        + hinge("""<axis><limit><lower>-1</lower><upper>1</upper><effort>2</effort>
         <velocity>3</velocity></limit><dynamics><damping>4</damping><friction>5</friction>
         <spring_reference>6</spring_reference><spring_stiffness>7</spring_stiffness></dynamics></axis>
         <physics><provide_feedback>1</provide_feedback><ode><limit><erp>0.1</erp><cfm>0.2</cfm></limit>
-        <implicit_spring_damper>1</implicit_spring_damper><fudge_factor>0.3</fudge_factor></ode></physics>"""), finder)
-    j, = m.joints
-    a, = j.axes
-    assert (a.xyz, a.lower, a.upper, a.effort, a.velocity, a.damping, a.friction) == (
-        (0.0, 0.0, 1.0), -1.0, 1.0, 2.0, 3.0, 4.0, 5.0)
+        <implicit_spring_damper>1</implicit_spring_damper><fudge_factor>0.3</fudge_factor></ode></physics>"""),
+        finder,
+    )
+    (j,) = m.joints
+    (a,) = j.axes
+    assert (a.xyz, a.lower, a.upper, a.effort, a.velocity, a.damping, a.friction) == ((0.0, 0.0, 1.0), -1.0, 1.0, 2.0, 3.0, 4.0, 5.0)
     assert (a.spring_reference, a.spring_stiffness, j.limit_erp, j.limit_cfm, j.fudge_factor) == (6.0, 7.0, 0.1, 0.2, 0.3)
     assert j.provide_feedback and j.implicit_spring_damper
 
@@ -214,12 +246,15 @@ def test_two_axes_and_none(finder):
     assert model(TWO_LINKS + hinge(kind="ball"), finder)[0].joints[0].axes == ()
 
 
-@pytest.mark.parametrize("joint, message", [
-    ('<joint name="j" type="revolute"><parent>a</parent><child>zz</child></joint>', "child link 'zz'"),
-    ('<joint name="j" type="spiral"><parent>a</parent><child>b</child></joint>', "unknown joint type 'spiral'"),
-    ('<joint name="j" type="fixed"><parent>a</parent><child>a</child></joint>', "cannot join"),
-    ('<joint name="j" type="fixed"><parent>world</parent><child>world</child></joint>', "cannot join"),
-])
+@pytest.mark.parametrize(
+    "joint, message",
+    [
+        ('<joint name="j" type="revolute"><parent>a</parent><child>zz</child></joint>', "child link 'zz'"),
+        ('<joint name="j" type="spiral"><parent>a</parent><child>b</child></joint>', "unknown joint type 'spiral'"),
+        ('<joint name="j" type="fixed"><parent>a</parent><child>a</child></joint>', "cannot join"),
+        ('<joint name="j" type="fixed"><parent>world</parent><child>world</child></joint>', "cannot join"),
+    ],
+)
 def test_a_joint_that_cannot_be_is_left_out(finder, joint, message):
     m, problems = model(TWO_LINKS + joint, finder)
     assert m.joints == () and message in text(problems) and problems[0].severity == "error"
@@ -228,12 +263,16 @@ def test_a_joint_that_cannot_be_is_left_out(finder, joint, message):
 @pytest.mark.parametrize("kind", ["fixed", "revolute", "prismatic", "ball"])
 def test_a_joint_whose_child_is_the_world_is_one_of_the_link_the_other_way_round(finder, kind):
     """Gazebo takes the anchor of such a joint in the world's frame (Joint::LoadImpl), and measures the child's motion in the parent."""
-    body = '<pose>1 2 3 0 0 0</pose>' + TWO_LINKS + hinge(
-        "<pose>1 3 3 0 0 0</pose><axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>2</upper></limit></axis>", kind).replace(
-            "<parent>a</parent>", "<parent>b</parent>").replace("<child>b</child>", "<child>world</child>")
+    body = (
+        "<pose>1 2 3 0 0 0</pose>"
+        + TWO_LINKS
+        + hinge("<pose>1 3 3 0 0 0</pose><axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>2</upper></limit></axis>", kind)
+        .replace("<parent>a</parent>", "<parent>b</parent>")
+        .replace("<child>b</child>", "<child>world</child>")
+    )
     m, problems = model(body, finder)
-    j, = m.joints
-    b, = (link for link in m.links if link.name == "b")
+    (j,) = m.joints
+    (b,) = (link for link in m.links if link.name == "b")
     assert (j.parent, j.child) == ("world", "b") and not problems
     x_mj = math3.compose(b.pose, j.pose)
     assert x_mj.p == pytest.approx((0.0, 1.0, 0.0))
@@ -249,8 +288,8 @@ SCALE = """<sensor name="s" type="force_torque"><pose>0 0 1 0 0 0</pose><update_
 def test_a_joint_has_force_torque_sensors(finder):
     scale = SCALE.format(frame="sensor", direction="parent_to_child")
     m, problems = model(TWO_LINKS + hinge("<pose>0 0 2 0 0 0</pose>" + scale), finder)
-    j, = m.joints
-    s, = j.sensors
+    (j,) = m.joints
+    (s,) = j.sensors
     assert (s.name, s.type, s.pose.p, s.update_rate, s.plugins[0].filename) == ("s", "force_torque", (0.0, 0.0, 1.0), 5.0, "libp.so")
     assert j.provide_feedback and not problems  # as Gazebo, which asks for it when the sensor begins
 
@@ -258,13 +297,18 @@ def test_a_joint_has_force_torque_sensors(finder):
 def test_a_sensor_of_a_joint_may_stand_in_another_frame(finder):
     scale = SCALE.format(frame="sensor", direction="parent_to_child").replace("<pose>", '<pose relative_to="a">')
     m, problems = model(TWO_LINKS + hinge(scale), finder, "1.7")
-    s, = m.joints[0].sensors
+    (s,) = m.joints[0].sensors
     assert s.pose.p == pytest.approx((0.0, 2.0, 1.0)) and not problems  # a as b, which is turned by half a circle, has it
 
 
-@pytest.mark.parametrize("of, kind, message", [("joint", "imu", "a sensor of type imu belongs into a <link>"),
-                                               ("joint", "", "a sensor of type (none) belongs into a <link>"),
-                                               ("link", "force_torque", "a sensor of type force_torque belongs into a <joint>")])
+@pytest.mark.parametrize(
+    "of, kind, message",
+    [
+        ("joint", "imu", "a sensor of type imu belongs into a <link>"),
+        ("joint", "", "a sensor of type (none) belongs into a <link>"),
+        ("link", "force_torque", "a sensor of type force_torque belongs into a <joint>"),
+    ],
+)
 def test_a_sensor_in_the_wrong_place_is_one_line(finder, of, kind, message):
     sensor = f'<sensor name="s" type="{kind}"/>'
     m, problems = model(f'{TWO_LINKS}<link name="c">{sensor}</link>' if of == "link" else TWO_LINKS + hinge(sensor), finder)
@@ -278,9 +322,14 @@ def test_words_of_a_force_torque_sensor_that_nobody_knows_are_told(finder):
     assert "'up' is none of child_to_parent, parent_to_child; child_to_parent is taken" in text(problems)
 
 
-@pytest.mark.parametrize("said, same", [(("child", "child_to_parent"), ("parent", "parent_to_child")),
-                                        (("parent", "parent_to_child"), ("child", "child_to_parent")),
-                                        (("sensor", "child_to_parent"), ("sensor", "parent_to_child"))])
+@pytest.mark.parametrize(
+    "said, same",
+    [
+        (("child", "child_to_parent"), ("parent", "parent_to_child")),
+        (("parent", "parent_to_child"), ("child", "child_to_parent")),
+        (("sensor", "child_to_parent"), ("sensor", "parent_to_child")),
+    ],
+)
 def test_the_sensor_of_a_joint_whose_child_is_the_world_measures_the_same(finder, said, same):
     joint = hinge(SCALE.format(frame=said[0], direction=said[1])).replace("<parent>a</parent>", "<parent>b</parent>")
     m, _ = model(TWO_LINKS + joint.replace("<child>b</child>", "<child>world</child>"), finder)
@@ -289,27 +338,37 @@ def test_the_sensor_of_a_joint_whose_child_is_the_world_measures_the_same(finder
 
 
 def test_a_joint_of_a_nested_model_may_have_the_world_as_its_child(finder):
-    m, problems = model('<link name="base"/><model name="sub"><link name="l"/><joint name="j" type="fixed"><parent>l</parent>'
-                        "<child>world</child></joint></model>", finder)
+    m, problems = model(
+        '<link name="base"/><model name="sub"><link name="l"/><joint name="j" type="fixed"><parent>l</parent>'
+        "<child>world</child></joint></model>",
+        finder,
+    )
     assert [(j.name, j.parent, j.child) for j in m.joints] == [("sub::j", "world", "sub::l")] and not problems
 
 
 def test_a_joint_may_name_a_frame_of_its_link(finder):
-    m, problems = model(TWO_LINKS + '<frame name="f" attached_to="g"/><frame name="g" attached_to="b"/>'
-                        '<joint name="j" type="fixed"><parent>a</parent><child>f</child></joint>', finder)
+    m, problems = model(
+        TWO_LINKS + '<frame name="f" attached_to="g"/><frame name="g" attached_to="b"/>'
+        '<joint name="j" type="fixed"><parent>a</parent><child>f</child></joint>',
+        finder,
+    )
     assert [(j.parent, j.child) for j in m.joints] == [("a", "b")] and not problems
 
 
 def test_continuous_is_a_type_of_sdf_as_well(finder):
-    m, problems = model(TWO_LINKS + hinge("<axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>1</upper></limit></axis>", "continuous"),
-                        finder)
+    m, problems = model(
+        TWO_LINKS + hinge("<axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>1</upper></limit></axis>", "continuous"), finder
+    )
     assert (m.joints[0].type, m.joints[0].axes[0].lower, m.joints[0].axes[0].upper) == ("revolute", -1e16, 1e16) and not problems
 
 
-@pytest.mark.parametrize("body, message", [
-    ("<link name='a'><inertial auto='true'/></link>", "auto is of SDF 1.11"),
-    ("<placement_frame>a</placement_frame><link name='a'/>", "placement_frame is of SDF 1.8"),
-])
+@pytest.mark.parametrize(
+    "body, message",
+    [
+        ("<link name='a'><inertial auto='true'/></link>", "auto is of SDF 1.11"),
+        ("<placement_frame>a</placement_frame><link name='a'/>", "placement_frame is of SDF 1.8"),
+    ],
+)
 def test_what_is_of_newer_sdf_is_told(finder, body, message):
     m, problems = model(body, finder)
     assert [link.name for link in m.links] == ["a"] and len(problems) == 1 and message in text(problems)
@@ -328,8 +387,12 @@ VALUES = [
     ("<collision name='c'><geometry><cone/></geometry></collision>", 1, 0, "not known here"),
     ("<collision name='c'><pose>0 0 nan 0 0 0</pose><geometry><box/></geometry></collision>", 0, 0, "is not a pose"),
     ("<collision name='c'><pose>0 0 x</pose><geometry><box/></geometry></collision>", 1, 0, "is not 3 numbers"),
-    ("<collision name='c'><geometry><box/></geometry><surface><friction><ode><mu>nan</mu></ode></friction></surface></collision>", 1, 0,
-     "is not a number"),
+    (
+        "<collision name='c'><geometry><box/></geometry><surface><friction><ode><mu>nan</mu></ode></friction></surface></collision>",
+        1,
+        0,
+        "is not a number",
+    ),
     ("<visual name='v'><pose>0 0 1e9 0 0 0</pose><geometry><box/></geometry></visual>", 0, 0, "farther away"),
     ("<visual name='v'><geometry><box/></geometry><material><ambient>a b c</ambient></material></visual>", 0, 1, "is not 3 numbers"),
     ("<visual name='v'><geometry><box/></geometry><transparency>nan</transparency></visual>", 0, 1, "is not a number"),

@@ -1,22 +1,34 @@
 """SDF that includes other files, nests models, is a saved world or a text to spawn."""
+
 import math
 
 import pytest
-
 from ode_sim import math3
-from ode_sim.description import (DescriptionError, Entity, ResourceFinder, load_world, read_light, read_model, read_sdf_model,
-                                 root_kind, xmlsource)
+from ode_sim.description import (
+    DescriptionError,
+    Entity,
+    ResourceFinder,
+    load_world,
+    read_light,
+    read_model,
+    read_sdf_model,
+    root_kind,
+    xmlsource,
+)
 from ode_sim.description.model import Box, Cylinder, Inertial, Plane, Ribbon, Sphere
 from sdf_texts import MODEL, finder, model, models, names, text, world
 
-
 # ---------------------------------------------------------------------------------------------- include, nesting
+
 
 def test_include_changes_what_it_says(models, finder):
     models("thing", MODEL.format(name="Thing"))
-    w, problems = world("""<include><uri>model://thing</uri></include>
+    w, problems = world(
+        """<include><uri>model://thing</uri></include>
         <include><uri>model://thing</uri><name>other</name><pose>1 0 0 0 0 0</pose><static>true</static>
-        <plugin name="more" filename="libmore.so"/></include>""", finder)
+        <plugin name="more" filename="libmore.so"/></include>""",
+        finder,
+    )
     first, other = w.models
     assert (first.name, first.pose.p, first.static, names(first.plugins)) == ("Thing", (9.0, 9.0, 9.0), False, ["own"])
     assert (other.name, other.pose.p, other.static, names(other.plugins)) == ("other", (1.0, 0.0, 0.0), True, ["own", "more"])
@@ -25,14 +37,21 @@ def test_include_changes_what_it_says(models, finder):
 
 def test_plugins_of_an_included_model_name_its_parts_as_they_are_called_there(models, finder):
     """As of the ArduPilot plugin, two models deep; topics and frames are what ROS hears, and stay."""
-    models("rotor", """<sdf version="1.6"><model name="iris"><link name="base"/><link name="blade"/><joint name="spin" type="revolute">
+    models(
+        "rotor",
+        """<sdf version="1.6"><model name="iris"><link name="base"/><link name="blade"/><joint name="spin" type="revolute">
         <parent>base</parent><child>blade</child><axis><xyz>0 0 1</xyz></axis></joint><plugin name="base" filename="libown.so">
         <control joint="spin"><jointName> spin </jointName></control><topicName>base</topicName><frameName>base</frameName>
-        <other>bases</other></plugin></model></sdf>""")
-    models("craft", """<sdf version="1.6"><model name="craft"><include><uri>model://rotor</uri></include>
-        <plugin name="fly" filename="libfly.so"><linkName>iris::blade</linkName></plugin></model></sdf>""")
-    w, problems = world("<model name='out'><include><uri>model://craft</uri></include></model>"
-                        "<include><uri>model://craft</uri></include>", finder)
+        <other>bases</other></plugin></model></sdf>""",
+    )
+    models(
+        "craft",
+        """<sdf version="1.6"><model name="craft"><include><uri>model://rotor</uri></include>
+        <plugin name="fly" filename="libfly.so"><linkName>iris::blade</linkName></plugin></model></sdf>""",
+    )
+    w, problems = world(
+        "<model name='out'><include><uri>model://craft</uri></include></model><include><uri>model://craft</uri></include>", finder
+    )
     out, craft = w.models
     assert names(out.joints) == ["craft::iris::spin"] and names(out.plugins) == names(craft.plugins) == ["base", "fly"] and not problems
     for model_, scope in ((out, "craft::iris::"), (craft, "iris::")):
@@ -55,16 +74,21 @@ def test_include_of_a_light(models, finder):
 
 def test_a_missing_model_is_one_warning_and_the_rest_loads(models, finder):
     models("thing", MODEL.format(name="thing"))
-    w, problems = world("<include><uri>model://gone</uri></include><include><uri>model://thing</uri></include>"
-                        "<include><uri>model://gone</uri></include>", finder)
+    w, problems = world(
+        "<include><uri>model://gone</uri></include><include><uri>model://thing</uri></include><include><uri>model://gone</uri></include>",
+        finder,
+    )
     assert names(w.models) == ["thing"] and len(problems) == 1
     assert "model://gone" in text(problems) and finder.model_paths[0] in text(problems)
 
 
 def test_the_network_is_never_used_but_a_local_model_of_that_name_is(models, finder):
     models("ground_plane", MODEL.format(name="floor"))
-    w, problems = world("<include><uri>https://fuel.gazebosim.org/1.0/OpenRobotics/models/Ground Plane</uri></include>"
-                        "<include><uri>https://fuel.gazebosim.org/1.0/OpenRobotics/models/Tree</uri></include>", finder)
+    w, problems = world(
+        "<include><uri>https://fuel.gazebosim.org/1.0/OpenRobotics/models/Ground Plane</uri></include>"
+        "<include><uri>https://fuel.gazebosim.org/1.0/OpenRobotics/models/Tree</uri></include>",
+        finder,
+    )
     assert names(w.models) == ["floor"] and "the network is never used" in text(problems)
 
 
@@ -76,15 +100,17 @@ def test_duplicate_names_keep_the_first(models, finder):
 
 def test_nested_models_are_flattened_with_scoped_names(models, finder):
     models("thing", MODEL.format(name="thing"))
-    m, problems = model("""<link name="base"/>
+    m, problems = model(
+        """<link name="base"/>
         <include><uri>model://thing</uri><name>t</name><pose>0 5 0 0 0 0</pose></include>
         <model name="s"><pose>1 0 0 0 0 1.5707963267948966</pose><link name="l"><pose>1 0 0 0 0 0</pose></link></model>
-        <joint name="weld" type="fixed"><parent>base</parent><child>t::body</child></joint>""", finder)
+        <joint name="weld" type="fixed"><parent>base</parent><child>t::body</child></joint>""",
+        finder,
+    )
     assert names(m.links) == ["base", "s::l", "t::body", "t::tip"]
     by_name = {link.name: link.pose.p for link in m.links}
     assert by_name["t::body"] == (0.0, 5.0, 1.0) and by_name["s::l"] == pytest.approx((1.0, 1.0, 0.0))
-    assert [(j.name, j.parent, j.child) for j in m.joints] == [
-        ("weld", "base", "t::body"), ("t::j", "t::body", "t::tip")]
+    assert [(j.name, j.parent, j.child) for j in m.joints] == [("weld", "base", "t::body"), ("t::j", "t::body", "t::tip")]
     assert names(m.plugins) == ["own"] and not problems
 
 
@@ -95,13 +121,11 @@ def test_what_is_static_in_a_model_that_moves_stays_where_it_is(finder):
     assert m.static and not m.joints and not problems
     m, problems = model(f'<link name="base"/><model name="room"><link name="door"/>{slab}</model>', finder)
     assert not m.static and not problems
-    assert [(j.name, j.type, j.parent, j.child) for j in m.joints] == [
-        ("room::slab::l::static", "fixed", "world", "room::slab::l")]
+    assert [(j.name, j.type, j.parent, j.child) for j in m.joints] == [("room::slab::l::static", "fixed", "world", "room::slab::l")]
 
 
 def test_a_model_that_includes_itself_is_stopped(models, finder):
-    models("ring", '<sdf version="1.6"><model name="ring"><link name="l"/>'
-                   '<include><uri>model://ring</uri></include></model></sdf>')
+    models("ring", '<sdf version="1.6"><model name="ring"><link name="l"/><include><uri>model://ring</uri></include></model></sdf>')
     w, problems = world("<include><uri>model://ring</uri></include>", finder)
     assert names(w.models[0].links) == ["l"] and "includes itself" in text(problems)
 
@@ -109,19 +133,26 @@ def test_a_model_that_includes_itself_is_stopped(models, finder):
 def test_bad_models_of_a_world_are_left_out_one_by_one(models, finder):
     models("broken", "<sdf version='1.6'><model name='x'>")
     models("config", MODEL.format(name="x"), config="<model/>")
-    w, problems = world("""<include><uri>model://broken</uri></include><include><uri>model://config</uri></include>
+    w, problems = world(
+        """<include><uri>model://broken</uri></include><include><uri>model://config</uri></include>
         <model name="none"/><model name="light"><link name="l"><inertial><mass>0</mass></inertial></link></model>
         <model name="fat"><link name="l"><collision name="c"><geometry><sphere><radius>-1</radius></sphere></geometry>
-        </collision></link></model><model name="good"><link name="l"/></model>""", finder)
+        </collision></link></model><model name="good"><link name="l"/></model>""",
+        finder,
+    )
     assert names(w.models) == ["fat", "good"] and len(problems) == 5 and not w.models[0].links[0].collisions
-    for part in ("model.sdf:1: not well-formed", "<sdf version='1.6'>model.sdf</sdf>", "has no <link>", "positive mass",
-                 "sizes must be positive"):
+    for part in (
+        "model.sdf:1: not well-formed",
+        "<sdf version='1.6'>model.sdf</sdf>",
+        "has no <link>",
+        "positive mass",
+        "sizes must be positive",
+    ):
         assert part in text(problems)
 
 
 def test_static_models_may_have_any_mass(finder):
-    m, _ = model('<static>1</static><link name="l"><inertial><mass>0</mass><inertia><ixx>nan</ixx></inertia></inertial>'
-                 "</link>", finder)
+    m, _ = model('<static>1</static><link name="l"><inertial><mass>0</mass><inertia><ixx>nan</ixx></inertia></inertial></link>', finder)
     assert m.static and m.links[0].inertial == Inertial()
 
 
@@ -131,8 +162,12 @@ def test_nan_inertia_of_a_moving_model_is_refused(finder):
 
 
 def test_the_newest_supported_file_of_a_model_config_is_taken(models, finder):
-    folder = models("thing", MODEL.format(name="new"), config="""<model><sdf version="1.3">old.sdf</sdf>
-        <sdf version="1.6">model.sdf</sdf><sdf version="1.9">future.sdf</sdf></model>""")
+    folder = models(
+        "thing",
+        MODEL.format(name="new"),
+        config="""<model><sdf version="1.3">old.sdf</sdf>
+        <sdf version="1.6">model.sdf</sdf><sdf version="1.9">future.sdf</sdf></model>""",
+    )
     (folder / "old.sdf").write_text(MODEL.format(name="old"))
     (folder / "future.sdf").write_text(MODEL.format(name="future"))
     assert names(world("<include><uri>model://thing</uri></include>", finder)[0].models) == ["new"]
@@ -140,16 +175,21 @@ def test_the_newest_supported_file_of_a_model_config_is_taken(models, finder):
 
 # ---------------------------------------------------------------------------------------------- state, population
 
+
 def test_what_had_fallen_out_of_a_saved_world_is_left_out_alone(finder):
-    w, problems = world("""<model name="cup"><link name="l"/></model><model name="can"><link name="l"/></model><state world_name="w">
+    w, problems = world(
+        """<model name="cup"><link name="l"/></model><model name="can"><link name="l"/></model><state world_name="w">
         <model name="cup"><link name="l"><pose>4.5e7 0 -2e8 0 0 0</pose></link></model>
-        <model name="can"><pose>1 0 0 0 0 0</pose></model></state>""", finder)
+        <model name="can"><pose>1 0 0 0 0 0</pose></model></state>""",
+        finder,
+    )
     assert w.state.deletions == ("cup",) and [(m.name, m.pose.p) for m in w.state.models] == [("can", (1.0, 0.0, 0.0))]
     assert "it has fallen out of this world; model 'cup' is left out" in text(problems)
 
 
 def test_state_of_a_saved_world(finder):
-    w, _ = world("""<model name="m"><link name="l"/></model><state world_name="w"><sim_time>12 500000000</sim_time>
+    w, _ = world(
+        """<model name="m"><link name="l"/></model><state world_name="w"><sim_time>12 500000000</sim_time>
         <iterations>12500</iterations>
         <model name="m"><pose>1 0 0 0 0 0</pose><scale>2 2 2</scale>
           <link name="l"><pose>1 2 3 0 0 1</pose><velocity>1 2 3 4 5 6</velocity></link>
@@ -157,10 +197,12 @@ def test_state_of_a_saved_world(finder):
         <light name="sun"><pose>0 0 7 0 0 0</pose></light>
         <insertions><model name="late"><link name="l"/></model></insertions>
         <deletions><name>m</name></deletions></state>
-        <state world_name="w"><sim_time>99 0</sim_time></state>""", finder)
+        <state world_name="w"><sim_time>99 0</sim_time></state>""",
+        finder,
+    )
     state = w.state
     assert (state.sim_time, state.iterations, state.deletions) == (12.5, 12500, ("m",))
-    m, = state.models
+    (m,) = state.models
     assert (m.pose.p, m.scale) == ((1.0, 0.0, 0.0), (2.0, 2.0, 2.0))
     assert [(link.name, link.pose.p) for link in m.links] == [("l", (1.0, 2.0, 3.0)), ("sub::k", (4.0, 5.0, 6.0))]
     assert (m.links[0].linear, m.links[0].angular) == ((1.0, 2.0, 3.0), (4.0, 5.0, 6.0))
@@ -168,14 +210,23 @@ def test_state_of_a_saved_world(finder):
 
 
 def test_what_was_stretched_in_the_window_is_as_large_as_it_was(finder):
-    shapes = {"box": "<box><size>1 1 1</size></box>", "ball": "<sphere><radius>0.5</radius></sphere>",
-              "post": "<cylinder><radius>0.5</radius><length>1</length></cylinder>"}
-    parts = "".join(f'<collision name="{name}"><pose>0 0 3 0 0 0</pose><geometry>{shape}</geometry></collision>'
-                    f'<visual name="{name}"><geometry>{shape}</geometry></visual>' for name, shape in shapes.items())
+    shapes = {
+        "box": "<box><size>1 1 1</size></box>",
+        "ball": "<sphere><radius>0.5</radius></sphere>",
+        "post": "<cylinder><radius>0.5</radius><length>1</length></cylinder>",
+    }
+    parts = "".join(
+        f'<collision name="{name}"><pose>0 0 3 0 0 0</pose><geometry>{shape}</geometry></collision>'
+        f'<visual name="{name}"><geometry>{shape}</geometry></visual>'
+        for name, shape in shapes.items()
+    )
     models = "".join(f'<model name="{name}"><link name="l">{parts}</link></model>' for name in ("wall", "crate", "odd"))
-    w, problems = world(f"""{models}<state world_name="w">
+    w, problems = world(
+        f"""{models}<state world_name="w">
         <model name="wall"><scale>0.2 7.5 2</scale></model><model name="crate"><scale>1 1 1</scale></model>
-        <model name="odd"><scale>1 0 1</scale></model></state>""", finder)
+        <model name="odd"><scale>1 0 1</scale></model></state>""",
+        finder,
+    )
     wall, crate, odd = (m.links[0] for m in w.models)
     for parts in (wall.collisions, wall.visuals):
         assert [part.geometry for part in parts] == [Box((0.2, 7.5, 2.0)), Sphere(3.75), Cylinder(3.75, 2.0)]
@@ -185,11 +236,15 @@ def test_what_was_stretched_in_the_window_is_as_large_as_it_was(finder):
     assert "model 'odd': scale 1 0 1" in text(problems)
 
 
-@pytest.mark.parametrize("distribution, region", [
-    ("<type>random</type>", "<box><size>4 4 0.1</size></box>"),
-    ("<type>uniform</type>", "<box><size>4 4 0.1</size></box>"),
-    ("<type>random</type>", "<cylinder><radius>2</radius><length>1</length></cylinder>"),
-    ("<type>linear-x</type>", "<box><size>4 4 0.1</size></box>")])
+@pytest.mark.parametrize(
+    "distribution, region",
+    [
+        ("<type>random</type>", "<box><size>4 4 0.1</size></box>"),
+        ("<type>uniform</type>", "<box><size>4 4 0.1</size></box>"),
+        ("<type>random</type>", "<cylinder><radius>2</radius><length>1</length></cylinder>"),
+        ("<type>linear-x</type>", "<box><size>4 4 0.1</size></box>"),
+    ],
+)
 def test_population(finder, distribution, region):
     body = f"""<population name="p"><pose>10 0 0 0 0 0</pose>{region}<model_count>9</model_count>
         <distribution>{distribution}</distribution>
@@ -202,16 +257,22 @@ def test_population(finder, distribution, region):
 
 
 def test_population_grid(finder):
-    w, _ = world("""<population name="p"><model name="m"><link name="l"/></model><distribution><type>grid</type>
-        <rows>2</rows><cols>3</cols><step>1 2 0</step></distribution></population>""", finder)
+    w, _ = world(
+        """<population name="p"><model name="m"><link name="l"/></model><distribution><type>grid</type>
+        <rows>2</rows><cols>3</cols><step>1 2 0</step></distribution></population>""",
+        finder,
+    )
     assert sorted({m.pose.p[0] for m in w.models}) == [-1.0, 0.0, 1.0]
     assert sorted({m.pose.p[1] for m in w.models}) == [-1.0, 1.0]
 
 
 def test_a_road_is_scenery_and_no_model(finder):
-    w, problems = world("""<road name="street"><width>7.5</width><point>0 0 0</point><point>1 2 0.1</point><point>1 2 0.1</point>
+    w, problems = world(
+        """<road name="street"><width>7.5</width><point>0 0 0</point><point>1 2 0.1</point><point>1 2 0.1</point>
         <point>5 2 0.1</point></road><road name="own"><point>0 0 0</point><point>1 0 0</point>
-        <material><diffuse>1 0 0 1</diffuse></material></road>""", finder)
+        <material><diffuse>1 0 0 1</diffuse></material></road>""",
+        finder,
+    )
     street, own = w.scene.roads
     assert street.geometry == Ribbon(((0.0, 0.0, 0.0), (1.0, 2.0, 0.1), (5.0, 2.0, 0.1)), 7.5)
     assert street.material.name == "Gazebo/Road" and not street.cast_shadows
@@ -219,11 +280,16 @@ def test_a_road_is_scenery_and_no_model(finder):
     assert not w.models and not problems
 
 
-@pytest.mark.parametrize("inside, word", [
-    ("", "two points"), ("<point>1 1 0</point><point>1 1 2</point>", "two points"),
-    ("<width>-1</width><point>0 0 0</point><point>1 0 0</point>", "-1"),
-    ("<point>0 0 0</point><point>nan 0 0</point>", "nan"),
-    ("<point>0 0 0</point><point>1 0 0</point>" * 60_000, "120000")])
+@pytest.mark.parametrize(
+    "inside, word",
+    [
+        ("", "two points"),
+        ("<point>1 1 0</point><point>1 1 2</point>", "two points"),
+        ("<width>-1</width><point>0 0 0</point><point>1 0 0</point>", "-1"),
+        ("<point>0 0 0</point><point>nan 0 0</point>", "nan"),
+        ("<point>0 0 0</point><point>1 0 0</point>" * 60_000, "120000"),
+    ],
+)
 def test_a_road_that_is_none_is_one_line_and_the_rest_loads(finder, inside, word):
     w, problems = world(f'<road name="street">{inside}</road><model name="m"><link name="l"/></model>', finder)
     assert names(w.models) == ["m"] and not w.scene.roads
@@ -237,10 +303,13 @@ def test_an_actor_without_anything_is_there(finder):
 
 # ---------------------------------------------------------------------------------------------- texts to spawn
 
+
 def test_kinds_of_text(models, finder):
     models("thing", MODEL.format(name="thing"))
-    include = "<sdf version='1.4'><world name='default'><include><uri>model://thing</uri><name>{}</name>" \
-              "<pose>1 2 3 0 0 0</pose></include></world></sdf>"
+    include = (
+        "<sdf version='1.4'><world name='default'><include><uri>model://thing</uri><name>{}</name>"
+        "<pose>1 2 3 0 0 0</pose></include></world></sdf>"
+    )
     assert root_kind("<robot name='r'/>") == "urdf"
     assert root_kind("<sdf version='1.6'><light name='l'/></sdf>") == "light"
     assert root_kind(include.format("x"), finder) == "model"
@@ -252,6 +321,7 @@ def test_kinds_of_text(models, finder):
 
 def test_a_text_to_spawn_is_parsed_once(models, finder, monkeypatch):
     from ode_sim.description import load
+
     models("thing", MODEL.format(name="thing"))
     parsed = []
     monkeypatch.setattr(load, "parse_xml", lambda *text: parsed.append(text) or xmlsource.parse_xml(*text))
@@ -271,11 +341,17 @@ def test_a_text_to_spawn_is_parsed_once(models, finder, monkeypatch):
         read_sdf_model("<robot name='r'/>")
 
 
-@pytest.mark.parametrize("spawned, message", [
-    ("<sdf version='1.6'/>", "holds no <model>"), ("<html/>", "expected <robot> or <sdf>"), ("", "empty"),
-    ("<sdf version='1.6'><world name='w'><include><uri>model://gone</uri></include></world></sdf>", "model://gone"),
-    ("<sdf version='x'><model name='m'/></sdf>", "'x' is no SDF version"),
-    ("<sdf version='1.6'><light name='l'/></sdf>", "is no <model>")])
+@pytest.mark.parametrize(
+    "spawned, message",
+    [
+        ("<sdf version='1.6'/>", "holds no <model>"),
+        ("<html/>", "expected <robot> or <sdf>"),
+        ("", "empty"),
+        ("<sdf version='1.6'><world name='w'><include><uri>model://gone</uri></include></world></sdf>", "model://gone"),
+        ("<sdf version='x'><model name='m'/></sdf>", "'x' is no SDF version"),
+        ("<sdf version='1.6'><light name='l'/></sdf>", "is no <model>"),
+    ],
+)
 def test_texts_that_are_no_model(finder, spawned, message):
     with pytest.raises(DescriptionError, match=message) as caught:
         read_model(spawned, finder=finder)
@@ -314,12 +390,24 @@ def test_colours_of_gazebo_and_of_a_model(models, finder):
         }""")
     script = "<material><script><uri>{}</uri><name>{}</name></script>{}</material>"
     visual = '<visual name="{}"><geometry><empty/></geometry>{}</visual>'
-    m, problems = model('<link name="l">' + "".join(visual.format(i, content) for i, content in enumerate([
-        script.format("file://media/materials/scripts/gazebo.material", "Gazebo/Grey", ""),
-        script.format("model://thing/materials/scripts", "Thing/Skin", ""),
-        script.format("file://media/materials/scripts/gazebo.material", "Gazebo/Mauve", ""),
-        script.format("", "Gazebo/Red", "<ambient>1 1 1 1</ambient>"),
-        "<material><diffuse>0 1 0 1</diffuse></material>", ""])) + "</link>", finder)
+    m, problems = model(
+        '<link name="l">'
+        + "".join(
+            visual.format(i, content)
+            for i, content in enumerate(
+                [
+                    script.format("file://media/materials/scripts/gazebo.material", "Gazebo/Grey", ""),
+                    script.format("model://thing/materials/scripts", "Thing/Skin", ""),
+                    script.format("file://media/materials/scripts/gazebo.material", "Gazebo/Mauve", ""),
+                    script.format("", "Gazebo/Red", "<ambient>1 1 1 1</ambient>"),
+                    "<material><diffuse>0 1 0 1</diffuse></material>",
+                    "",
+                ]
+            )
+        )
+        + "</link>",
+        finder,
+    )
     grey, skin, mauve, red, green, none = (visual.material for visual in m.links[0].visuals)
     assert (grey.diffuse, grey.ambient) == ((0.7, 0.7, 0.7, 1.0), (0.3, 0.3, 0.3, 1.0))
     assert (skin.ambient, skin.diffuse) == ((0.1, 0.2, 0.3, 1.0), (0.4, 0.5, 0.6, 0.7))
@@ -331,9 +419,15 @@ def test_colours_of_gazebo_and_of_a_model(models, finder):
 
 def test_saved_worlds_say_default_where_there_is_no_material(finder):
     default = "<script><uri>__default__</uri><name>__default__</name></script>"
-    m, problems = model('<link name="l">' + "".join(
-        f'<visual name="{name}"><geometry><empty/></geometry><material>{default}{colour}</material></visual>'
-        for name, colour in (("plain", ""), ("green", "<diffuse>0 1 0 1</diffuse>"))) + "</link>", finder)
+    m, problems = model(
+        '<link name="l">'
+        + "".join(
+            f'<visual name="{name}"><geometry><empty/></geometry><material>{default}{colour}</material></visual>'
+            for name, colour in (("plain", ""), ("green", "<diffuse>0 1 0 1</diffuse>"))
+        )
+        + "</link>",
+        finder,
+    )
     plain, green = (visual.material for visual in m.links[0].visuals)
     assert plain is None and green.diffuse == (0.0, 1.0, 0.0, 1.0) and not problems
 

@@ -2,20 +2,21 @@
 
 import numpy as np
 import pytest
-
 from ode_sim import math3
 from ode_sim.description import DescriptionError, read_model
-
 from urdf_texts import FINDER, LIMIT, box, convert, joint, link, messages, names, one
-
 
 # ---------------------------------------------------------------------------------------------- tree and joints
 
+
 def test_links_and_poses_follow_the_joints():
     model, problems = convert(
-        link("base"), link("a"), link("b"),
+        link("base"),
+        link("a"),
+        link("b"),
         joint("ja", "base", "a", "revolute", "1 0 0", "0 0 1.5707963267948966", LIMIT),
-        joint("jb", "a", "b", "prismatic", "0 2 0", body='<axis xyz="0 0 -2"/>' + LIMIT))
+        joint("jb", "a", "b", "prismatic", "0 2 0", body='<axis xyz="0 0 -2"/>' + LIMIT),
+    )
     assert model.name == "r" and names(model.links) == ["base", "a", "b"] and not problems
     assert one(model.links, "b").pose.p == pytest.approx((-1.0, 0.0, 0.0))
     ja, jb = model.joints
@@ -26,8 +27,9 @@ def test_links_and_poses_follow_the_joints():
 
 
 def test_children_come_in_the_order_of_joint_names():
-    model, _ = convert(link("base"), link("x"), link("y"),
-                       joint("z_first_in_file", "base", "x", "continuous"), joint("a_last", "base", "y", "continuous"))
+    model, _ = convert(
+        link("base"), link("x"), link("y"), joint("z_first_in_file", "base", "x", "continuous"), joint("a_last", "base", "y", "continuous")
+    )
     assert names(model.links) == ["base", "y", "x"] and names(model.joints) == ["a_last", "z_first_in_file"]
 
 
@@ -45,16 +47,21 @@ def test_continuous_takes_effort_and_velocity_of_its_limit():
 
 
 def test_limits_the_wrong_way_round_are_switched():
-    model, problems = convert(link("base"), link("a"), joint(
-        "j", "base", "a", "revolute", body='<limit lower="1" upper="-1" effort="0" velocity="0"/>'))
+    model, problems = convert(
+        link("base"), link("a"), joint("j", "base", "a", "revolute", body='<limit lower="1" upper="-1" effort="0" velocity="0"/>')
+    )
     assert (model.joints[0].axes[0].lower, model.joints[0].axes[0].upper) == (-1.0, 1.0)
     assert "switching the two" in messages(problems)
 
 
 def test_dynamics_and_mimic():
-    model, _ = convert(link("base"), link("a"), link("b"),
-                       joint("j", "base", "a", "continuous", body='<dynamics damping="0.5" friction="0.25"/>'),
-                       joint("k", "base", "b", "continuous", body='<mimic joint="j" multiplier="-2" offset="0.1"/>'))
+    model, _ = convert(
+        link("base"),
+        link("a"),
+        link("b"),
+        joint("j", "base", "a", "continuous", body='<dynamics damping="0.5" friction="0.25"/>'),
+        joint("k", "base", "b", "continuous", body='<mimic joint="j" multiplier="-2" offset="0.1"/>'),
+    )
     assert (model.joints[0].axes[0].damping, model.joints[0].axes[0].friction) == (0.5, 0.25)
     mimic = model.joints[1].mimic
     assert (mimic.joint, mimic.multiplier, mimic.offset) == ("j", -2.0, 0.1)
@@ -73,30 +80,35 @@ def test_robot_origin_is_the_pose_of_the_model():
 
 
 def test_link_and_joint_of_the_same_name():
-    model, problems = convert(link("base"), link("arm"), link("tip"),
-                              joint("arm", "base", "arm", "continuous", "1 0 0"),
-                              joint("tip", "arm", "tip", "continuous", "0 1 0"))
+    model, problems = convert(
+        link("base"),
+        link("arm"),
+        link("tip"),
+        joint("arm", "base", "arm", "continuous", "1 0 0"),
+        joint("tip", "arm", "tip", "continuous", "0 1 0"),
+    )
     assert one(model.links, "tip").pose.p == (1.0, 1.0, 0.0) and not problems
     assert one(model.joints, "tip").pose.p == (0.0, 0.0, 0.0)
 
 
 # ---------------------------------------------------------------------------------------------- the world link
 
+
 def test_world_link_bolts_its_children():
     model, _ = convert(link("world", None), link("base"), joint("bolt", "world", "base", "fixed", "0 0 1"))
     assert names(model.links) == ["base"] and model.links[0].pose.p == (0.0, 0.0, 1.0)
-    bolt, = model.joints
+    (bolt,) = model.joints
     assert (bolt.type, bolt.parent, bolt.child, bolt.axes) == ("fixed", "world", "base", ())
 
 
 def test_fixed_children_of_a_bolted_link_are_lumped():
-    model, _ = convert(link("world", None), link("base"), link("top"), joint("bolt", "world", "base"),
-                       joint("f", "base", "top"))
+    model, _ = convert(link("world", None), link("base"), link("top"), joint("bolt", "world", "base"), joint("f", "base", "top"))
     assert names(model.links) == ["base"] and names(model.joints) == ["bolt"]
     assert model.links[0].inertial.mass == 2.0
 
 
 # ---------------------------------------------------------------------------------------------- lumping
+
 
 def test_lumped_mass_is_combined_about_the_common_centre():
     model, _ = convert(link("base", 1.0), link("tip", 3.0), joint("f", "base", "tip", xyz="4 0 0"))
@@ -107,10 +119,10 @@ def test_lumped_mass_is_combined_about_the_common_centre():
 
 
 def test_lumped_tensor_is_turned():
-    slim = '<inertial><origin xyz="0 0 1" rpy="0 0 0"/><mass value="2"/>' \
-           '<inertia ixx="1" ixy="0" ixz="0" iyy="2" iyz="0" izz="3"/></inertial>'
-    model, _ = convert(link("base", None), f'<link name="tip">{slim}</link>',
-                       joint("f", "base", "tip", rpy="0 1.5707963267948966 0"))
+    slim = (
+        '<inertial><origin xyz="0 0 1" rpy="0 0 0"/><mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="2" iyz="0" izz="3"/></inertial>'
+    )
+    model, _ = convert(link("base", None), f'<link name="tip">{slim}</link>', joint("f", "base", "tip", rpy="0 1.5707963267948966 0"))
     inertial = model.links[0].inertial
     assert inertial.mass == 2.0 and inertial.pose.p == pytest.approx((1.0, 0.0, 0.0))
     assert (inertial.ixx, inertial.iyy, inertial.izz) == pytest.approx((3.0, 2.0, 1.0))
@@ -118,8 +130,10 @@ def test_lumped_tensor_is_turned():
 
 
 def test_an_unlumped_inertial_keeps_its_own_axes():
-    turned = '<inertial><origin xyz="0 0 1" rpy="0.5 0 0"/><mass value="2"/>' \
-             '<inertia ixx="1" ixy="0" ixz="0" iyy="2" iyz="0" izz="3"/></inertial>'
+    turned = (
+        '<inertial><origin xyz="0 0 1" rpy="0.5 0 0"/><mass value="2"/>'
+        '<inertia ixx="1" ixy="0" ixz="0" iyy="2" iyz="0" izz="3"/></inertial>'
+    )
     model, _ = convert(f'<link name="base">{turned}</link>')
     inertial = model.links[0].inertial
     assert (inertial.ixx, inertial.iyy, inertial.izz) == (1.0, 2.0, 3.0)
@@ -127,20 +141,27 @@ def test_an_unlumped_inertial_keeps_its_own_axes():
 
 
 def test_lumped_shapes_move_and_take_long_names():
-    model, _ = convert(link("base", body=box() + box() + box("visual")),
-                       link("tip", body=box(xyz="0 0 1") + box("visual")),
-                       joint("f", "base", "tip", xyz="1 0 0", rpy="0 1.5707963267948966 0"))
-    base, = model.links
-    assert names(base.collisions) == ["base_collision", "base_collision_1",
-                                      "base_fixed_joint_lump__tip_collision_2"]
+    model, _ = convert(
+        link("base", body=box() + box() + box("visual")),
+        link("tip", body=box(xyz="0 0 1") + box("visual")),
+        joint("f", "base", "tip", xyz="1 0 0", rpy="0 1.5707963267948966 0"),
+    )
+    (base,) = model.links
+    assert names(base.collisions) == ["base_collision", "base_collision_1", "base_fixed_joint_lump__tip_collision_2"]
     assert names(base.visuals) == ["base_visual", "base_fixed_joint_lump__tip_visual_1"]
     assert base.collisions[2].pose.p == pytest.approx((2.0, 0.0, 0.0))
 
 
 def test_lumping_runs_up_several_joints():
-    model, _ = convert(link("base"), link("mid", None), link("tip", body=box()), link("wheel"),
-                       joint("f1", "base", "mid", xyz="1 0 0"), joint("f2", "mid", "tip", xyz="0 1 0"),
-                       joint("j", "tip", "wheel", "continuous", "0 0 1"))
+    model, _ = convert(
+        link("base"),
+        link("mid", None),
+        link("tip", body=box()),
+        link("wheel"),
+        joint("f1", "base", "mid", xyz="1 0 0"),
+        joint("f2", "mid", "tip", xyz="0 1 0"),
+        joint("j", "tip", "wheel", "continuous", "0 0 1"),
+    )
     assert names(model.links) == ["base", "wheel"]
     assert names(model.links[0].collisions) == ["base_fixed_joint_lump__tip_collision"]
     assert model.links[0].collisions[0].pose.p == (1.0, 1.0, 0.0)
@@ -149,28 +170,38 @@ def test_lumping_runs_up_several_joints():
 
 
 def test_a_named_shape_that_does_not_start_with_the_link_name():
-    model, _ = convert(link("base", body=box(name="shell") + box(name="base_lower")),
-                       '<gazebo reference="base"><mu1>0.25</mu1></gazebo>')
+    model, _ = convert(link("base", body=box(name="shell") + box(name="base_lower")), '<gazebo reference="base"><mu1>0.25</mu1></gazebo>')
     shell, lower = model.links[0].collisions
     assert (shell.name, lower.name) == ("base_fixed_joint_lump__shell_collision", "base_lower_collision_1")
     assert (shell.surface.mu, lower.surface.mu) == (1.0, 0.25)  # as sdformat: the odd name loses its extensions
 
 
 def test_preserve_fixed_joint():
-    model, _ = convert(link("base"), link("tip"), joint("f", "base", "tip", xyz="1 0 0"),
-                       '<gazebo reference="f"><preserveFixedJoint>true</preserveFixedJoint></gazebo>')
+    model, _ = convert(
+        link("base"),
+        link("tip"),
+        joint("f", "base", "tip", xyz="1 0 0"),
+        '<gazebo reference="f"><preserveFixedJoint>true</preserveFixedJoint></gazebo>',
+    )
     assert names(model.links) == ["base", "tip"] and model.joints[0].type == "fixed"
 
 
 SCALE = '<sensor name="ft" type="force_torque"><update_rate>50</update_rate></sensor>'
 
 
-@pytest.mark.parametrize("kind, opt", [("revolute", ""), ("fixed", "<preserveFixedJoint>true</preserveFixedJoint>"),
-                                       ("fixed", "<disableFixedJointLumping>true</disableFixedJointLumping>")])
+@pytest.mark.parametrize(
+    "kind, opt",
+    [
+        ("revolute", ""),
+        ("fixed", "<preserveFixedJoint>true</preserveFixedJoint>"),
+        ("fixed", "<disableFixedJointLumping>true</disableFixedJointLumping>"),
+    ],
+)
 def test_a_joint_has_its_force_torque_sensor(kind, opt):
-    model, problems = convert(link("base"), link("tip"), joint("f", "base", "tip", kind, body=LIMIT),
-                              f'<gazebo reference="f">{opt}{SCALE}</gazebo>')
-    sensor, = model.joints[0].sensors
+    model, problems = convert(
+        link("base"), link("tip"), joint("f", "base", "tip", kind, body=LIMIT), f'<gazebo reference="f">{opt}{SCALE}</gazebo>'
+    )
+    (sensor,) = model.joints[0].sensors
     assert (sensor.name, sensor.type, sensor.update_rate) == ("ft", "force_torque", 50.0) and not problems
 
 
@@ -181,50 +212,74 @@ def test_the_sensor_of_a_joint_that_is_lumped_is_one_line():
 
 
 def test_disable_fixed_joint_lumping_makes_a_locked_hinge():
-    model, _ = convert(link("base"), link("tip"), joint("f", "base", "tip"),
-                       '<gazebo reference="f"><disableFixedJointLumping>true</disableFixedJointLumping></gazebo>')
-    hinge, = model.joints
+    model, _ = convert(
+        link("base"),
+        link("tip"),
+        joint("f", "base", "tip"),
+        '<gazebo reference="f"><disableFixedJointLumping>true</disableFixedJointLumping></gazebo>',
+    )
+    (hinge,) = model.joints
     assert (hinge.type, hinge.axes[0].lower, hinge.axes[0].upper, hinge.urdf_type) == ("revolute", 0.0, 0.0, "fixed")
 
 
 def test_a_joint_that_closes_a_loop_has_its_axis_in_its_own_frame():
     """URDF becomes SDF 1.7, where <use_parent_model_frame> is not known any more; legs of a delta robot would jam each other."""
-    closing = ('<gazebo><joint name="closing" type="revolute"><parent>base</parent><child>tip</child><axis><xyz>0 1 0</xyz>'
-               '<use_parent_model_frame>1</use_parent_model_frame></axis></joint></gazebo>')
+    closing = (
+        '<gazebo><joint name="closing" type="revolute"><parent>base</parent><child>tip</child><axis><xyz>0 1 0</xyz>'
+        "<use_parent_model_frame>1</use_parent_model_frame></axis></joint></gazebo>"
+    )
     model, problems = convert(link("base"), link("tip"), joint("hip", "base", "tip", "continuous", rpy="0 0 2.0943951"), closing)
     assert one(model.joints, "closing").axes[0].xyz == (0.0, 1.0, 0.0)
     assert len(problems) == 1 and "write <xyz expressed_in='__model__'>" in messages(problems)
 
 
 def test_preserve_wins_over_disable():
-    model, _ = convert(link("base"), link("tip"), joint("f", "base", "tip"), '<gazebo reference="f">'
-                       '<disableFixedJointLumping>true</disableFixedJointLumping>'
-                       '<preserveFixedJoint>true</preserveFixedJoint></gazebo>')
+    model, _ = convert(
+        link("base"),
+        link("tip"),
+        joint("f", "base", "tip"),
+        '<gazebo reference="f">'
+        "<disableFixedJointLumping>true</disableFixedJointLumping>"
+        "<preserveFixedJoint>true</preserveFixedJoint></gazebo>",
+    )
     assert model.joints[0].type == "fixed"
 
 
 # ---------------------------------------------------------------------------------------------- mass
 
+
 def test_massless_root_takes_the_mass_of_a_fixed_child():
-    model, problems = convert(link("base_footprint", None), link("base_link", 5.0),
-                              joint("f", "base_footprint", "base_link", xyz="0 0 0.1"))
+    model, problems = convert(
+        link("base_footprint", None), link("base_link", 5.0), joint("f", "base_footprint", "base_link", xyz="0 0 0.1")
+    )
     assert names(model.links) == ["base_footprint"] and not problems
     assert model.links[0].inertial.mass == 5.0 and model.links[0].inertial.pose.p == (0.0, 0.0, 0.1)
 
 
 @pytest.mark.parametrize("mass", [None, 0, -1])
 def test_a_massless_link_takes_its_sub_tree_with_it(mass):
-    model, problems = convert(link("base"), link("a", mass), link("b"), link("c"),
-                              joint("ja", "base", "a", "continuous"), joint("jb", "a", "b", "continuous"),
-                              joint("jc", "b", "c"))
+    model, problems = convert(
+        link("base"),
+        link("a", mass),
+        link("b"),
+        link("c"),
+        joint("ja", "base", "a", "continuous"),
+        joint("jb", "a", "b", "continuous"),
+        joint("jc", "b", "c"),
+    )
     assert names(model.links) == ["base"] and model.joints == ()
     text = messages(problems)
     assert "link 'a' has no mass" in text and "b, c" in text and "joint 'ja'" in text and "<inertial>" in text
 
 
 def test_a_massless_link_behind_a_fixed_joint_is_fine():
-    model, problems = convert(link("base"), link("mount", None, box("visual")), link("wheel"),
-                              joint("f", "base", "mount", xyz="0 1 0"), joint("j", "mount", "wheel", "continuous"))
+    model, problems = convert(
+        link("base"),
+        link("mount", None, box("visual")),
+        link("wheel"),
+        joint("f", "base", "mount", xyz="0 1 0"),
+        joint("j", "mount", "wheel", "continuous"),
+    )
     assert names(model.links) == ["base", "wheel"] and not problems
     assert one(model.links, "wheel").pose.p == (0.0, 1.0, 0.0)
 
@@ -258,31 +313,43 @@ def test_singular_and_huge_inertias_are_kept():
 
 # ---------------------------------------------------------------------------------------------- untidy originals
 
+
 def test_plugin_names_with_blanks_and_a_body_of_dots():
-    model, _ = convert(link("base"), '<gazebo><plugin name=" ctl " filename=" libgazebo_ros_control.so\n ">'
-                                     " ... <robotNamespace>/arm</robotNamespace> ...</plugin></gazebo>")
-    plugin, = model.plugins
+    model, _ = convert(
+        link("base"),
+        '<gazebo><plugin name=" ctl " filename=" libgazebo_ros_control.so\n ">'
+        " ... <robotNamespace>/arm</robotNamespace> ...</plugin></gazebo>",
+    )
+    (plugin,) = model.plugins
     assert (plugin.name, plugin.filename) == ("ctl", "libgazebo_ros_control.so")
     assert plugin.element.find("robotNamespace").text == "/arm"
 
 
 def test_unknown_elements_and_stray_text_are_ignored():
     model, problems = convert(
-        '<arg name="hardware_interface" default="x"/>', "some words",
+        '<arg name="hardware_interface" default="x"/>',
+        "some words",
         '<transmission name="t"><robotNamespace>/arm</robotNamespace></transmission>',
-        '<!-- a comment -- with dashes -->',
-        link("base", body='<origin xyz="1 1 1"/>'), link("tip"),
-        joint("f", "base", "tip", body='<axis xyz="0 0 1"/>' + LIMIT))
+        "<!-- a comment -- with dashes -->",
+        link("base", body='<origin xyz="1 1 1"/>'),
+        link("tip"),
+        joint("f", "base", "tip", body='<axis xyz="0 0 1"/>' + LIMIT),
+    )
     assert names(model.links) == ["base"] and not problems
 
 
 def test_inertias_of_100_million_behind_fixed_joints_into_massless_revolute_children():
     """The homework arm: empty links under revolute joints whose fixed children bring all the mass."""
     big = '<inertial><mass value="0.1"/><inertia ixx="1.5e8" ixy="0" ixz="0" iyy="1e8" iyz="0" izz="1e8"/></inertial>'
-    model, problems = convert(link("base_link"), '<link name="dyn2_r"/>', f'<link name="f4">{big}</link>',
-                              f'<link name="dyn3">{big}</link>',
-                              joint("j0", "base_link", "dyn2_r", "revolute", body=LIMIT),
-                              joint("a", "dyn2_r", "f4"), joint("b", "f4", "dyn3", xyz="0 0 0.1"))
+    model, problems = convert(
+        link("base_link"),
+        '<link name="dyn2_r"/>',
+        f'<link name="f4">{big}</link>',
+        f'<link name="dyn3">{big}</link>',
+        joint("j0", "base_link", "dyn2_r", "revolute", body=LIMIT),
+        joint("a", "dyn2_r", "f4"),
+        joint("b", "f4", "dyn3", xyz="0 0 0.1"),
+    )
     assert names(model.links) == ["base_link", "dyn2_r"] and not problems
     assert model.links[1].inertial.mass == pytest.approx(0.2) and model.links[1].inertial.ixx > 3e8 - 1
 
@@ -314,8 +381,13 @@ def test_missing_mesh_is_one_warning_and_the_link_stays():
 
 
 def test_two_readings_are_equal():
-    parts = (link("base", body=box() + box("visual")), link("a"), link("t"),
-             joint("j", "base", "a", "continuous", "1 2 3", "0.1 0.2 0.3"), joint("f", "a", "t", rpy="1 1 1"))
+    parts = (
+        link("base", body=box() + box("visual")),
+        link("a"),
+        link("t"),
+        joint("j", "base", "a", "continuous", "1 2 3", "0.1 0.2 0.3"),
+        joint("f", "a", "t", rpy="1 1 1"),
+    )
     assert convert(*parts)[0] == convert(*parts)[0]
 
 

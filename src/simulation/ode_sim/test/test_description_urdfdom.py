@@ -3,6 +3,7 @@
 Two rules are our own (docs/differences.md): what stands behind a fault in the same link is read, and a mass counts although the place of
 its centre is at fault.
 """
+
 import copy
 import json
 import os
@@ -10,7 +11,6 @@ import subprocess
 import xml.etree.ElementTree as ET
 
 import pytest
-
 from ode_sim.description import DescriptionError, ResourceFinder, read_urdf
 
 FINDER = ResourceFinder(environment=False, stock="/nowhere", package_path=lambda name: None)
@@ -34,9 +34,36 @@ ROBOT = """<robot name="cart" version="1.0">
     <calibration rising="0" falling="1"/></joint>
   <joint name="roll" type="continuous"><parent link="tool"/><child link="ball"/><mimic joint="turn" multiplier="2" offset="0.5"/></joint>
 </robot>"""
-VALUES = ["", " ", "abc", "nan", "inf", "-inf", "0x10", "5m", "1e", "1e400", "1e-400", "1,5", "1,5 0,2 0,1", "1 2", "1 2 3", "1 2 3 4",
-          " 1", "1 ", "+1",
-          ".5", "1.", ".", "--1", "1e3", "-2", "1_0", "\u0663", "1 2 x"]
+VALUES = [
+    "",
+    " ",
+    "abc",
+    "nan",
+    "inf",
+    "-inf",
+    "0x10",
+    "5m",
+    "1e",
+    "1e400",
+    "1e-400",
+    "1,5",
+    "1,5 0,2 0,1",
+    "1 2",
+    "1 2 3",
+    "1 2 3 4",
+    " 1",
+    "1 ",
+    "+1",
+    ".5",
+    "1.",
+    ".",
+    "--1",
+    "1e3",
+    "-2",
+    "1_0",
+    "\u0663",
+    "1 2 x",
+]
 NAMES = {"name", "filename", "link", "type", "joint", "version"}
 #: leniencies that are meant, beside those above: one number for the scale of a mesh, white space around a word, and names
 #: that urdfdom takes and Gazebo's SDF does not.
@@ -122,10 +149,34 @@ def difference(text, theirs):
     return ""
 
 
-@pytest.mark.parametrize("tag", ["robot", "link", "joint", "inertial", "mass", "inertia", "origin", "visual", "collision", "geometry",
-                                 "box",
-                                 "cylinder", "sphere", "mesh", "material", "axis", "limit", "safety_controller", "calibration", "dynamics",
-                                 "mimic", "parent", "child"])
+@pytest.mark.parametrize(
+    "tag",
+    [
+        "robot",
+        "link",
+        "joint",
+        "inertial",
+        "mass",
+        "inertia",
+        "origin",
+        "visual",
+        "collision",
+        "geometry",
+        "box",
+        "cylinder",
+        "sphere",
+        "mesh",
+        "material",
+        "axis",
+        "limit",
+        "safety_controller",
+        "calibration",
+        "dynamics",
+        "mimic",
+        "parent",
+        "child",
+    ],
+)
 def test_a_fault_costs_what_it_costs_in_urdfdom(tag):
     cases = dict(variants(tag))
     wrong = [f"{what}: {said}" for (what, text), theirs in zip(cases.items(), asked(cases.values())) if (said := difference(text, theirs))]

@@ -1,4 +1,5 @@
 """ode_sim.gym: Gymnasium's own checks, the same bits for the same seed, one world or several, errors in one line."""
+
 import pathlib
 import subprocess
 import sys
@@ -18,8 +19,16 @@ def shaken(episodes, random):
 
 
 def make(number=0, **more):
-    keywords = {"robot": CARTPOLE, "commands": [Command("slider", "effort")], "joints": ["slider", "hinge"], "links": ["pole"],
-                "reward": lambda episodes, action: np.cos(episodes.position("hinge")), "start": shaken, "limit": 50, **more}
+    keywords = {
+        "robot": CARTPOLE,
+        "commands": [Command("slider", "effort")],
+        "joints": ["slider", "hinge"],
+        "links": ["pole"],
+        "reward": lambda episodes, action: np.cos(episodes.position("hinge")),
+        "start": shaken,
+        "limit": 50,
+        **more,
+    }
     return RobotVectorEnv(number, **keywords) if number else RobotEnv(**keywords)
 
 
@@ -89,17 +98,20 @@ def test_what_is_seen_and_how_a_command_acts():
     assert 0.8 < seen[0] < 1.4  # 10 N on 1.1 kg for 0.5 s: 1.14 m, less what the pole takes
 
 
-@pytest.mark.parametrize("change, words", [
-    ({"commands": [Command("sledge")]}, "no joint 'sledge' that moves is in the world; there are: slider, hinge"),
-    ({"commands": []}, "no joint is commanded"),
-    ({"commands": [Command("hinge", "effort")]}, r"joint hinge has no effort limit; give Command\('hinge', 'effort', low, high\)"),
-    ({"commands": [Command("slider", "torque")]}, "cannot be commanded by 'torque', only by position, velocity, effort"),
-    ({"commands": [Command("slider", "effort", 1, 1)]}, "nothing is between low 1 and high 1"),
-    ({"links": ["hand"]}, "no link 'hand' is in the world; there are: .*cart, pole"),
-    ({"robot": "/none.urdf"}, "/none.urdf cannot be read: No such file"),
-    ({"period": 0.0}, "the period must be more than 0 s"),
-    ({"render_mode": "human"}, "render_mode 'human' is not there"),
-])
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        ({"commands": [Command("sledge")]}, "no joint 'sledge' that moves is in the world; there are: slider, hinge"),
+        ({"commands": []}, "no joint is commanded"),
+        ({"commands": [Command("hinge", "effort")]}, r"joint hinge has no effort limit; give Command\('hinge', 'effort', low, high\)"),
+        ({"commands": [Command("slider", "torque")]}, "cannot be commanded by 'torque', only by position, velocity, effort"),
+        ({"commands": [Command("slider", "effort", 1, 1)]}, "nothing is between low 1 and high 1"),
+        ({"links": ["hand"]}, "no link 'hand' is in the world; there are: .*cart, pole"),
+        ({"robot": "/none.urdf"}, "/none.urdf cannot be read: No such file"),
+        ({"period": 0.0}, "the period must be more than 0 s"),
+        ({"render_mode": "human"}, "render_mode 'human' is not there"),
+    ],
+)
 def test_mistakes_get_one_line(change, words):
     with pytest.raises(ValueError, match=words) as caught:
         make(**change)

@@ -1,4 +1,5 @@
 """The ground that is drawn is the ground that one stands on, whatever the image holds."""
+
 import time
 
 import numpy as np
@@ -14,7 +15,7 @@ SIZE = (20.0, 10.0, 1200.0)
 
 def hills(rows, columns, top):
     """Slopes and waves, from 0 to ``top``."""
-    y, x = np.mgrid[0:1:rows * 1j, 0:1:columns * 1j]
+    y, x = np.mgrid[0 : 1 : rows * 1j, 0 : 1 : columns * 1j]
     return np.round(top * (0.4 * x + 0.3 * y + 0.3 * np.sin(5 * x) ** 2 * np.cos(3 * y) ** 2))
 
 
@@ -22,6 +23,7 @@ def hills(rows, columns, top):
 @pytest.mark.parametrize("rows, columns", ((65, 65), (600, 515)))
 def test_what_is_drawn_is_where_what_collides_is(tmp_path, kind, top, rows, columns):
     from PIL import Image
+
     Image.fromarray(hills(rows, columns, top).astype(kind)).save(tmp_path / "hills.png")
     shape = Heightmap(str(tmp_path / "hills.png"), size=SIZE, pos=(1.0, 2.0, 3.0))
     most = SIZE[2] * top / np.iinfo(kind).max
@@ -53,6 +55,7 @@ def test_fewer_points_cover_the_same_ground():
 @pytest.mark.parametrize("size", ((1, 5), (5, 1)))
 def test_a_row_of_pixels_is_no_ground(tmp_path, size):
     from PIL import Image
+
     Image.fromarray(np.zeros(size, np.uint8)).save(tmp_path / "row.png")
     with pytest.raises(DescriptionError, match="row.png: a height map must have at least 2x2 pixels"):
         load_heights(Heightmap(str(tmp_path / "row.png")))
@@ -62,6 +65,7 @@ def terrain(folder, grey, size, pose):
     """A world of a map of these grey values (rows, columns), and its triangles (n, 3, 3) in it: each cell has two, on either side of the
     diagonal from its right end in the upper row to its left end in the lower, as in ODE's heightfield.cpp."""
     from PIL import Image
+
     Image.fromarray(grey.astype(np.uint16)).save(folder / "map.png")
     shape = Heightmap(str(folder / "map.png"), size=size)
     world = ode_sim.World()
@@ -110,16 +114,27 @@ def test_rays_along_the_lines_of_the_grid(tmp_path):
     ramp = np.add.outer(np.arange(5), np.zeros(5)) * 10000
     world, triangles = terrain(tmp_path, ramp, (4.0, 4.0, 6.5535), Pose())  # 1 m a row, down towards +y
     for origin, direction, distance in (
-            ((0, 0, 9), (0, 0, -1), 7.0), ((1, 1, 9), (0, 0, -1), 8.0), ((0, 0, 0), (0, 0, 1), 2.0), ((2, 2, 9), (0, 0, -1), 9.0),
-            ((-2, -2, 9), (0, 0, -1), 5.0), ((0, 5, 1.5), (0, -1, 0), 4.5), ((0, -5, 1.5), (0, 1, 0), 5.5), ((1, 5, 3), (0, -1, 0), 6.0),
-            ((2, 5, 1), (0, -1, 0), 4.0), ((2.01, 5, 1), (0, -1, 0), np.inf), ((-5, 0, 2.5), (1, 0, 0), np.inf),
-            ((-5, 0.5, 1.49), (1, 0, 0), np.inf), ((0, 0, -0.5), (1, 0, 0), np.inf), ((0, 1, -3), (0, 0, -1), np.inf),
-            ((1.5, -1.5, 5), (-1, 1, -2), 1.5 * 6 ** 0.5)):
+        ((0, 0, 9), (0, 0, -1), 7.0),
+        ((1, 1, 9), (0, 0, -1), 8.0),
+        ((0, 0, 0), (0, 0, 1), 2.0),
+        ((2, 2, 9), (0, 0, -1), 9.0),
+        ((-2, -2, 9), (0, 0, -1), 5.0),
+        ((0, 5, 1.5), (0, -1, 0), 4.5),
+        ((0, -5, 1.5), (0, 1, 0), 5.5),
+        ((1, 5, 3), (0, -1, 0), 6.0),
+        ((2, 5, 1), (0, -1, 0), 4.0),
+        ((2.01, 5, 1), (0, -1, 0), np.inf),
+        ((-5, 0, 2.5), (1, 0, 0), np.inf),
+        ((-5, 0.5, 1.49), (1, 0, 0), np.inf),
+        ((0, 0, -0.5), (1, 0, 0), np.inf),
+        ((0, 1, -3), (0, 0, -1), np.inf),
+        ((1.5, -1.5, 5), (-1, 1, -2), 1.5 * 6**0.5),
+    ):
         ranges, _ = world.cast_rays([origin], [direction], 50.0)
         assert ranges[0] == pytest.approx(distance, abs=1e-6), (origin, direction)
     world, _ = terrain(tmp_path, np.full((300, 300), 65535), (30.0, 30.0, 1.0), Pose())
     ranges, _ = world.cast_rays([(0, 0, 3.0), (-14, -13, 2.0)], [(0.1, 0.2, -1), (1, 0.9, -0.1)], 100.0)
-    assert ranges == pytest.approx([2 * 1.05 ** 0.5, 10 * 1.82 ** 0.5])
+    assert ranges == pytest.approx([2 * 1.05**0.5, 10 * 1.82**0.5])
 
 
 @pytest.mark.parametrize("grey, height", ((((0, 65535), (65535, 0)), 0.95), (((65535, 0), (0, 65535)), 0.05)))

@@ -1,4 +1,5 @@
 """Inertia tensors as they are written, and those that are none."""
+
 import pytest
 from ode_sim.description.model import Inertial
 from ode_sim.inertia import usable_inertia
@@ -9,8 +10,15 @@ def tensor(**moments):
     return usable_inertia(Inertial(mass=2.0, **{name: moments.get(name, 0.0) for name in names}), 2.0, "link 'l'")
 
 
-@pytest.mark.parametrize("moments", [dict(ixx=0.3, iyy=0.3, ixy=0.3, izz=0.6), dict(ixx=0.2, iyy=0.2, izz=0.2, ixy=0.2, ixz=0.2, iyz=0.2),
-                                     dict(), dict(ixx=-1, iyy=1, izz=1)])
+@pytest.mark.parametrize(
+    "moments",
+    [
+        dict(ixx=0.3, iyy=0.3, ixy=0.3, izz=0.6),
+        dict(ixx=0.2, iyy=0.2, izz=0.2, ixy=0.2, ixz=0.2, iyz=0.2),
+        dict(),
+        dict(ixx=-1, iyy=1, izz=1),
+    ],
+)
 def test_a_tensor_that_is_not_positive_definite_is_gazebos_identity(moments):
     found, problem = tensor(**moments)
     assert found == (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)

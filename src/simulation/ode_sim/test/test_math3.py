@@ -1,11 +1,11 @@
 """Pose arithmetic against its algebra, and against NumPy matrices."""
+
 import math
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
 from ode_sim import math3
 from ode_sim.description.model import Pose
 

@@ -1,4 +1,5 @@
 """Mesh files written by the test, read back."""
+
 import os
 import re
 import struct
@@ -8,13 +9,13 @@ import zipfile
 
 import numpy as np
 import pytest
-
 from ode_sim import mesh
 from ode_sim.description.model import DescriptionError, Mesh
 
 CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
-FACES = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
-                  [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])
+FACES = np.array(
+    [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
+)
 
 
 def binary_stl(path, header=b"made by a test"):
@@ -88,11 +89,19 @@ def test_cube_is_welded_and_closed(tmp_path, write, name):
     assert properties.inertia == pytest.approx(np.eye(3) / 6.0)
 
 
-@pytest.mark.parametrize("change", [
-    str.upper, lambda text: text.replace("\n", "\r\n"), lambda text: " ".join(text.split()), lambda text: text.replace("0 0 0",
-        "0.0E+00 0e0 -0.0"),
-    lambda text: "\n\n  " + text, lambda text: text.replace("endsolid", "end of the"), lambda text: text.replace("\n", "\n\t")],
-    ids=["capitals", "crlf", "one line", "exponents", "blank lines", "no end", "tabs"])
+@pytest.mark.parametrize(
+    "change",
+    [
+        str.upper,
+        lambda text: text.replace("\n", "\r\n"),
+        lambda text: " ".join(text.split()),
+        lambda text: text.replace("0 0 0", "0.0E+00 0e0 -0.0"),
+        lambda text: "\n\n  " + text,
+        lambda text: text.replace("endsolid", "end of the"),
+        lambda text: text.replace("\n", "\n\t"),
+    ],
+    ids=["capitals", "crlf", "one line", "exponents", "blank lines", "no end", "tabs"],
+)
 def test_ascii_stl_of_any_hand(tmp_path, change):
     """As Gazebo and RViz read them: words in any case (leqi), numbers as scanf does."""
     ascii_stl(tmp_path / "c.stl")
@@ -119,7 +128,7 @@ def test_an_stl_that_is_cut_off_says_so(tmp_path, header):
         mesh.load_surface(str(file))
     ascii_stl(tmp_path / "d.stl")
     text = (tmp_path / "d.stl").read_text()
-    file.write_text(text[:text.rindex("vertex") + 9])
+    file.write_text(text[: text.rindex("vertex") + 9])
     with pytest.raises(DescriptionError, match="is cut off"):
         mesh.load_surface(str(file))
 
@@ -145,17 +154,18 @@ def test_scale_and_mirror_keep_the_outside_outside(tmp_path):
 
 
 def test_sharp_edges_are_drawn_sharp(tmp_path):
-    part, = mesh.load_visual(binary_stl(tmp_path / "c.stl"))
+    (part,) = mesh.load_visual(binary_stl(tmp_path / "c.stl"))
     assert len(part.vertices) == 24  # each corner once for each of its three faces
     assert np.abs(part.normals).max(axis=1) == pytest.approx(np.ones(24))
 
 
 def test_smooth_surfaces_are_drawn_smooth(tmp_path):
     import trimesh
+
     ball = trimesh.creation.icosphere(subdivisions=3)
     file = tmp_path / "ball.stl"
     file.write_bytes(trimesh.exchange.stl.export_stl(ball))
-    part, = mesh.load_visual(str(file))
+    (part,) = mesh.load_visual(str(file))
     assert len(part.vertices) == len(ball.vertices)
     assert np.einsum("ij,ij->i", part.normals, part.vertices).min() > 0.999
 
@@ -180,10 +190,17 @@ def test_collada_up_axis_is_ignored_as_in_gazebo_classic(tmp_path):
     assert np.array_equal(*surfaces)
 
 
-@pytest.mark.parametrize("faulty", [
-    "<transparency> </transparency>", "<specular><color>white</color></specular>", "<emission><color/></emission>",
-    "<shininess><float/></shininess>", "<ambient><colour>1 0 0 1</colour></ambient>",
-    "<index_of_refraction><float>1 2</float></index_of_refraction>"])
+@pytest.mark.parametrize(
+    "faulty",
+    [
+        "<transparency> </transparency>",
+        "<specular><color>white</color></specular>",
+        "<emission><color/></emission>",
+        "<shininess><float/></shininess>",
+        "<ambient><colour>1 0 0 1</colour></ambient>",
+        "<index_of_refraction><float>1 2</float></index_of_refraction>",
+    ],
+)
 def test_a_shape_is_there_and_red_though_its_shader_is_faulty_as_in_gazebo(tmp_path, faulty):
     file = tmp_path / "t.dae"
     file.write_text(DAE.format(up="").replace("<diffuse><color>1 0 0", f"{faulty}<diffuse><color>1 0 0"))
@@ -193,11 +210,15 @@ def test_a_shape_is_there_and_red_though_its_shader_is_faulty_as_in_gazebo(tmp_p
     assert len(mesh.load_surface(str(file)).triangles) == 2
 
 
-@pytest.mark.parametrize("sound, written", [
-    (b'<node id="n">', b'<node id="<STL_BINARY>" name=\'<a&b>\'>'),  # by Assimp, as in velodyne_description
-    (b"<asset>", b"<asset><contributor><author>Tom & Jerry</author></contributor>"),
-    (b'<?xml version="1.0"?>', b'<?xml version="1.0" encoding="utf-8"?><!-- M\xfcller -->'),
-    (b'name="tri"', b'name="\xb5&_<1"')])
+@pytest.mark.parametrize(
+    "sound, written",
+    [
+        (b'<node id="n">', b"<node id=\"<STL_BINARY>\" name='<a&b>'>"),  # by Assimp, as in velodyne_description
+        (b"<asset>", b"<asset><contributor><author>Tom & Jerry</author></contributor>"),
+        (b'<?xml version="1.0"?>', b'<?xml version="1.0" encoding="utf-8"?><!-- M\xfcller -->'),
+        (b'name="tri"', b'name="\xb5&_<1"'),
+    ],
+)
 def test_what_an_exporter_did_not_escape_is_read_as_in_gazebo(tmp_path, sound, written):
     file = tmp_path / "t.dae"
     assert sound in DAE.format(up="").encode()
@@ -231,7 +252,7 @@ def test_obj_materials_polygons_and_negative_indices(tmp_path):
     (tmp_path / "m.mtl").write_text("newmtl blue sky\nKd 0 0 1\nd 0.5\n")
     file = tmp_path / "q.obj"
     file.write_text("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl blue sky\nf -4 -3 -2 -1\n")
-    part, = mesh.load_visual(str(file))
+    (part,) = mesh.load_visual(str(file))
     assert part.material.diffuse == (0.0, 0.0, 1.0, 0.5) and len(part.triangles) == 2
     assert part.normals == pytest.approx(np.tile([0.0, 0.0, 1.0], (4, 1)))
 
@@ -264,11 +285,22 @@ def test_read_once_until_the_file_changes(tmp_path):
         first.vertices[0, 0] = 9.0  # shared between callers
 
 
-@pytest.mark.parametrize("name, content", [
-    ("a.stl", b""), ("b.stl", b"\0" * 84), ("c.stl", b"solid x\nvertex 1 2\n"), ("d.stl", b"random words"),
-    ("e.dae", b"<COLLADA/>"), ("f.dae", b"nothing"), ("g.obj", b"f 1 2 3\n"), ("h.obj", b"v a b c\n"),
-    ("i.step", b"ISO-10303-21;"), ("j.stl", b"x" * 80 + struct.pack("<I", 5) + b"cut off"),
-    ("k.obj", b"v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")])
+@pytest.mark.parametrize(
+    "name, content",
+    [
+        ("a.stl", b""),
+        ("b.stl", b"\0" * 84),
+        ("c.stl", b"solid x\nvertex 1 2\n"),
+        ("d.stl", b"random words"),
+        ("e.dae", b"<COLLADA/>"),
+        ("f.dae", b"nothing"),
+        ("g.obj", b"f 1 2 3\n"),
+        ("h.obj", b"v a b c\n"),
+        ("i.step", b"ISO-10303-21;"),
+        ("j.stl", b"x" * 80 + struct.pack("<I", 5) + b"cut off"),
+        ("k.obj", b"v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+    ],
+)
 def test_a_broken_file_is_one_line_that_names_it(tmp_path, name, content):
     file = tmp_path / name
     file.write_bytes(content)
@@ -283,6 +315,7 @@ def test_a_missing_file_is_named():
 
 
 # ---------------------------------------------------------------------------------------------- traps
+
 
 def refused(path):
     begin = time.process_time()
@@ -304,23 +337,39 @@ def doctype(entities):
 
 BOMB = "".join(f'<!ENTITY a{i} "{f"&a{i - 1};" * 10 if i else "ha" * 50}">' for i in range(10))
 NESTED = "<node>" * 500 + "</node>" * 500
-DOUBLING = "".join(f'<node id="n{i}"><instance_node url="#n{i - 1}"/><instance_node url="#n{i - 1}"/></node>'
-                   if i else '<node id="n0"><instance_geometry url="#tri"/></node>' for i in range(40))
+DOUBLING = "".join(
+    f'<node id="n{i}"><instance_node url="#n{i - 1}"/><instance_node url="#n{i - 1}"/></node>'
+    if i
+    else '<node id="n0"><instance_geometry url="#tri"/></node>'
+    for i in range(40)
+)
 
 
-@pytest.mark.parametrize("text, message", [
-    (doctype(BOMB).replace("2020-01-01", "&a9;", 1), "declares the entity 'a0'"),
-    (doctype('<!ENTITY a SYSTEM "file:///etc/hostname">').replace("2020-01-01", "&a;", 1), "declares the entity 'a'"),
-    (doctype('<!ENTITY % a SYSTEM "file:///etc/hostname"> %a;'), "declares the entity 'a'"),
-    (DAE.format(up="").replace("<library_geometries>", f"<library_nodes>{NESTED}</library_nodes><library_geometries>"),
-     "nests more than 100 elements deep"),
-    (DAE.format(up="").replace("<library_geometries>", f"<library_nodes>{DOUBLING}</library_nodes><library_geometries>"),
-     "its nodes stand for each other more than 50000 times"),
-    (DAE.format(up="").replace("<library_geometries>", '<library_nodes><node id="n"><instance_node url="#n"/></node>'
-                               "</library_nodes><library_geometries>"), "node 'n' stands for itself"),
-    (doctype(BOMB).replace('<node id="n">', '<node id="<n>">'), "declares the entity 'a0'"),
-    (DAE.format(up="").replace("<asset>", '<asset a="<">' + "<a b=" * 300_000 + "<a" + " " * 300_000), "is broken, "),
-], ids=["bomb", "xxe", "parameter", "deep", "doubling", "circle", "bomb to be mended", "long to mend"])
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        (doctype(BOMB).replace("2020-01-01", "&a9;", 1), "declares the entity 'a0'"),
+        (doctype('<!ENTITY a SYSTEM "file:///etc/hostname">').replace("2020-01-01", "&a;", 1), "declares the entity 'a'"),
+        (doctype('<!ENTITY % a SYSTEM "file:///etc/hostname"> %a;'), "declares the entity 'a'"),
+        (
+            DAE.format(up="").replace("<library_geometries>", f"<library_nodes>{NESTED}</library_nodes><library_geometries>"),
+            "nests more than 100 elements deep",
+        ),
+        (
+            DAE.format(up="").replace("<library_geometries>", f"<library_nodes>{DOUBLING}</library_nodes><library_geometries>"),
+            "its nodes stand for each other more than 50000 times",
+        ),
+        (
+            DAE.format(up="").replace(
+                "<library_geometries>", '<library_nodes><node id="n"><instance_node url="#n"/></node></library_nodes><library_geometries>'
+            ),
+            "node 'n' stands for itself",
+        ),
+        (doctype(BOMB).replace('<node id="n">', '<node id="<n>">'), "declares the entity 'a0'"),
+        (DAE.format(up="").replace("<asset>", '<asset a="<">' + "<a b=" * 300_000 + "<a" + " " * 300_000), "is broken, "),
+    ],
+    ids=["bomb", "xxe", "parameter", "deep", "doubling", "circle", "bomb to be mended", "long to mend"],
+)
 def test_a_collada_file_that_is_a_trap_is_refused_at_once(tmp_path, text, message):
     path = tmp_path / "trap.dae"
     path.write_text(text)
@@ -337,19 +386,29 @@ def test_a_zip_bomb_is_no_collada_file(tmp_path):
 
 
 def stl(points, count=None):
-    records = b"".join(struct.pack("<12fH", 0, 0, 0, *points[3 * i:3 * i + 9], 0) for i in range(0, len(points) // 3, 3))
+    records = b"".join(struct.pack("<12fH", 0, 0, 0, *points[3 * i : 3 * i + 9], 0) for i in range(0, len(points) // 3, 3))
     return b" " * 80 + struct.pack("<I", len(points) // 9 if count is None else count) + records
 
 
-@pytest.mark.parametrize("name, content", [
-    ("inf.stl", stl([float("inf")] * 9)), ("nan.stl", stl([float("nan")] * 9)),
-    ("far.stl", stl([3e38, 0, 0, 0, 3e38, 0, 0, 0, -3e38])),
-    ("count.stl", stl([0.0] * 9, 4_000_000_000)), ("word.stl", b"solid x\nvertex 1 2 z\nvertex 1 2 3\nvertex 1 2 3\n"),
-    ("short.stl", b"solid x\nvertex 1 2\nvertex 1\nvertex 1 2 3\n"), ("tiny.stl", stl([5e-324, 0, 0, 0, 1e-45, 0, 0, 0, 0])),
-    ("far.obj", b"v 1e300 0 0\nv 0 1e300 0\nv 0 0 -1e308\nf 1 2 3\n"), ("inf.obj", b"v 1e999 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n"),
-    ("index.obj", b"v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 99999999999999999999999\n"), ("ragged.obj", b"v 1\nv 0 1\nv 0 0 1\nf 1 2 3\n"),
-    ("vt.obj", b"v 1\nv 0 1\nv 0 0 1\nvt\nf 1/1 2/9 3/7\n"), ("words.obj", b"newmtl\nusemtl\nmtllib\no\nf\nv\nvt\nvn\n")],
-                         ids=lambda value: value if isinstance(value, str) else "")
+@pytest.mark.parametrize(
+    "name, content",
+    [
+        ("inf.stl", stl([float("inf")] * 9)),
+        ("nan.stl", stl([float("nan")] * 9)),
+        ("far.stl", stl([3e38, 0, 0, 0, 3e38, 0, 0, 0, -3e38])),
+        ("count.stl", stl([0.0] * 9, 4_000_000_000)),
+        ("word.stl", b"solid x\nvertex 1 2 z\nvertex 1 2 3\nvertex 1 2 3\n"),
+        ("short.stl", b"solid x\nvertex 1 2\nvertex 1\nvertex 1 2 3\n"),
+        ("tiny.stl", stl([5e-324, 0, 0, 0, 1e-45, 0, 0, 0, 0])),
+        ("far.obj", b"v 1e300 0 0\nv 0 1e300 0\nv 0 0 -1e308\nf 1 2 3\n"),
+        ("inf.obj", b"v 1e999 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n"),
+        ("index.obj", b"v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 99999999999999999999999\n"),
+        ("ragged.obj", b"v 1\nv 0 1\nv 0 0 1\nf 1 2 3\n"),
+        ("vt.obj", b"v 1\nv 0 1\nv 0 0 1\nvt\nf 1/1 2/9 3/7\n"),
+        ("words.obj", b"newmtl\nusemtl\nmtllib\no\nf\nv\nvt\nvn\n"),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
 def test_numbers_that_are_none_or_too_large_are_refused_without_a_warning(tmp_path, name, content):
     path = tmp_path / name
     path.write_bytes(content)
@@ -359,7 +418,7 @@ def test_numbers_that_are_none_or_too_large_are_refused_without_a_warning(tmp_pa
 def test_normals_that_are_no_use_are_computed(tmp_path):
     path = tmp_path / "a.obj"
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn nan 0 0\nvt inf 0\nf 1/1/1 2/1/1 3/1/1\n")
-    part, = mesh.load_visual(str(path))
+    (part,) = mesh.load_visual(str(path))
     assert np.allclose(part.normals, [0, 0, 1]) and part.uv is None
 
 
@@ -368,7 +427,7 @@ def test_no_scale_is_worth_a_warning(tmp_path, scale):
     path = obj(tmp_path / "a.obj")
     with warnings.catch_warnings():
         warnings.simplefilter("error", RuntimeWarning)
-        part, = mesh.load_visual(path, scale)
+        (part,) = mesh.load_visual(path, scale)
         if 0 not in scale and 1e-300 not in scale:
             assert np.isfinite(part.normals).all() and len(mesh.load_surface(path, scale).triangles) == 12
 
@@ -383,6 +442,7 @@ def test_a_scale_that_is_none_is_refused(tmp_path, scale):
 
 def test_files_that_are_too_large_are_refused(tmp_path, monkeypatch):
     from ode_sim import mesh_files
+
     path = tmp_path / "a.stl"
     binary_stl(path)
     monkeypatch.setattr(mesh_files, "MOST_TRIANGLES", 11)

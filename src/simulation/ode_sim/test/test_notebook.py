@@ -1,4 +1,5 @@
 """The notebook of the examples, run as Jupyter runs it, and what its reader sees."""
+
 import base64
 import io
 import math

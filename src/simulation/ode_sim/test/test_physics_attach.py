@@ -1,4 +1,5 @@
 """Links held together while the world runs."""
+
 import math
 
 import pytest
@@ -116,7 +117,7 @@ def test_ends_with_either_model_and_with_a_reset():
     world.reset_poses()
     assert not attachment.active
     world.step(100)
-    assert thing.pose.p[2] == pytest.approx(5 - 9.8 * 0.1 ** 2 / 2, abs=1e-3)
+    assert thing.pose.p[2] == pytest.approx(5 - 9.8 * 0.1**2 / 2, abs=1e-3)
 
 
 def test_wakes_what_sleeps():

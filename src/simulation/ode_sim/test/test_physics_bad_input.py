@@ -1,10 +1,10 @@
 """Input that cannot be simulated: one line, or left out by name; what goes wrong on the way is stopped alone."""
+
 import math
 
 import numpy as np
-import pytest
-
 import ode_sim
+import pytest
 from ode_sim.description import model as d
 from ode_sim.description.model import Box, Collision, Inertial, Joint, Link, Mesh, Model, Pose
 from physics_models import box, gripper, ground, pendulum, sphere
@@ -19,9 +19,20 @@ def test_a_taken_name_is_refused_in_one_line():
     assert len(world.models) == 1
 
 
-@pytest.mark.parametrize("inertial", [
-    Inertial(0.0), Inertial(-1.0), Inertial(math.nan), Inertial(1.0, ixx=-1.0), Inertial(1.0, ixx=math.inf),
-    Inertial(1.0, ixx=0.0, iyy=0.0, izz=0.0), Inertial(1.0, ixy=5.0), Inertial(1e-9), Inertial(1.0, ixx=1e30, iyy=1e-30, izz=1.0)])
+@pytest.mark.parametrize(
+    "inertial",
+    [
+        Inertial(0.0),
+        Inertial(-1.0),
+        Inertial(math.nan),
+        Inertial(1.0, ixx=-1.0),
+        Inertial(1.0, ixx=math.inf),
+        Inertial(1.0, ixx=0.0, iyy=0.0, izz=0.0),
+        Inertial(1.0, ixy=5.0),
+        Inertial(1e-9),
+        Inertial(1.0, ixx=1e30, iyy=1e-30, izz=1.0),
+    ],
+)
 def test_impossible_masses_and_tensors_are_made_usable(inertial):
     link = Link("link", inertial=inertial, collisions=(Collision("c", Pose(), Box((0.1, 0.1, 0.1))),))
     world = ode_sim.World()
@@ -38,13 +49,17 @@ def test_impossible_masses_and_tensors_are_made_usable(inertial):
 def test_a_missing_mesh_is_one_warning_in_all():
     mesh = '<{0}><geometry><mesh filename="package://gone/m.stl"/></geometry></{0}>'
     world = ode_sim.World()
-    world.spawn_urdf('<robot name="r"><link name="l"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" '
-                     'iyz="0" izz="1"/></inertial>' + mesh.format("visual") + mesh.format("collision") + "</link></robot>")
+    world.spawn_urdf(
+        '<robot name="r"><link name="l"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" '
+        'iyz="0" izz="1"/></inertial>' + mesh.format("visual") + mesh.format("collision") + "</link></robot>"
+    )
     assert [p.severity for p in world.problems] == ["warning"]
     assert "package://gone/m.stl" in str(world.problems[0])
 
 
-@pytest.mark.parametrize("shape", [Box((0.1, -1, 0.1)), d.Sphere(0.0), d.Cylinder(0.1, math.nan), Mesh("/none/x.stl", "model://none/x.stl")])
+@pytest.mark.parametrize(
+    "shape", [Box((0.1, -1, 0.1)), d.Sphere(0.0), d.Cylinder(0.1, math.nan), Mesh("/none/x.stl", "model://none/x.stl")]
+)
 def test_impossible_shapes_are_left_out_by_name(shape):
     link = Link("link", inertial=Inertial(), collisions=(Collision("bad", Pose(), shape),))
     world = ode_sim.World()

@@ -1,11 +1,11 @@
 """Links whose surface runs round them, as a track's does."""
+
 import math
 from dataclasses import replace
 
 import numpy as np
-import pytest
-
 import ode_sim
+import pytest
 from ode_sim.description.model import Box, Collision, Joint, Link, Model, Pose, Surface
 from ode_sim.math3 import quat_from_rpy, quat_rotate, quat_to_rpy
 from physics_models import box, box_inertia, ground
@@ -98,8 +98,9 @@ def test_a_belt_runs_for_one_step():
     assert np.linalg.norm(tank.model.links["body"].linear_velocity()) < 1e-4
 
 
-@pytest.mark.parametrize("arguments", [(math.nan, (0, 1, 0)), (1.0, (0, 0, 0)), (1.0, (0, math.nan, 0)),
-                                       (1.0, (0, 1, 0), (math.inf, 0, 0))])
+@pytest.mark.parametrize(
+    "arguments", [(math.nan, (0, 1, 0)), (1.0, (0, 0, 0)), (1.0, (0, math.nan, 0)), (1.0, (0, 1, 0), (math.inf, 0, 0))]
+)
 def test_numbers_that_are_none_are_refused(arguments):
     tank = Tank()
     with pytest.raises(ValueError):

@@ -1,13 +1,13 @@
 """Restitution: what falls from H rises by e^2 H (Newton), whatever its shape, the step and who moves; and it comes to rest."""
+
 import itertools
 
 import numpy as np
-import pytest
-from scipy.spatial import ConvexHull
-
 import ode_sim
+import pytest
 from ode_sim.description.model import Box, Collision, Cylinder, Link, Mesh, Model, Pose, Surface
 from physics_models import box, box_inertia, ground, sphere
+from scipy.spatial import ConvexHull
 
 FALLS = 1.0  # m
 
@@ -24,8 +24,11 @@ def mesh_of(corners, e, path, rests):
         a, b, c = corners[triangle]
         if np.dot(np.cross(b - a, c - a), plane[:3]) < 0:
             b, c = c, b
-        facets.append("facet normal 0 0 0\nouter loop\n" + "".join("vertex {:.9g} {:.9g} {:.9g}\n".format(*v) for v in (a, b, c))
-                      + "endloop\nendfacet\n")
+        facets.append(
+            "facet normal 0 0 0\nouter loop\n"
+            + "".join("vertex {:.9g} {:.9g} {:.9g}\n".format(*v) for v in (a, b, c))
+            + "endloop\nendfacet\n"
+        )
     path.write_text(f"solid hull\n{''.join(facets)}endsolid hull\n")
     collision = Collision("c", Pose(), Mesh(str(path), path.name), lively(e))
     link = Link("link", inertial=box_inertia(1.0, (2 * rests,) * 3), collisions=(collision,))
@@ -39,8 +42,11 @@ def mesh_cube(e, tmp_path):
 
 def mesh_ball(e, tmp_path):
     """With a corner below."""
-    rings = [(0.1 * np.sin(b) * np.cos(a), 0.1 * np.sin(b) * np.sin(a), -0.1 * np.cos(b))
-             for b in np.linspace(0.2, np.pi - 0.2, 9) for a in np.arange(0, 6.2, np.pi / 8)]
+    rings = [
+        (0.1 * np.sin(b) * np.cos(a), 0.1 * np.sin(b) * np.sin(a), -0.1 * np.cos(b))
+        for b in np.linspace(0.2, np.pi - 0.2, 9)
+        for a in np.arange(0, 6.2, np.pi / 8)
+    ]
     return mesh_of(np.array([(0, 0, -0.1), *rings, (0, 0, 0.1)]), e, tmp_path / "ball.stl", 0.1)
 
 
@@ -53,7 +59,10 @@ SHAPES = {
     "ball": lambda e, _tmp_path: sphere(at=(0, 0, FALLS + 0.1), mass=0.2, surface=lively(e)),
     "box": lambda e, _tmp_path: box(at=(0, 0, FALLS + 0.05), surface=lively(e)),
     "heavy box": lambda e, _tmp_path: box(at=(0, 0, FALLS + 0.05), mass=50.0, surface=lively(e)),
-    "can": can, "mesh cube": mesh_cube, "mesh ball": mesh_ball}
+    "can": can,
+    "mesh cube": mesh_cube,
+    "mesh ball": mesh_ball,
+}
 
 
 def rises(world, model):
@@ -111,8 +120,9 @@ def test_many_feet_bounce_as_one():
     """25 of them touch at once: too many rows for the direct solver, the iterative one takes them."""
     world = ode_sim.World()
     world.spawn(ground(surface=lively(0.6)))
-    feet = tuple(Collision(f"foot{i}", Pose((0.2 * (i % 5 - 2), 0.2 * (i // 5 - 2), 0)), Box((0.1, 0.1, 0.1)), lively(0.6))
-                 for i in range(25))
+    feet = tuple(
+        Collision(f"foot{i}", Pose((0.2 * (i % 5 - 2), 0.2 * (i // 5 - 2), 0)), Box((0.1, 0.1, 0.1)), lively(0.6)) for i in range(25)
+    )
     link = Link("link", inertial=box_inertia(5.0, (1.0, 1.0, 0.1)), collisions=feet)
     table = world.spawn(Model("table", Pose((0, 0, FALLS + 0.05)), (link,)))
     assert rises(world, table) == pytest.approx(0.36 * FALLS, rel=0.02)
@@ -124,8 +134,10 @@ def test_many_feet_bounce_as_one():
 def test_it_comes_to_rest_and_sleeps(e, threshold):
     world = ode_sim.World()
     world.spawn(ground(surface=lively(e, threshold)))
-    models = [world.spawn(sphere(at=(1, 1, 0.3), surface=lively(e, threshold))),
-              *(world.spawn(box(f"box{i}", at=(0, 0, 0.05 + 0.1 * i), surface=lively(e, threshold))) for i in range(4))]
+    models = [
+        world.spawn(sphere(at=(1, 1, 0.3), surface=lively(e, threshold))),
+        *(world.spawn(box(f"box{i}", at=(0, 0, 0.05 + 0.1 * i), surface=lively(e, threshold))) for i in range(4)),
+    ]
     world.step(12000)
     assert all(model.asleep for model in models)
     assert [model.pose.p[2] for model in models] == pytest.approx([0.1, 0.05, 0.15, 0.25, 0.35], abs=1e-3)

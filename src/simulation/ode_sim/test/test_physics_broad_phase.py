@@ -21,8 +21,12 @@ def meeting(world):
 
 def expected(balls):
     """The same by distance; what is static meets nothing static."""
-    return {frozenset((a, b)) for i, (a, (p, r, still)) in enumerate(balls.items()) for b, (q, s, fixed) in list(balls.items())[i + 1:]
-            if math.dist(p, q) < r + s and not (still and fixed)}
+    return {
+        frozenset((a, b))
+        for i, (a, (p, r, still)) in enumerate(balls.items())
+        for b, (q, s, fixed) in list(balls.items())[i + 1 :]
+        if math.dist(p, q) < r + s and not (still and fixed)
+    }
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -62,8 +66,20 @@ def test_all_that_touch_are_found_while_balls_come_go_and_jump(seed):
 def test_meshes_that_were_apart_meet_as_soon_as_those_of_a_world_that_has_not_seen_them(tmp_path):
     """Whoever remembers that two are apart forgets it in time, however they tumble."""
     corners = [(x, y, z) for x in (-0.2, 0.2) for y in (-0.05, 0.05) for z in (-0.1, 0.1)]
-    sides = [(0, 1, 2), (1, 3, 2), (4, 6, 5), (5, 6, 7), (0, 4, 1), (1, 4, 5), (2, 3, 6), (3, 7, 6), (0, 2, 4), (2, 6, 4), (1, 5, 3),
-             (3, 5, 7)]
+    sides = [
+        (0, 1, 2),
+        (1, 3, 2),
+        (4, 6, 5),
+        (5, 6, 7),
+        (0, 4, 1),
+        (1, 4, 5),
+        (2, 3, 6),
+        (3, 7, 6),
+        (0, 2, 4),
+        (2, 6, 4),
+        (1, 5, 3),
+        (3, 5, 7),
+    ]
     file = tmp_path / "brick.obj"
     file.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in sides))
     random = np.random.default_rng(3)

@@ -1,10 +1,10 @@
 """What hangs by free or driven joints beyond position-commanded ones: it pushes, weighs and swings as on a real robot."""
+
 import math
 
 import numpy as np
-import pytest
-
 import ode_sim
+import pytest
 from ode_sim import Pose
 from ode_sim.description.model import Axis, Box, Collision, Inertial, Joint, Link, Model
 from ode_sim.math3 import norm, quat_from_rpy, sub, to_rpy
@@ -21,7 +21,7 @@ def world_with(*models):
 
 
 def car(**kind):
-    world, = world_with()
+    (world,) = world_with()
     return world, world.spawn_urdf(car_urdf(**kind), pose=Pose((0, 0, RADIUS)))
 
 
@@ -160,7 +160,7 @@ def test_a_driven_wheel_beyond_a_steering_joint_gives_its_force_to_the_car():
             robot.joints[f"{name}_wheel"].add_force(0.2)
         world.step()
     mass = total_weight(robot) / G
-    effective = mass + 4 * 7e-4 / RADIUS ** 2
+    effective = mass + 4 * 7e-4 / RADIUS**2
     assert robot.twist().linear[0] - start == pytest.approx(2 * 0.2 / RADIUS / effective * 0.5, rel=0.02)
 
 
@@ -190,6 +190,7 @@ def test_parked_car_stays_where_it_is_while_its_wheels_are_steered():
 
 
 # ------------------------------------------------------------------------------------------ weight, reaction, swing
+
 
 def loaded_arm(inertia=None, lower=-1e16, upper=1e16, effort=-1.0):
     """A free-standing base, two position-driven joints, and a heavy bar on a free hinge beyond."""
@@ -256,14 +257,16 @@ def test_gantry_crane_load_swings_as_its_trolley_speeds_up():
     frame = Link("frame", Pose((0, 0, 0.5)), box_inertia(200.0, (2, 1, 1)), (Collision("c", Pose(), Box((2, 1, 1))),))
     trolley = Link("trolley", Pose((0, 0, 1.0)), box_inertia(1.0, (0.1, 0.1, 0.1)))
     rope = Link("load", Pose((0, 0, 1.0)), Inertial(0.5, Pose((0, 0, -0.4)), 1e-5, 0, 0, 1e-5, 0, 1e-5))
-    joints = (Joint("rail", "prismatic", "frame", "trolley", axes=(Axis((1, 0, 0)),)),
-              Joint("rope", "revolute", "trolley", "load", axes=(Axis((0, 1, 0), damping=1.0),)))
+    joints = (
+        Joint("rail", "prismatic", "frame", "trolley", axes=(Axis((1, 0, 0)),)),
+        Joint("rope", "revolute", "trolley", "load", axes=(Axis((0, 1, 0), damping=1.0),)),
+    )
     world, crane = world_with(Model("crane", Pose(), (frame, trolley, rope), joints))
     for i in range(3000):
         crane.joints["rail"].drive_to(0.5 * 1.0 * (i * 1e-3) ** 2)
         world.step()
     assert crane.joints["rope"].position() == pytest.approx(math.atan2(1.0, G), rel=0.02)
-    assert crane.joints["rail"].position() == pytest.approx(0.5 * 2.999 ** 2)
+    assert crane.joints["rail"].position() == pytest.approx(0.5 * 2.999**2)
     assert norm(sub(crane.links["frame"].pose.p, (0, 0, 0.5))) < 1e-3
 
 
@@ -273,8 +276,10 @@ def test_pendulum_on_a_turning_driven_joint_flies_out(bolted):
     post = Link("post", Pose((0, 0, 0.5)), box_inertia(500.0, (1, 1, 1)), (Collision("c", Pose(), Box((1, 1, 1))),))
     head = Link("head", Pose((0, 0, 1.8)), box_inertia(1.0, (0.1, 0.1, 0.1)))
     bob = Link("bob", Pose((0, 0, 1.8)), Inertial(0.2, Pose((0, 0, -0.5)), 1e-6, 0, 0, 1e-6, 0, 1e-6))
-    joints = (Joint("turn", "revolute", "post", "head", axes=(Axis((0, 0, 1)),)),
-              Joint("out", "revolute", "head", "bob", axes=(Axis((0, 1, 0), damping=0.2),)))
+    joints = (
+        Joint("turn", "revolute", "post", "head", axes=(Axis((0, 0, 1)),)),
+        Joint("out", "revolute", "head", "bob", axes=(Axis((0, 1, 0), damping=0.2),)),
+    )
     if bolted:
         joints += (Joint("bolt", "fixed", "world", "post"),)
     world, model = world_with(Model("governor", Pose(), (post, head, bob), joints))
@@ -310,16 +315,19 @@ def test_absurd_inertias_beyond_do_not_move_the_base():
 
 def test_position_commanded_head_leaves_driving_alone():
     """(c) A pan-tilt head with a dangling cable on a robot with passive casters: the same way as without commands."""
+
     def robot():
         base = diff_drive()
         pan = Link("pan", Pose((0, 0, 0.2)), box_inertia(0.2, (0.05, 0.05, 0.05)))
         tilt = Link("tilt", Pose((0, 0, 0.25)), box_inertia(0.2, (0.05, 0.05, 0.05)))
         cable = Link("cable", Pose((0, 0, 0.25)), Inertial(0.02, Pose((0, 0, -0.1)), 1e-4, 0, 0, 1e-4, 0, 1e-4))
         fork = Link("fork", Pose((-0.13, 0, 0.04)), box_inertia(0.05, (0.02, 0.02, 0.02)))
-        more = (Joint("pan", "revolute", "base", "pan", axes=(Axis((0, 0, 1)),)),
-                Joint("tilt", "revolute", "pan", "tilt", axes=(Axis((0, 1, 0)),)),
-                Joint("cable", "revolute", "tilt", "cable", axes=(Axis((0, 1, 0), damping=1e-3),)),
-                Joint("fork", "revolute", "base", "fork", axes=(Axis((0, 0, 1)),)))
+        more = (
+            Joint("pan", "revolute", "base", "pan", axes=(Axis((0, 0, 1)),)),
+            Joint("tilt", "revolute", "pan", "tilt", axes=(Axis((0, 1, 0)),)),
+            Joint("cable", "revolute", "tilt", "cable", axes=(Axis((0, 1, 0), damping=1e-3),)),
+            Joint("fork", "revolute", "base", "fork", axes=(Axis((0, 0, 1)),)),
+        )
         return Model("robot", base.pose, base.links + (pan, tilt, cable, fork), base.joints + more)
 
     ends = []
@@ -364,8 +372,12 @@ def test_a_closed_loop_over_two_driven_joints_holds_together():
     links = (frame, Link("a", Pose((-0.2, 0, 0.2)), light), Link("b", Pose((0.2, 0, 0.2)), light), Link("bar", Pose((-0.2, 0, 0.4)), light))
     y = (Axis((0, 1, 0)),)
     up = Pose((0.4, 0, 0))
-    joints = (Joint("ja", "revolute", "frame", "a", axes=y), Joint("jb", "revolute", "frame", "b", axes=y),
-              Joint("pa", "revolute", "a", "bar", axes=y), Joint("pb", "ball", "b", "bar", up))
+    joints = (
+        Joint("ja", "revolute", "frame", "a", axes=y),
+        Joint("jb", "revolute", "frame", "b", axes=y),
+        Joint("pa", "revolute", "a", "bar", axes=y),
+        Joint("pb", "ball", "b", "bar", up),
+    )
     world, model = world_with(Model("m", Pose(), links, joints))
     for i in range(1000):
         for name in ("ja", "jb"):
@@ -379,6 +391,7 @@ def test_a_closed_loop_over_two_driven_joints_holds_together():
 
 
 # ------------------------------------------------------------------------------------------ what a held joint bears
+
 
 def wrist(bolted=True, tool=2.0, payload=None):
     """An arm whose last joint carries a tool of ``tool`` kg, 0.1 m beyond it; ``payload``: a hinge hangs another kg on the tool."""
@@ -435,7 +448,7 @@ def test_held_joint_feels_acceleration_pushes_and_contacts():
         world.step()
     q, speed = model.joints["j1"].position(), 4.0 * 0.4985
     along, outward = np.array((math.cos(q), 0, -math.sin(q))), np.array((math.sin(q), 0, math.cos(q)))
-    expected = 2 * (np.array((0, 0, G)) + 4.0 * 0.3 * along - speed ** 2 * 0.3 * outward)
+    expected = 2 * (np.array((0, 0, G)) + 4.0 * 0.3 * along - speed**2 * 0.3 * outward)
     assert joint.feedback().child_force == pytest.approx(tuple(expected), abs=0.05)
     hold(world, model, q, 100)
     model.links["tool"].add_force((0, 7.0, 0))

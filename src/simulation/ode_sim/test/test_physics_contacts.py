@@ -1,13 +1,12 @@
 """Contacts by Gazebo's rules, wheels, piles, rays."""
+
 import math
 
 import numpy as np
-import pytest
-
 import ode_sim
+import pytest
 from ode_sim.description import model as d
-from ode_sim.description.model import (
-    Axis, Box, Capsule, Collision, Cylinder, Inertial, Joint, Link, Model, Plane, Pose, Sphere, Surface)
+from ode_sim.description.model import Axis, Box, Capsule, Collision, Cylinder, Inertial, Joint, Link, Model, Plane, Pose, Sphere, Surface
 from ode_sim.math3 import quat_from_rpy, to_rpy
 from physics_models import arm, box, diff_drive, ground, sphere
 
@@ -72,10 +71,14 @@ def test_friction_is_the_smaller_of_the_two():
     assert model.twist().linear[0] == pytest.approx(1 - 0.1 * G * 0.2, rel=0.01)
 
 
-@pytest.mark.parametrize("floor, thing", [
-    (Surface(mu=1.0, mu2=0.0, fdir1=(0, 1, 0)), Surface()),
-    (Surface(), Surface(mu=1.0, mu2=0.0, fdir1=(0, 1, 0))),  # also if the second of the pair asks for it
-    (Surface(mu=1.5, mu2=1.5, fdir1=(1, 0, 0)), Surface(mu=1.0, mu2=0.0, fdir1=(0, 1, 0)))])  # the slicker one has its way
+@pytest.mark.parametrize(
+    "floor, thing",
+    [
+        (Surface(mu=1.0, mu2=0.0, fdir1=(0, 1, 0)), Surface()),
+        (Surface(), Surface(mu=1.0, mu2=0.0, fdir1=(0, 1, 0))),  # also if the second of the pair asks for it
+        (Surface(mu=1.5, mu2=1.5, fdir1=(1, 0, 0)), Surface(mu=1.0, mu2=0.0, fdir1=(0, 1, 0))),
+    ],
+)  # the slicker one has its way
 def test_fdir1_of_either_collision(floor, thing):
     world = ode_sim.World()
     world.spawn(ground(surface=floor))
@@ -170,8 +173,14 @@ def test_rest_is_quiet_and_sleeps():
     assert ball.pose.p[2] > 0.1
 
 
-@pytest.mark.parametrize("push", [lambda link: link.add_force((50.0, 0.0, 0.0)), lambda link: link.set_force((50.0, 0.0, 0.0)),
-                                  lambda link: link.add_torque((0.0, 0.0, 5.0))])
+@pytest.mark.parametrize(
+    "push",
+    [
+        lambda link: link.add_force((50.0, 0.0, 0.0)),
+        lambda link: link.set_force((50.0, 0.0, 0.0)),
+        lambda link: link.add_torque((0.0, 0.0, 5.0)),
+    ],
+)
 def test_a_force_wakes_what_sleeps(push):
     world = ode_sim.World()
     world.spawn(ground())
@@ -386,10 +395,10 @@ def test_what_is_spawned_inside_the_floor_comes_out_and_is_not_thrown(depth, sof
     """Each of its many contacts could carry it all: together they must not shoot it up."""
     world = ode_sim.World()
     world.spawn(ground())
-    feet = tuple(Collision(f"{x} {y}", Pose((0.1 * x, 0.1 * y, 0)), Sphere(0.05), surface=soft)
-                 for x in range(-2, 3) for y in range(-2, 3))
-    robot = world.spawn(Model("robot", Pose((0, 0, 0.05 - depth)), (Link("base", inertial=Inertial(15.0, ixx=0.3, iyy=0.3, izz=0.5),
-                                                                          collisions=feet),)))
+    feet = tuple(Collision(f"{x} {y}", Pose((0.1 * x, 0.1 * y, 0)), Sphere(0.05), surface=soft) for x in range(-2, 3) for y in range(-2, 3))
+    robot = world.spawn(
+        Model("robot", Pose((0, 0, 0.05 - depth)), (Link("base", inertial=Inertial(15.0, ixx=0.3, iyy=0.3, izz=0.5), collisions=feet),))
+    )
     highest = -1.0
     for _ in range(300):
         world.step(10)
@@ -410,8 +419,9 @@ def test_rays_follow_what_moves_and_bad_rays_hit_nothing():
 
 
 def test_mesh_and_heightmap_carry_and_are_seen(tmp_path):
-    from PIL import Image
     from ode_sim.description.model import Heightmap, Mesh
+    from PIL import Image
+
     ramp = np.tile(np.linspace(0, 255, 33), (33, 1)).astype(np.uint8)  # rises towards +x
     Image.fromarray(ramp).save(tmp_path / "ramp.png")
     slab = tmp_path / "slab.obj"

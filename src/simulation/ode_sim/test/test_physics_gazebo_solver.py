@@ -1,11 +1,11 @@
 """`solver: gazebo`: what Gazebo Classic's solver is known for, and what must not depend on the solver."""
+
 import math
 from dataclasses import replace
 
 import numpy as np
-import pytest
-
 import ode_sim
+import pytest
 from ode_sim.description.model import Model, Pose, Surface
 from ode_sim.physics import SOLVER_VARIABLE
 from physics_models import arm, box, diff_drive, ground, pendulum, sphere
@@ -21,7 +21,7 @@ def world_with(*models, solver="gazebo"):
 
 
 def test_the_world_file_or_the_environment_chooses(monkeypatch):
-    text = ("<sdf version='1.6'><world name='w'><physics type='ode'><ode><solver><type>{}</type></solver></ode></physics></world></sdf>")
+    text = "<sdf version='1.6'><world name='w'><physics type='ode'><ode><solver><type>{}</type></solver></ode></physics></world></sdf>"
     monkeypatch.delenv(SOLVER_VARIABLE, raising=False)
     assert [ode_sim.World.load(text.format(kind)).core.like_gazebo for kind in ("quick", "world", "gazebo")] == [False, False, True]
     monkeypatch.setenv(SOLVER_VARIABLE, "gazebo")
@@ -105,15 +105,21 @@ RECORDED = {
     "ball of 1 m/s": (0.05, FAST, {}, 1.0, {0.5: 1.18595, 0.6: 1.1904, 0.9: 1.1633}),
     "ball of 0.1 m/s": (0.05, dict(max_vel=0.1), {}, 1.0, {0.5: 1.15, 0.6: 1.15}),
     "lively ball and plate": (0.05, LIVELY, LIVELY, 1.0, {0.5: 1.15, 0.6: 1.15}),
-    "loose lively ball, a lively plate": (0.05, dict(LOOSE, **LIVELY), LIVELY, 1.0,
-                                          {0.5: 1.30574, 0.6: 1.56456, 0.9: 1.75301, 2.48: 1.28776}),
+    "loose lively ball, a lively plate": (
+        0.05,
+        dict(LOOSE, **LIVELY),
+        LIVELY,
+        1.0,
+        {0.5: 1.30574, 0.6: 1.56456, 0.9: 1.75301, 2.48: 1.28776},
+    ),
     "soft box": (0.2, SOFT, {}, 0.0, {0.6: 1.19495, 2.48: 1.19495}),
     "soft box and plate": (0.2, SOFT, SOFT, 0.0, {0.6: 1.18269, 2.48: 1.18269}),
     "box set 5 cm in": (0.2, {}, {}, -0.05, {0.6: 1.2, 2.48: 1.2}),
     "loose box set 5 cm in": (0.2, LOOSE, {}, -0.05, {0.6: 29.3889, 2.48: 95.0251}),
     "box of 0.1 m/s set 5 mm in": (0.2, dict(max_vel=0.1), {}, -0.005, {0.6: 1.2, 2.48: 1.2}),
     "tolerant box": (0.2, TOLERANT, {}, -0.002, {0.6: 1.198, 2.48: 1.198}),
-    "tolerant box and plate": (0.2, TOLERANT, TOLERANT, -0.002, {0.6: 1.198, 2.48: 1.198})}
+    "tolerant box and plate": (0.2, TOLERANT, TOLERANT, -0.002, {0.6: 1.198, 2.48: 1.198}),
+}
 
 
 @pytest.mark.parametrize("what", RECORDED)
@@ -135,9 +141,11 @@ def test_contacts_are_those_of_gazebo_to_four_digits(what):
 
 def test_of_two_that_move_the_slower_and_less_tolerant_counts_and_the_last_collision_is_the_bodys():
     """As Gazebo's ODELink and its ODE have it: each collision of a link writes its max_vel and min_depth over the body's."""
+
     def comes_up(upper, lower, last=None):
-        world, low, high = world_with(box("low", size=(0.2, 0.2, 0.1), mass=1000.0, surface=Surface(**lower)),
-                                      box("high", at=(0, 0, 0.1), surface=Surface(**upper)))
+        world, low, high = world_with(
+            box("low", size=(0.2, 0.2, 0.1), mass=1000.0, surface=Surface(**lower)), box("high", at=(0, 0, 0.1), surface=Surface(**upper))
+        )
         if last is not None:
             world.remove("high")
             link = box("high", at=(0, 0, 0.1), surface=Surface(**upper)).links[0]
@@ -158,8 +166,10 @@ def cubes(count, masses=None):
     world = ode_sim.World()
     world.physics.solver = "gazebo"
     world.spawn(ground())
-    return world, [world.spawn(box(f"s{i}", at=(0, 0, round(0.2 * (i + 0.5), 9)), size=(0.2, 0.2, 0.2), mass=(masses or [1.0] * count)[i]))
-                   for i in range(count)]
+    return world, [
+        world.spawn(box(f"s{i}", at=(0, 0, round(0.2 * (i + 0.5), 9)), size=(0.2, 0.2, 0.2), mass=(masses or [1.0] * count)[i]))
+        for i in range(count)
+    ]
 
 
 def test_a_stack_leans_as_it_does_in_gazebo():

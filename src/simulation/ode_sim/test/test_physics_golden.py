@@ -8,6 +8,7 @@ for which of both it is. Elsewhere the test is skipped and says so.
 A change that is meant to change results renews them:  python3 src/simulation/ode_sim/test/test_physics_golden.py --renew
 Its commit says why results change.
 """
+
 import hashlib
 import json
 import math
@@ -17,10 +18,9 @@ import struct
 import subprocess
 import sys
 
+import golden_scenes
 import numpy as np
 import pytest
-
-import golden_scenes
 from ode_sim import _core
 
 STEPS, EVERY = 1300, 100
@@ -39,8 +39,13 @@ def machine():
 
 def state(world):
     """Every number that the core tells about the world, as bytes."""
-    out = [np.array([world.time_ns, world.iterations], dtype=np.int64).tobytes(), world.link_poses.tobytes(),
-           world.joint_positions.tobytes(), world.joint_velocities.tobytes(), world.contacts().tobytes()]
+    out = [
+        np.array([world.time_ns, world.iterations], dtype=np.int64).tobytes(),
+        world.link_poses.tobytes(),
+        world.joint_positions.tobytes(),
+        world.joint_velocities.tobytes(),
+        world.contacts().tobytes(),
+    ]
     for model in world.models.values():
         numbers = [float(model.asleep)]
         for link in model.links.values():
@@ -74,8 +79,10 @@ def test_every_bit_is_as_it_was(scene):
         pytest.skip(f"the digests are those of {known['machine']}; this is {machine()}")
     found, wanted = digests(scene), known["scenes"][scene.__name__]
     first = next((i for i, (a, b) in enumerate(zip(found, wanted)) if a != b), None)
-    assert first is None, (f"{scene.__name__}: some number differs after {(first + 1) * EVERY} steps. If that is meant, renew the digests, "
-                           "see the head of this file")
+    assert first is None, (
+        f"{scene.__name__}: some number differs after {(first + 1) * EVERY} steps. If that is meant, renew the digests, "
+        "see the head of this file"
+    )
 
 
 def test_the_scenes_do_what_they_are_for():

@@ -1,7 +1,7 @@
 """Links that move as they are told, and what stands or hangs on them."""
-import pytest
 
 import ode_sim
+import pytest
 from ode_sim.description.model import Axis, Collision, Inertial, Joint, Link, Model, Pose, Sphere, Surface
 from physics_models import arm, box, box_inertia, ground, sphere
 

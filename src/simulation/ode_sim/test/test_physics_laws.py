@@ -1,13 +1,13 @@
 """Forces of controllers whose gains are too high for the inertia and the step."""
+
 from dataclasses import replace
 
-import pytest
-
 import ode_sim
+import pytest
 from physics_models import arm, pendulum
 
 INERTIA = 4e-4  # kg m^2
-GAIN = 1.0      # N m s/rad: makes good 2.5 times a speed error in one step of 1 ms
+GAIN = 1.0  # N m s/rad: makes good 2.5 times a speed error in one step of 1 ms
 
 
 def wheel(solver="quick", **more):
@@ -56,7 +56,7 @@ def test_a_law_of_the_position_alone_comes_to_rest(gain):
 def test_the_bounds_of_the_force_hold():
     for effort, bound in ((-1.0, 0.02), (0.02, 1e9)):
         model = pendulum(length=0.0, mass=0.1, inertia=INERTIA)
-        joint, = model.joints
+        (joint,) = model.joints
         model = replace(model, joints=(replace(joint, axes=(replace(joint.axes[0], effort=effort),)),))
         world = ode_sim.World()
         hinge = world.spawn(model).joints["hinge"]
@@ -66,7 +66,7 @@ def test_the_bounds_of_the_force_hold():
 def limited(solver, inertia, velocity):
     """A joint that may turn at ``velocity`` and is told 5 rad/s by a law that is strong for it."""
     model = pendulum(length=0.0, mass=0.1, inertia=inertia)
-    joint, = model.joints
+    (joint,) = model.joints
     model = replace(model, joints=(replace(joint, axes=(replace(joint.axes[0], velocity=velocity),)),))
     world = ode_sim.World()
     world.physics.solver = solver

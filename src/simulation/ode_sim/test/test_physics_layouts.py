@@ -1,14 +1,13 @@
 """Wheels and casters in ten layouts against statics: who carries what, and what dry friction holds at most."""
+
 import math
 from dataclasses import replace
 
 import numpy as np
+import ode_sim
 import pytest
 import trimesh
-
-import ode_sim
-from ode_sim.description.model import (
-    Axis, Box, Collision, Cylinder, Inertial, Joint, Link, Mesh, Model, Pose, Sphere, Surface)
+from ode_sim.description.model import Axis, Box, Collision, Cylinder, Inertial, Joint, Link, Mesh, Model, Pose, Sphere, Surface
 from ode_sim.math3 import quat_from_rpy
 from physics_models import car_urdf, ground
 
@@ -31,8 +30,10 @@ BASE_MASS, WHEEL_MASS, CASTER_MU = 10.0, 1.0, 0.5
 
 
 def rover(wheels, casters, com):
-    balls = tuple(Collision(f"c{i}", Pose((x, y, 0.03 - RADIUS)), Sphere(0.03), Surface(mu=CASTER_MU, mu2=CASTER_MU))
-                  for i, (x, y) in enumerate(casters))
+    balls = tuple(
+        Collision(f"c{i}", Pose((x, y, 0.03 - RADIUS)), Sphere(0.03), Surface(mu=CASTER_MU, mu2=CASTER_MU))
+        for i, (x, y) in enumerate(casters)
+    )
     links = [Link("base", Pose((0, 0, RADIUS)), Inertial(BASE_MASS, Pose(com), 0.2, 0, 0, 0.3, 0, 0.4), balls)]
     joints = []
     tyre = Collision("tyre", Pose(q=quat_from_rpy(math.pi / 2, 0, 0)), Cylinder(RADIUS, 0.05))
@@ -142,8 +143,9 @@ def test_put_into_the_floor_it_comes_out_without_being_thrown(depth, max_vel):
     world = ode_sim.World()
     world.spawn(ground(surface=Surface(max_vel=100.0)))
     description = rover(*LAYOUTS["one caster behind"])
-    links = tuple(replace(link, collisions=tuple(replace(c, surface=Surface(max_vel=max_vel)) for c in link.collisions))
-                  for link in description.links)
+    links = tuple(
+        replace(link, collisions=tuple(replace(c, surface=Surface(max_vel=max_vel)) for c in link.collisions)) for link in description.links
+    )
     model = world.spawn(replace(description, links=links), pose=Pose((0, 0, -depth)))
     highest = fastest = 0.0
     for _ in range(400):
@@ -159,10 +161,15 @@ def tilted(angle, floor=None):
     world = ode_sim.World()
     world.spawn(floor or ground())
     model = rover(((0.2, 0.2), (0.2, -0.2), (-0.2, 0.2), (-0.2, -0.2)), (), (0.0, 0.0, 0.05))
-    links = [replace(link, collisions=tuple(replace(c, pose=Pose(q=quat_from_rpy(math.pi / 2 + angle, 0, 0))) for c in link.collisions))
-             if link.name == "w0" else link for link in model.links]
-    joints = [replace(joint, axes=(Axis((0.0, math.cos(angle), math.sin(angle))),)) if joint.name == "w0" else joint
-              for joint in model.joints]
+    links = [
+        replace(link, collisions=tuple(replace(c, pose=Pose(q=quat_from_rpy(math.pi / 2 + angle, 0, 0))) for c in link.collisions))
+        if link.name == "w0"
+        else link
+        for link in model.links
+    ]
+    joints = [
+        replace(joint, axes=(Axis((0.0, math.cos(angle), math.sin(angle))),)) if joint.name == "w0" else joint for joint in model.joints
+    ]
     rover_ = world.spawn(replace(model, links=tuple(links), joints=tuple(joints)))
     for link in rover_.links.values():
         for collision in link.collisions.values():
@@ -196,8 +203,12 @@ def round_mesh(tmp_path, corners):
 def test_a_wheel_that_is_a_mesh_turns_about_the_middle_of_its_tread(tmp_path):
     model = rover(BESIDE, ((-0.2, 0.0),), (-0.04, 0.0, 0.05))
     shape = round_mesh(tmp_path, 48)
-    links = tuple(replace(link, collisions=tuple(replace(c, geometry=shape, surface=Surface(mu=50.0, mu2=50.0)) for c in link.collisions))
-                  if link.name != "base" else link for link in model.links)
+    links = tuple(
+        replace(link, collisions=tuple(replace(c, geometry=shape, surface=Surface(mu=50.0, mu2=50.0)) for c in link.collisions))
+        if link.name != "base"
+        else link
+        for link in model.links
+    )
     world = ode_sim.World()
     world.spawn(ground())
     robot = world.spawn(replace(model, links=links))
@@ -210,8 +221,10 @@ def test_a_wheel_that_is_a_mesh_turns_about_the_middle_of_its_tread(tmp_path):
 def test_which_corners_of_a_mesh_are_lowest_does_not_move_what_a_wheel_stands_on(tmp_path):
     """Of three rings of corners, one of them half a corner further, two touch or one does: a robot turned about the middle of those."""
     corners = 40
-    rings = [[(RADIUS * math.cos(a), RADIUS * math.sin(a), z) for a in (2 * math.pi * (i + shift) / corners for i in range(corners))]
-             for z, shift in ((-0.025, 0.5), (0.0, 0.0), (0.025, 0.0))]
+    rings = [
+        [(RADIUS * math.cos(a), RADIUS * math.sin(a), z) for a in (2 * math.pi * (i + shift) / corners for i in range(corners))]
+        for z, shift in ((-0.025, 0.5), (0.0, 0.0), (0.025, 0.0))
+    ]
     faces = []
     for first in (0, corners):
         for i, k in zip(range(corners), [*range(1, corners), 0]):
@@ -219,8 +232,10 @@ def test_which_corners_of_a_mesh_are_lowest_does_not_move_what_a_wheel_stands_on
     trimesh.Trimesh(np.concatenate(rings), faces, process=False).export(tmp_path / "wheel.stl")
     shape = Mesh(str(tmp_path / "wheel.stl"), "wheel.stl")
     model = rover(BESIDE, ((-0.2, 0.0),), (-0.04, 0.0, 0.05))
-    links = tuple(link if link.name == "base" else
-                  replace(link, collisions=tuple(replace(c, geometry=shape) for c in link.collisions)) for link in model.links)
+    links = tuple(
+        link if link.name == "base" else replace(link, collisions=tuple(replace(c, geometry=shape) for c in link.collisions))
+        for link in model.links
+    )
     world = ode_sim.World()
     world.spawn(ground())
     robot = world.spawn(replace(model, links=links))
@@ -237,9 +252,12 @@ def test_corners_of_wheels_that_are_meshes_do_not_hold_a_turn_up(tmp_path):
     """Corners before and behind the axles would drag the wheels sideways, at a friction of 10 with more than a drive of 0.4 N m gives."""
     model = rover(BESIDE, ((-0.2, 0.0),), (-0.04, 0.0, 0.05))
     shape, rough = round_mesh(tmp_path, 40), Surface(mu=10.0, mu2=10.0)
-    links = tuple(replace(link, collisions=tuple(replace(c, geometry=shape, surface=rough) for c in link.collisions))
-                  if link.name != "base" else replace(link, collisions=tuple(replace(c, surface=Surface(mu=0.01, mu2=0.01))
-                                                                             for c in link.collisions)) for link in model.links)
+    links = tuple(
+        replace(link, collisions=tuple(replace(c, geometry=shape, surface=rough) for c in link.collisions))
+        if link.name != "base"
+        else replace(link, collisions=tuple(replace(c, surface=Surface(mu=0.01, mu2=0.01)) for c in link.collisions))
+        for link in model.links
+    )
     world = ode_sim.World()
     world.spawn(ground())
     robot = world.spawn(replace(model, links=links))

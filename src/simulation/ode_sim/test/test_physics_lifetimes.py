@@ -1,12 +1,12 @@
 """Spawning is a transaction, and what a model leaves behind when it goes is nothing that breaks."""
+
 import gc
 import math
 from dataclasses import replace
 
 import numpy as np
-import pytest
-
 import ode_sim
+import pytest
 from ode_sim.description import model as d
 from ode_sim.description.model import Box, Collision, Inertial, Link, Model, Pose
 from physics_checks import refused, runs_on
@@ -67,8 +67,9 @@ def test_the_ghost_of_a_failed_spawn_does_not_carry_a_box():
     link = Link("l", collisions=(big, Collision("c2", Pose(), Box((0.1, 0.1, 0.1)), d.Surface(mu="slippery"))), self_collide=[])
     world = ode_sim.World()
     world.spawn(ground())
-    assert "'b'" in refused(lambda: world.spawn(Model("b", Pose(), (link, replace(link, name="m", linear_decay="x")), static=True)),
-                            ode_sim.DescriptionError)
+    assert "'b'" in refused(
+        lambda: world.spawn(Model("b", Pose(), (link, replace(link, name="m", linear_decay="x")), static=True)), ode_sim.DescriptionError
+    )
     falls = world.spawn(box(at=(0, 0, 3)))
     world.step(2000)
     assert falls.pose.p[2] == pytest.approx(0.05, abs=1e-3)
@@ -118,8 +119,13 @@ def test_handles_of_what_is_gone_are_refused():
         refused(lambda: world.attach(stranger.links["link1"], here.links["link1"]))
         refused(lambda: here.joints["j1"].follow(stranger.joints["j1"]))
     refused(lambda: world.core.remove_model(gone.core))
-    for act in (lambda: gone.joints["j1"].drive_to(0.1), lambda: gone.joints["j1"].follow(None), lambda: setattr(gone, "pose", Pose()),
-                lambda: gone.joints["j1"].set_position(0.1), lambda: gone.links["base"].collisions["base"].bounding_box()):
+    for act in (
+        lambda: gone.joints["j1"].drive_to(0.1),
+        lambda: gone.joints["j1"].follow(None),
+        lambda: setattr(gone, "pose", Pose()),
+        lambda: gone.joints["j1"].set_position(0.1),
+        lambda: gone.links["base"].collisions["base"].bounding_box(),
+    ):
         refused(act, RuntimeError)
     gone.joints["j1"].set_limits(-1, 1)
     gone.links["link1"].add_force((1, 0, 0))

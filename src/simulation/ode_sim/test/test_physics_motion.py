@@ -1,14 +1,14 @@
 """Free bodies and joints against what mechanics says."""
+
 import math
 
 import numpy as np
-import pytest
-from scipy.integrate import solve_ivp
-
 import ode_sim
+import pytest
 from ode_sim.description.model import Axis, Inertial, Joint, Link, Model, Pose
 from ode_sim.math3 import compose, inverse, quat_to_rpy
 from physics_models import arm, box, diff_drive, pendulum, sphere
+from scipy.integrate import solve_ivp
 
 G = 9.8
 
@@ -59,7 +59,7 @@ def test_velocity_decay_slows_a_body():
     ball = world.spawn(sphere(linear_decay=0.01))
     ball.set_twist((1, 0, 0), (0, 0, 0))
     world.step(100)
-    assert ball.twist().linear[0] == pytest.approx(0.99 ** 100, rel=1e-6)
+    assert ball.twist().linear[0] == pytest.approx(0.99**100, rel=1e-6)
 
 
 def test_spinning_body_keeps_its_energy_and_angular_momentum():
@@ -91,8 +91,8 @@ def test_pendulum_against_the_accurate_solution(start):
     for _ in range(int(seconds * 1000)):
         world.step()
         q.append(joint.position())
-        energy.append(0.5 * (inertia + mass * length ** 2) * joint.velocity() ** 2 - mass * G * length * math.cos(q[-1]))
-    k = mass * G * length / (inertia + mass * length ** 2)
+        energy.append(0.5 * (inertia + mass * length**2) * joint.velocity() ** 2 - mass * G * length * math.cos(q[-1]))
+    k = mass * G * length / (inertia + mass * length**2)
     t = np.arange(1, len(q) + 1) * 1e-3
     truth = solve_ivp(lambda _, y: (y[1], -k * math.sin(y[0])), (0, seconds), (start, 0), rtol=1e-10, atol=1e-12, t_eval=t).y[0]
 
@@ -153,8 +153,9 @@ def test_spring_pulls_to_its_reference(implicit):
     world.gravity = (0, 0, 0)
     model = pendulum()
     axis = Axis((0, 1, 0), damping=1.0, spring_reference=0.4, spring_stiffness=20.0)
-    model = Model(model.name, model.pose, model.links, (Joint("hinge", "revolute", "world", "bob", axes=(axis,),
-                                                              implicit_spring_damper=implicit),))
+    model = Model(
+        model.name, model.pose, model.links, (Joint("hinge", "revolute", "world", "bob", axes=(axis,), implicit_spring_damper=implicit),)
+    )
     joint = world.spawn(model).joints["hinge"]
     world.step(5000)
     assert joint.position() == pytest.approx(0.4, abs=1e-3)
@@ -258,7 +259,7 @@ def test_prismatic_joint_slides_and_reads_metres():
         rail.add_force(4.0)
         world.step()
     assert rail.velocity() == pytest.approx(0.4, rel=1e-6)
-    assert rail.position() == pytest.approx(0.5 * 2.0 * 0.2 ** 2, rel=1e-2)
+    assert rail.position() == pytest.approx(0.5 * 2.0 * 0.2**2, rel=1e-2)
     world.step(2000)
     assert rail.position() == pytest.approx(0.5, abs=1e-8)
     assert rail.child.pose.p[2] == pytest.approx(1.0, abs=1e-6)
@@ -310,8 +311,10 @@ def test_fixed_joint_makes_one_body_of_two():
 def test_feedback_is_what_holds_the_child(kind):
     base = Link("base", Pose(), Inertial(1.0))
     tip = Link("tip", Pose((0.5, 0, 0)), Inertial(2.0, Pose((0.2, 0, 0))))
-    joints = (Joint("bolt", "fixed", "world", "base"),
-              Joint("j", kind, "base", "tip", axes=(Axis((0, 1, 0), 0.0, 0.0),), provide_feedback=True))
+    joints = (
+        Joint("bolt", "fixed", "world", "base"),
+        Joint("j", kind, "base", "tip", axes=(Axis((0, 1, 0), 0.0, 0.0),), provide_feedback=True),
+    )
     world = ode_sim.World()
     joint = world.spawn(Model("m", Pose((0, 0, 1)), (base, tip), joints)).joints["j"]
     world.step(300)
@@ -362,12 +365,18 @@ def test_force_at_a_point_turns_the_body():
 
 def test_four_bar_closed_loop_turns_without_falling_apart():
     up = Pose((0, 0, 0.2))
-    links = (Link("crank", Pose(), Inertial(0.2, Pose((0, 0, 0.1)), 1e-3, 0, 0, 1e-3, 0, 1e-4)),
-             Link("coupler", up, Inertial(0.2, Pose((0.2, 0, 0)), 1e-4, 0, 0, 1e-3, 0, 1e-3)),
-             Link("rocker", Pose((0.4, 0, 0)), Inertial(0.2, Pose((0, 0, 0.1)), 1e-3, 0, 0, 1e-3, 0, 1e-4)))
+    links = (
+        Link("crank", Pose(), Inertial(0.2, Pose((0, 0, 0.1)), 1e-3, 0, 0, 1e-3, 0, 1e-4)),
+        Link("coupler", up, Inertial(0.2, Pose((0.2, 0, 0)), 1e-4, 0, 0, 1e-3, 0, 1e-3)),
+        Link("rocker", Pose((0.4, 0, 0)), Inertial(0.2, Pose((0, 0, 0.1)), 1e-3, 0, 0, 1e-3, 0, 1e-4)),
+    )
     axis = (Axis((0, 1, 0)),)
-    joints = (Joint("a", "revolute", "world", "crank", axes=axis), Joint("b", "revolute", "crank", "coupler", axes=axis),
-              Joint("c", "revolute", "coupler", "rocker", up, axis), Joint("d", "revolute", "world", "rocker", axes=axis))
+    joints = (
+        Joint("a", "revolute", "world", "crank", axes=axis),
+        Joint("b", "revolute", "crank", "coupler", axes=axis),
+        Joint("c", "revolute", "coupler", "rocker", up, axis),
+        Joint("d", "revolute", "world", "rocker", axes=axis),
+    )
     world = ode_sim.World()
     model = world.spawn(Model("four_bar", Pose((0, 0, 1)), links, joints))
     model.joints["a"].set_motor(1.0, 50.0)
@@ -381,8 +390,10 @@ def test_four_bar_closed_loop_turns_without_falling_apart():
 
 # ------------------------------------------------------------------------------------------ centrifugal and Coriolis forces
 
+
 def two_bars(second_axis, first=()):
     """Two bars of 1 kg, centres of mass 0.5 m below their joints, the second hinged at the first one's."""
+
     def bar(name, at):
         return Link(name, Pose((0, 0, at)), Inertial(1.0, Pose((0, 0, -0.5)), 0.01, 0, 0, 0.01, 0, 0.01))
 
@@ -403,8 +414,10 @@ def test_pendulum_on_a_turntable_against_the_accurate_solution():
     length, inertia, turns = 0.5, 1e-4, 6.0
     table = Link("table", Pose(), Inertial(5.0, Pose(), 1, 0, 0, 1, 0, 1))
     bob = Link("bob", Pose(), Inertial(1.0, Pose((0, 0, -length)), inertia, 0, 0, inertia, 0, inertia))
-    joints = (Joint("turn", "revolute", "world", "table", axes=(Axis((0, 0, 1)),)),
-              Joint("swing", "revolute", "table", "bob", axes=(Axis((0, 1, 0)),)))
+    joints = (
+        Joint("turn", "revolute", "world", "table", axes=(Axis((0, 0, 1)),)),
+        Joint("swing", "revolute", "table", "bob", axes=(Axis((0, 1, 0)),)),
+    )
     world = ode_sim.World()
     model = world.spawn(Model("m", Pose((0, 0, 2)), (table, bob), joints))
     model.joints["swing"].set_position(0.5)
@@ -413,9 +426,14 @@ def test_pendulum_on_a_turntable_against_the_accurate_solution():
     for _ in range(2000):
         world.step()
         q.append(model.joints["swing"].position())
-    square, whole = length ** 2, length ** 2 + inertia
-    truth = solve_ivp(lambda _, y: (y[1], (square * turns ** 2 * math.cos(y[0]) - G * length) * math.sin(y[0]) / whole),
-                      (0, 2), (0.5, 0), rtol=1e-10, t_eval=np.arange(1, 2001) * 1e-3).y[0]
+    square, whole = length**2, length**2 + inertia
+    truth = solve_ivp(
+        lambda _, y: (y[1], (square * turns**2 * math.cos(y[0]) - G * length) * math.sin(y[0]) / whole),
+        (0, 2),
+        (0.5, 0),
+        rtol=1e-10,
+        t_eval=np.arange(1, 2001) * 1e-3,
+    ).y[0]
     assert np.abs(q - truth).max() < 0.02
 
 
@@ -450,8 +468,10 @@ def test_feedback_holds_the_centripetal_force():
     world.gravity = (0, 0, 0)
     arm_link = Link("arm", Pose(), Inertial(1.0))
     tip = Link("tip", Pose((0.5, 0, 0)), Inertial(2.0))
-    joints = (Joint("turn", "revolute", "world", "arm", axes=(Axis((0, 0, 1)),)),
-              Joint("hold", "revolute", "arm", "tip", axes=(Axis((0, 1, 0), 0.0, 0.0),), provide_feedback=True))
+    joints = (
+        Joint("turn", "revolute", "world", "arm", axes=(Axis((0, 0, 1)),)),
+        Joint("hold", "revolute", "arm", "tip", axes=(Axis((0, 1, 0), 0.0, 0.0),), provide_feedback=True),
+    )
     model = world.spawn(Model("m", Pose(), (arm_link, tip), joints))
     model.joints["turn"].set_motor(4.0, 1e5)
     world.step(500)

@@ -1,12 +1,12 @@
 """Position-commanded joints: exact, no recoil, whatever the inertias; and real when they touch something."""
+
 import math
 
 import numpy as np
-import pytest
-
 import ode_sim
+import pytest
 from ode_sim.description.model import Axis, Inertial, Joint, Link, Model, Pose, Surface
-from ode_sim.math3 import inverse, compose, to_rpy
+from ode_sim.math3 import compose, inverse, to_rpy
 from physics_models import arm, box, diff_drive, gripper, ground, pendulum
 
 
@@ -88,8 +88,9 @@ def test_velocity_of_moved_links_is_true():
 @pytest.mark.parametrize("bolted", [True, False])
 @pytest.mark.parametrize("inertia", [None, 1e8])
 def test_an_arm_pushes_a_box_along(bolted, inertia):
-    world, model = world_with(arm(3, bolted=bolted, inertia=inertia, mass=0.3, length=0.3, effort=50.0, velocity=3.0,
-                                  base_size=(0.3, 0.3, 0.05)))
+    world, model = world_with(
+        arm(3, bolted=bolted, inertia=inertia, mass=0.3, length=0.3, effort=50.0, velocity=3.0, base_size=(0.3, 0.3, 0.05))
+    )
     joints = turning(model)
     for i in range(1000):
         for joint, q in zip(joints, (0.0, 2.0, 0.0)):
@@ -136,8 +137,11 @@ def test_an_arm_pressed_into_a_wall_stalls_and_recovers():
 
 
 def test_a_gripper_closes_on_a_box_lifts_and_holds_it():
-    world, hand, load, _ = world_with(gripper(effort=20.0), box(at=(0, 0, 0.225), size=(0.05, 0.05, 0.05), mass=0.2),
-                                      box("stand", at=(0, 0, 0.1), size=(0.1, 0.03, 0.2), static=True))
+    world, hand, load, _ = world_with(
+        gripper(effort=20.0),
+        box(at=(0, 0, 0.225), size=(0.05, 0.05, 0.05), mass=0.2),
+        box("stand", at=(0, 0, 0.1), size=(0.1, 0.03, 0.2), static=True),
+    )
     lift, left, right = (hand.joints[n] for n in ("lift", "left", "right"))
     lift.drive_to(0.0)
     for i in range(500):
@@ -227,8 +231,11 @@ def test_mimic_follows_its_leader():
 @pytest.mark.parametrize("gain, closed", [(1e3, 0.072), (1e4, 0.0701), (3e5, 0.0701)])
 def test_a_follower_and_the_finger_that_it_follows_hold_a_block_still(gain, closed):
     """What one gives way the other is pushed: a follower that made it good at once would drive both to and fro."""
-    world, hand, block, _ = world_with(gripper(), box("part", at=(0, 0, 0.225), size=(0.05, 0.05, 0.05), mass=0.05),
-                                       box("stand", at=(0, 0, 0.1), size=(0.1, 0.03, 0.2), static=True))
+    world, hand, block, _ = world_with(
+        gripper(),
+        box("part", at=(0, 0, 0.225), size=(0.05, 0.05, 0.05), mass=0.05),
+        box("stand", at=(0, 0, 0.1), size=(0.1, 0.03, 0.2), static=True),
+    )
     left, right, lift = (hand.joints[n] for n in ("left", "right", "lift"))
     right.follow(left, 1.0, 0.0)
     lift.drive_to(0.0)

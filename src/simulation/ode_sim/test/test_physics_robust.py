@@ -1,12 +1,12 @@
 """Numbers that no world can hold are refused or limited in one line; everything else runs on."""
+
 import math
 import random
 from dataclasses import replace
 
 import numpy as np
-import pytest
-
 import ode_sim
+import pytest
 from ode_sim import _core
 from ode_sim.description import model as d
 from ode_sim.description.model import Axis, Box, Collision, Inertial, Joint, Link, Mesh, Model, Pose, Sphere
@@ -46,10 +46,7 @@ def test_a_place_beyond_all_reason_is_refused(far, static):
 
 def test_a_rigid_move_that_takes_a_part_too_far_is_refused():
     rail = Model(
-        "rail",
-        Pose(),
-        (Link("base"), Link("car", Pose((9e6, 0, 0)))),
-        (Joint("j", "prismatic", "base", "car", axes=(Axis((1, 0, 0)),)),),
+        "rail", Pose(), (Link("base"), Link("car", Pose((9e6, 0, 0)))), (Joint("j", "prismatic", "base", "car", axes=(Axis((1, 0, 0)),)),)
     )
     world = ode_sim.World()
     model = world.spawn(rail)
@@ -105,9 +102,15 @@ def test_quaternions_of_any_length(q):
 @pytest.mark.parametrize("far", BEYOND)
 def test_a_shape_beyond_all_reason_is_left_out_and_the_rest_collides(far):
     good = Collision("good", Pose(), Box((0.1, 0.1, 0.1)))
-    bad = [Collision("off", Pose((0, far, 0)), Box()), Collision("box", Pose(), Box((1, far, 1))), Collision("ball", Pose(), d.Sphere(far)),
-           Collision("can", Pose(), d.Cylinder(0.1, far)), Collision("pill", Pose(), d.Capsule(far, 1.0)),
-           Collision("floor", Pose((0, 0, far)), d.Plane()), Collision("prism", Pose(), d.Polyline(((0, 0), (1, 0), (far, 1)), 1.0))]
+    bad = [
+        Collision("off", Pose((0, far, 0)), Box()),
+        Collision("box", Pose(), Box((1, far, 1))),
+        Collision("ball", Pose(), d.Sphere(far)),
+        Collision("can", Pose(), d.Cylinder(0.1, far)),
+        Collision("pill", Pose(), d.Capsule(far, 1.0)),
+        Collision("floor", Pose((0, 0, far)), d.Plane()),
+        Collision("prism", Pose(), d.Polyline(((0, 0), (1, 0), (far, 1)), 1.0)),
+    ]
     link = Link("link", inertial=box_inertia(1.0, (0.1, 0.1, 0.1)), collisions=(*bad, good))
     world = ode_sim.World()
     world.spawn(ground())
@@ -127,8 +130,11 @@ def test_a_model_of_a_world_file_that_lies_too_far_is_left_out():
 
 
 def test_a_saved_state_beyond_all_reason_is_named_and_left_alone():
-    state = d.WorldState(1e300, -5, (d.ModelState("box", Pose((0, 0, 1e12))), d.ModelState("ball", None, links=(
-        d.LinkState("link", Pose((0, math.nan, 0))),))))
+    state = d.WorldState(
+        1e300,
+        -5,
+        (d.ModelState("box", Pose((0, 0, 1e12))), d.ModelState("ball", None, links=(d.LinkState("link", Pose((0, math.nan, 0))),))),
+    )
     world = ode_sim.World(d.World(models=(box(), sphere()), state=state))
     assert len(world.problems) == 3 and world.time == 0.0 and world.iterations == 0
     assert world.models["box"].pose.p == pytest.approx((0, 0, 0.05))
@@ -140,7 +146,8 @@ def test_chains_of_sliders_that_lead_out_of_reach():
     n = 30
     links = tuple(Link(f"l{i}", collisions=(Collision("c", Pose(), Box((0.1, 0.1, 0.1))),)) for i in range(n))
     joints = (Joint("bolt", "fixed", "world", "l0"),) + tuple(
-        Joint(f"j{i}", "prismatic", f"l{i - 1}", f"l{i}", axes=(Axis((1, 0, 0)),)) for i in range(1, n))
+        Joint(f"j{i}", "prismatic", f"l{i - 1}", f"l{i}", axes=(Axis((1, 0, 0)),)) for i in range(1, n)
+    )
     world = ode_sim.World()
     world.spawn(ground())
     model = world.spawn(Model("m", Pose((0, 0, 1)), links, joints))
@@ -170,9 +177,20 @@ def test_a_kinematic_link_sent_off_the_map_is_stopped():
 # ---------------------------------------------------------------------------------------------- numbers
 
 
-@pytest.mark.parametrize("inertial", [
-    Inertial(1.0, Pose((math.nan, 0, 0))), Inertial(1.0, Pose((0, 0, -math.inf))), Inertial(1.0, Pose((0, 1e200, 0))), Inertial(math.nan),
-    Inertial(math.inf), Inertial(-1.0), Inertial(1e300), Inertial(1.0, ixx=math.nan), Inertial(1.0, ixx=1e200, iyy=1e200, izz=1e200)])
+@pytest.mark.parametrize(
+    "inertial",
+    [
+        Inertial(1.0, Pose((math.nan, 0, 0))),
+        Inertial(1.0, Pose((0, 0, -math.inf))),
+        Inertial(1.0, Pose((0, 1e200, 0))),
+        Inertial(math.nan),
+        Inertial(math.inf),
+        Inertial(-1.0),
+        Inertial(1e300),
+        Inertial(1.0, ixx=math.nan),
+        Inertial(1.0, ixx=1e200, iyy=1e200, izz=1e200),
+    ],
+)
 def test_inertials_that_no_body_has(inertial):
     world = ode_sim.World()
     world.spawn(ground())
@@ -197,19 +215,38 @@ def test_any_number_given_to_any_setter(bad):
     link, joint, driven = robot.links["base"], robot.joints["left"], arm_.joints["j1"]
     surface = next(iter(link.collisions.values())).surface
     calls = [
-        lambda: link.add_force((bad, 0, 0)), lambda: link.add_force((0, 0, 0), (bad, 0, 0)), lambda: link.add_torque((0, bad, 0)),
-        lambda: link.set_force((0, 0, bad)), lambda: link.set_torque((bad, 0, bad)), lambda: link.set_twist((bad, 0, 0), (0, 0, 0)),
-        lambda: link.set_twist((0, 0, 0), (0, bad, 0)), lambda: robot.set_twist((0, 0, 0), (bad, bad, bad)),
-        lambda: setattr(link, "pose", Pose((0, 0, 1), (bad, 0, 0, 1))), lambda: joint.add_force(bad), lambda: joint.set_motor(bad, 1.0),
-        lambda: joint.set_motor(1.0, bad), lambda: driven.drive_to(bad), lambda: driven.set_position(bad),
+        lambda: link.add_force((bad, 0, 0)),
+        lambda: link.add_force((0, 0, 0), (bad, 0, 0)),
+        lambda: link.add_torque((0, bad, 0)),
+        lambda: link.set_force((0, 0, bad)),
+        lambda: link.set_torque((bad, 0, bad)),
+        lambda: link.set_twist((bad, 0, 0), (0, 0, 0)),
+        lambda: link.set_twist((0, 0, 0), (0, bad, 0)),
+        lambda: robot.set_twist((0, 0, 0), (bad, bad, bad)),
+        lambda: setattr(link, "pose", Pose((0, 0, 1), (bad, 0, 0, 1))),
+        lambda: joint.add_force(bad),
+        lambda: joint.set_motor(bad, 1.0),
+        lambda: joint.set_motor(1.0, bad),
+        lambda: driven.drive_to(bad),
+        lambda: driven.set_position(bad),
         lambda: joint.set_limits(bad, bad),
-        lambda: joint.set_limits(-1, bad), lambda: joint.set_limits(bad, 1), lambda: setattr(joint, "damping", bad),
-        lambda: setattr(joint, "friction", bad), lambda: joint.follow(driven, bad, 0.0), lambda: joint.follow(driven, 1.0, bad),
-        lambda: setattr(weld, "pose", Pose((bad, 0, 0))), lambda: setattr(world, "gravity", (0, bad, 0))]
-    calls += [lambda name=name: joint.set_param(name, bad) for name in
-              ("fmax", "vel", "hi_stop", "lo_stop", "stop_erp", "stop_cfm", "friction", "damping")]
-    calls += [lambda name=name: setattr(surface, name, bad) for name in
-              ("mu", "mu2", "slip1", "slip2", "kp", "kd", "max_vel", "min_depth", "restitution", "bounce_threshold")]
+        lambda: joint.set_limits(-1, bad),
+        lambda: joint.set_limits(bad, 1),
+        lambda: setattr(joint, "damping", bad),
+        lambda: setattr(joint, "friction", bad),
+        lambda: joint.follow(driven, bad, 0.0),
+        lambda: joint.follow(driven, 1.0, bad),
+        lambda: setattr(weld, "pose", Pose((bad, 0, 0))),
+        lambda: setattr(world, "gravity", (0, bad, 0)),
+    ]
+    calls += [
+        lambda name=name: joint.set_param(name, bad)
+        for name in ("fmax", "vel", "hi_stop", "lo_stop", "stop_erp", "stop_cfm", "friction", "damping")
+    ]
+    calls += [
+        lambda name=name: setattr(surface, name, bad)
+        for name in ("mu", "mu2", "slip1", "slip2", "kp", "kd", "max_vel", "min_depth", "restitution", "bounce_threshold")
+    ]
     calls += [lambda: setattr(surface, "fdir1", (bad, 0, 0))]
     for collision in link.collisions.values():
         world.watch_contacts(collision)
@@ -221,16 +258,31 @@ def test_any_number_given_to_any_setter(bad):
         runs_on(world, 3)
 
 
-@pytest.mark.parametrize("axis", [-1, 2, 7, 2 ** 31 - 1])
+@pytest.mark.parametrize("axis", [-1, 2, 7, 2**31 - 1])
 def test_an_axis_that_there_is_not(axis):
     joint = ode_sim.World().spawn(pendulum()).joints["hinge"]
-    for call in (joint.position, joint.velocity, joint.effort, joint.motor, joint.limits, lambda a: joint.add_force(1.0, a),
-                 lambda a: joint.set_motor(1.0, 1.0, a), lambda a: joint.set_position(0.0, a), lambda a: joint.set_limits(0, 1, a)):
+    for call in (
+        joint.position,
+        joint.velocity,
+        joint.effort,
+        joint.motor,
+        joint.limits,
+        lambda a: joint.add_force(1.0, a),
+        lambda a: joint.set_motor(1.0, 1.0, a),
+        lambda a: joint.set_position(0.0, a),
+        lambda a: joint.set_limits(0, 1, a),
+    ):
         assert "no axis" in refused(lambda: call(axis))
 
 
-@pytest.mark.parametrize("field,bad", [(f, v) for f in ("lower", "upper", "effort", "velocity", "damping", "friction", "spring_reference",
-                                                        "spring_stiffness") for v in (math.nan, math.inf, -math.inf, 1e300)])
+@pytest.mark.parametrize(
+    "field,bad",
+    [
+        (f, v)
+        for f in ("lower", "upper", "effort", "velocity", "damping", "friction", "spring_reference", "spring_stiffness")
+        for v in (math.nan, math.inf, -math.inf, 1e300)
+    ],
+)
 def test_axes_with_numbers_that_are_none(field, bad):
     plain = pendulum()
     axis = replace(plain.joints[0].axes[0], **{field: bad})
@@ -313,8 +365,15 @@ def test_meshes_that_name_corners_there_are_not():
 
 
 def many(n, parent, kind="revolute", **inertial):
-    links = tuple(Link(f"l{i}", Pose((0, 0, 0.01 * i)), Inertial(1.0, **inertial) if i == n - 1 else Inertial(),
-                       (Collision("c", Pose(), d.Sphere(0.004)),)) for i in range(n))
+    links = tuple(
+        Link(
+            f"l{i}",
+            Pose((0, 0, 0.01 * i)),
+            Inertial(1.0, **inertial) if i == n - 1 else Inertial(),
+            (Collision("c", Pose(), d.Sphere(0.004)),),
+        )
+        for i in range(n)
+    )
     joints = tuple(Joint(f"j{i}", kind, f"l{parent(i)}", f"l{i}", axes=(Axis((0, 1, 0)),)) for i in range(1, n))
     return Model("many", Pose(), links, joints)
 
@@ -322,6 +381,7 @@ def many(n, parent, kind="revolute", **inertial):
 def work(model):
     """Python and C++ calls cannot be counted alike: seconds of this process, the least of three."""
     import time
+
     times = []
     for _ in range(3):
         world = ode_sim.World()

@@ -1,11 +1,11 @@
 """A snapshot is the whole state: what is restored goes on with the same bits, and what is refused changes nothing."""
+
 import math
 import random
 from dataclasses import replace
 
-import pytest
-
 import ode_sim
+import pytest
 from ode_sim.description.model import Inertial, Pose
 from physics_checks import refused, runs_on
 from physics_determinism import busy_world
@@ -54,7 +54,7 @@ def test_a_damaged_snapshot_changes_nothing():
     ]
     for _ in range(200):
         at = rng.randrange(n)
-        damaged.append(replace(good, state=good.state[:at] + bytes([good.state[at] ^ (1 << rng.randrange(8))]) + good.state[at + 1:]))
+        damaged.append(replace(good, state=good.state[:at] + bytes([good.state[at] ^ (1 << rng.randrange(8))]) + good.state[at + 1 :]))
     for snapshot in damaged:
         refused(lambda: world.restore(snapshot))
     assert bytes(world.save()) == before

@@ -1,4 +1,5 @@
 """Screws and gearboxes: their laws on paper, what drives and stops them, and what the files say."""
+
 import math
 import pathlib
 from dataclasses import replace

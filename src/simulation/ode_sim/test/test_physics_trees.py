@@ -1,10 +1,10 @@
 """Islands of many joints: trees of them exactly, whatever the number of iterations."""
+
 import math
 
 import numpy as np
-import pytest
-
 import ode_sim
+import pytest
 from ode_sim.description.model import Axis, Capsule, Collision, Cylinder, Inertial, Joint, Link, Model, Pose, Surface
 from ode_sim.math3 import quat_from_rpy, quat_multiply, quat_rotate, quat_to_rpy
 from physics_models import box_inertia, ground
@@ -18,7 +18,7 @@ def mecanum():
     """20 kg on four sprung wheels of 15 free rollers each, 0.012 kg, at 45 degrees: 68 joints."""
     links = [Link("base", Pose(), Inertial(20.0, Pose((0.01, 0.005, 0.05)), 0.3, 0, 0, 0.4, 0, 0.5))]
     joints, tread = [], Surface(mu=2.5, mu2=2.5, kp=5e4, kd=100)
-    across, along = 0.012 * (ROLLER ** 2 / 4 + LENGTH ** 2 / 12), 0.012 * ROLLER ** 2 / 2
+    across, along = 0.012 * (ROLLER**2 / 4 + LENGTH**2 / 12), 0.012 * ROLLER**2 / 2
     upright = quat_from_rpy(-math.pi / 2, 0, 0)
     for i, (x, y) in enumerate(CORNERS):
         links.append(Link(f"s{i}", Pose((x, y, 0)), Inertial(0.01, Pose(), 1e-5, 0, 0, 1e-5, 0, 1e-5)))
@@ -30,9 +30,14 @@ def mecanum():
             off = quat_rotate(upright, (math.cos(angle) * RING, math.sin(angle) * RING, 0))
             lean = quat_from_rpy(math.pi / 4 * (-1 if x * y > 0 else 1), 0, angle)
             name = f"r{i}_{k}"
-            links.append(Link(name, Pose((x + off[0], y + off[1], off[2]), quat_multiply(upright, lean)),
-                              Inertial(0.012, Pose(), across, 0, 0, across, 0, along),
-                              (Collision("c", Pose(), Cylinder(ROLLER, LENGTH), tread),)))
+            links.append(
+                Link(
+                    name,
+                    Pose((x + off[0], y + off[1], off[2]), quat_multiply(upright, lean)),
+                    Inertial(0.012, Pose(), across, 0, 0, across, 0, along),
+                    (Collision("c", Pose(), Cylinder(ROLLER, LENGTH), tread),),
+                )
+            )
             joints.append(Joint(name, "revolute", f"w{i}", name, axes=(Axis((0, 0, 1), damping=1e-3),)))
     return Model("rover", Pose((0, 0, REACH + 0.001)), tuple(links), tuple(joints))
 
@@ -72,8 +77,11 @@ def test_a_base_on_sixty_rollers_stands():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("speeds, motion", [((4, 4, 4, 4), (1, 0, 0)), ((-4, 4, 4, -4), (0, 1, 0)),
-                                            ((-4, 4, -4, 4), (0, 0, 1 / (2 * HALF)))], ids=["ahead", "left", "round"])
+@pytest.mark.parametrize(
+    "speeds, motion",
+    [((4, 4, 4, 4), (1, 0, 0)), ((-4, 4, 4, -4), (0, 1, 0)), ((-4, 4, -4, 4), (0, 0, 1 / (2 * HALF)))],
+    ids=["ahead", "left", "round"],
+)
 def test_it_goes_where_its_wheels_take_it(speeds, motion):
     rover = Rover()
     rover.turn(speeds)
@@ -91,6 +99,7 @@ def test_the_same_bits_again_and_from_a_snapshot():
     def run(rover):
         rover.world.step(200)
         return rover.world.link_poses.tobytes() + rover.world.joint_velocities.tobytes()
+
     first, second = Rover(), Rover()
     for rover in (first, second):
         rover.turn((3, 2, 1, 0))
@@ -108,11 +117,16 @@ def centipede(legs):
     for i in range(legs):
         for side in (-1, 1):
             x, y, name = 0.1 * (i - (legs - 1) / 2), side * 0.12, f"{'rl'[side > 0]}{i}"
-            links += [Link(f"hip_{name}", Pose((x, y, 0.3)), Inertial(0.05, Pose(), 1e-4, 0, 0, 1e-4, 0, 1e-4)),
-                      Link(f"leg_{name}", Pose((x, y, 0.15)), box_inertia(0.2, (0.02, 0.02, 0.28)),
-                           (Collision("c", Pose(), Capsule(0.02, 0.26)),))]
-            joints += [Joint(f"hip_{name}", "revolute", "bar", f"hip_{name}", axes=(Axis((1, 0, 0), -1, 1),)),
-                       Joint(f"leg_{name}", "revolute", f"hip_{name}", f"leg_{name}", Pose((0, 0, 0.15)), axes=(Axis((0, 1, 0), -1, 1),))]
+            links += [
+                Link(f"hip_{name}", Pose((x, y, 0.3)), Inertial(0.05, Pose(), 1e-4, 0, 0, 1e-4, 0, 1e-4)),
+                Link(
+                    f"leg_{name}", Pose((x, y, 0.15)), box_inertia(0.2, (0.02, 0.02, 0.28)), (Collision("c", Pose(), Capsule(0.02, 0.26)),)
+                ),
+            ]
+            joints += [
+                Joint(f"hip_{name}", "revolute", "bar", f"hip_{name}", axes=(Axis((1, 0, 0), -1, 1),)),
+                Joint(f"leg_{name}", "revolute", f"hip_{name}", f"leg_{name}", Pose((0, 0, 0.15)), axes=(Axis((0, 1, 0), -1, 1),)),
+            ]
     return Model("centipede", Pose(), tuple(links), tuple(joints))
 
 

@@ -1,21 +1,21 @@
 """What sleeps wakes when what holds it, pushes it or pulls it changes."""
+
 import math
 from dataclasses import replace
 
 import numpy as np
-import pytest
-from PIL import Image
-
 import ode_sim
+import pytest
 from ode_sim.description.model import Axis, Collision, Heightmap, Joint, Link, Model, Physics, Pose, Surface
 from ode_sim.math3 import quat_from_rpy
 from physics_models import box, box_inertia, ground, sphere
+from PIL import Image
 
 G = 9.8
 SIDE = 0.1  # m, of the boxes
 SHELF = box("shelf", at=(0, 0, 1.95), size=(0.4, 0.4, 0.1), static=True)  # its upper side at 2 m
 SECONDS = 0.2  # after what happened, for a look
-FALLS = 0.5 * G * SECONDS ** 2
+FALLS = 0.5 * G * SECONDS**2
 
 
 def asleep(world, count, dt):
@@ -81,8 +81,12 @@ def test_a_stack_whose_support_goes_falls_whole(act, dt):
 
 def test_what_a_link_of_a_robot_held_falls():
     """Its base hangs from the world by a fixed joint; the joint to the shelf is teleported, and then the robot."""
-    for act in (lambda robot: robot.joints["slide"].set_position(-0.8), lambda robot: setattr(robot, "pose", Pose((0, 0, -0.8))),
-                lambda robot: robot.joints["slide"].drive_off(), lambda robot: robot.remove()):
+    for act in (
+        lambda robot: robot.joints["slide"].set_position(-0.8),
+        lambda robot: setattr(robot, "pose", Pose((0, 0, -0.8))),
+        lambda robot: robot.joints["slide"].drive_off(),
+        lambda robot: robot.remove(),
+    ):
         world = ode_sim.World()
         links = (Link("base", Pose((2, 0, 1.95)), box_inertia(1.0, (0.1, 0.1, 0.1))), replace(SHELF.links[0], pose=SHELF.pose))
         joints = (Joint("bolt", "fixed", "world", "base"), Joint("slide", "prismatic", "base", "link", axes=(Axis((0, 0, 1)),)))
@@ -98,6 +102,7 @@ def test_what_a_link_of_a_robot_held_falls():
 
 def test_what_rests_on_a_sleeper_falls_with_it():
     """The lowest of the stack is deleted, set elsewhere, loses its shape's contact; the others rest on it alone."""
+
     def away(model):
         model.pose = Pose((0, 3, 0.05))
 
@@ -137,11 +142,22 @@ def test_gravity_that_turns_lifts_all(way):
         world.gravity = (0, 0, 1.0)
     else:
         world.set_physics(Physics(), (0, 0, 1.0))
-    assert fallen(world, [*stack, control]) == pytest.approx([-0.5 * SECONDS ** 2] * 3, abs=1e-3)
+    assert fallen(world, [*stack, control]) == pytest.approx([-0.5 * SECONDS**2] * 3, abs=1e-3)
 
 
-@pytest.mark.parametrize("name, value", [("max_step_size", 0.002), ("iters", 100), ("erp", 0.5), ("cfm", 1e-3), ("sor", 1.0),
-                                         ("max_contacts", 3), ("contact_max_correcting_vel", 1.0), ("solver", "gazebo")])
+@pytest.mark.parametrize(
+    "name, value",
+    [
+        ("max_step_size", 0.002),
+        ("iters", 100),
+        ("erp", 0.5),
+        ("cfm", 1e-3),
+        ("sor", 1.0),
+        ("max_contacts", 3),
+        ("contact_max_correcting_vel", 1.0),
+        ("solver", "gazebo"),
+    ],
+)
 def test_every_setting_of_the_physics_wakes_if_it_is_another(name, value):
     world = ode_sim.World()
     world.spawn(SHELF)
@@ -259,8 +275,10 @@ def test_a_belt_that_starts_takes_along_what_sleeps_on_it_and_lets_nothing_fall_
 def test_a_position_driven_lift_takes_a_sleeping_stack_down():
     world = ode_sim.World()
     links = (Link("base", Pose((1, 0, 1.95)), box_inertia(1.0, (0.1, 0.1, 0.1))), replace(SHELF.links[0], pose=SHELF.pose))
-    joints = (Joint("bolt", "fixed", "world", "base"),
-              Joint("lift", "prismatic", "base", "link", axes=(Axis((0, 0, 1), -2.0, 2.0, 1000.0, 5.0),)))
+    joints = (
+        Joint("bolt", "fixed", "world", "base"),
+        Joint("lift", "prismatic", "base", "link", axes=(Axis((0, 0, 1), -2.0, 2.0, 1000.0, 5.0),)),
+    )
     robot = world.spawn(Model("robot", Pose(), links, joints))
     robot.joints["lift"].drive_to(0.0)
     stack, control = asleep_or_still(world)

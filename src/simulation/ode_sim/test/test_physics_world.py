@@ -1,4 +1,5 @@
 """The world as a whole: same run same bits, snapshots, resets, spawning and removing, bad input."""
+
 import math
 import os
 import subprocess
@@ -6,9 +7,8 @@ import sys
 from dataclasses import replace
 
 import numpy as np
-import pytest
-
 import ode_sim
+import pytest
 from ode_sim.description import model as d
 from ode_sim.description.model import Pose
 from ode_sim.math3 import quat_from_rpy
@@ -154,9 +154,7 @@ def test_physics_beyond_reason_is_refused_as_a_whole(name, bad):
     before, gravity = world.physics.record(), world.gravity
     with pytest.raises(ValueError, match=name) as error:
         world.set_physics(
-            replace(before, max_step_size=0.01, **{name: bad})
-            if name != "max_step_size"
-            else replace(before, iters=7, **{name: bad}),
+            replace(before, max_step_size=0.01, **{name: bad}) if name != "max_step_size" else replace(before, iters=7, **{name: bad}),
             gravity=(0, 0, 1),
         )
     assert "\n" not in str(error.value) and len(str(error.value)) < 200
@@ -294,7 +292,7 @@ def test_what_is_spawned_is_in_the_shared_arrays_at_once():
             assert tuple(world.link_poses[link.index]) == (*link.pose.p, *link.pose.q)
     poses = world.link_poses.copy()
     world.remove("late1")
-    assert np.array_equal(world.link_poses, poses[:len(world.link_poses)])
+    assert np.array_equal(world.link_poses, poses[: len(world.link_poses)])
 
 
 # ---------------------------------------------------------------------------------------------- spawning
@@ -335,8 +333,12 @@ def test_looking_up_names_scoped_or_not_first_hit_wins():
 
 
 def test_a_saved_world_continues_where_it_was():
-    state = d.WorldState(12.5, 12500, (d.ModelState("box", Pose((1, 2, 3)), links=(
-        d.LinkState("link", Pose((1, 2, 3)), (0.5, 0, 0), (0, 0, 1)),)),), deletions=("gone",))
+    state = d.WorldState(
+        12.5,
+        12500,
+        (d.ModelState("box", Pose((1, 2, 3)), links=(d.LinkState("link", Pose((1, 2, 3)), (0.5, 0, 0), (0, 0, 1)),)),),
+        deletions=("gone",),
+    )
     world = ode_sim.World(d.World(models=(box(), box("gone", at=(5, 0, 0))), state=state))
     assert world.time == 12.5 and world.iterations == 12500
     assert list(world.models) == ["box"]

@@ -1,23 +1,43 @@
 """Pictures of scenes whose pixels are known by geometry: empty, mirrored, upside-down or wrongly coloured ones fail."""
+
 import gc
 import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from ode_sim.description.model import (Box, Cylinder, DescriptionError, Heightmap, Light, Link, Material, Mesh, Model,
-                                       Plane, Polyline, Pose, Ribbon, Scene, Sphere, Visual)
+from ode_sim.description.model import (
+    Box,
+    Cylinder,
+    DescriptionError,
+    Heightmap,
+    Light,
+    Link,
+    Material,
+    Mesh,
+    Model,
+    Plane,
+    Polyline,
+    Pose,
+    Ribbon,
+    Scene,
+    Sphere,
+    Visual,
+)
 from ode_sim.math3 import from_rpy
 from ode_sim.rendering import NOTHING, Camera, CameraError, Renderer, arrange, look_at
 from ode_sim.rendering.assets import Assets
-from ode_sim.rendering.geometry import ribbon
 from ode_sim.rendering.context import RenderingUnavailable
-from pictures import (BACKGROUND, BLUE, CAMERA, FULL_AMBIENT, GREEN, ORIGIN, RED, YELLOW, bytes_of, draw, renderer, scene_of,
-                      visual)
+from ode_sim.rendering.geometry import ribbon
+from pictures import BACKGROUND, BLUE, CAMERA, FULL_AMBIENT, GREEN, ORIGIN, RED, YELLOW, bytes_of, draw, renderer, scene_of, visual
 
 CUBOID = Box((0.2, 0.4, 0.4))
-FOUR = (visual("left", CUBOID, (2, 0.6, 0), RED), visual("right", CUBOID, (2, -0.6, 0), GREEN),
-        visual("up", CUBOID, (2, 0, 0.6), BLUE), visual("down", CUBOID, (2, 0, -0.6), YELLOW))
+FOUR = (
+    visual("left", CUBOID, (2, 0.6, 0), RED),
+    visual("right", CUBOID, (2, -0.6, 0), GREEN),
+    visual("up", CUBOID, (2, 0, 0.6), BLUE),
+    visual("down", CUBOID, (2, 0, -0.6), YELLOW),
+)
 
 
 def test_directions_and_colours(renderer):
@@ -43,7 +63,7 @@ def test_edges_are_where_projection_puts_them(renderer, size, hfov):
     left_top, right_bottom = camera.project([[2, half, 0.75 * half], [2, -half, -0.25 * half]])
     assert abs(columns[0] - left_top[0]) <= 1 and abs(rows[0] - left_top[1]) <= 1
     assert abs(columns[-1] - right_bottom[0]) <= 1 and abs(rows[-1] - right_bottom[1]) <= 1
-    assert mask[rows[0]:rows[-1] + 1, columns[0]:columns[-1] + 1].all()
+    assert mask[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1].all()
 
 
 def test_focal_length_and_centre():
@@ -54,8 +74,12 @@ def test_focal_length_and_centre():
 
 def test_depth_is_the_distance_along_the_axis(renderer):
     tilt = 0.5
-    renderer.set_scene(scene_of(visual("wall", Box((0.2, 20, 20)), (3.1, 0, 0), RED, rpy=(0, 0, 0)),
-                                visual("tilted", Plane(normal=(-1, 0, 0), size=(1, 1)), (2, 0, 0), BLUE, (0, 0, tilt))))
+    renderer.set_scene(
+        scene_of(
+            visual("wall", Box((0.2, 20, 20)), (3.1, 0, 0), RED, rpy=(0, 0, 0)),
+            visual("tilted", Plane(normal=(-1, 0, 0), size=(1, 1)), (2, 0, 0), BLUE, (0, 0, tilt)),
+        )
+    )
     depth = renderer.depth(CAMERA, ORIGIN)
     assert depth.dtype == np.float32 and depth.shape == (120, 160)
     assert np.abs(depth[:, :20] - 3.0).max() < 1e-4 and np.abs(depth[:, -20:] - 3.0).max() < 1e-4
@@ -73,7 +97,7 @@ def test_depth_of_a_sphere_and_of_nothing(renderer):
     assert np.isinf(depth[0, 0]) and depth[0, 0] > 0
     disc = np.isfinite(depth)
     radius = CAMERA.focal_length * math.tan(math.asin(0.5 / 3))
-    assert disc.sum() == pytest.approx(math.pi * radius ** 2, rel=0.03)
+    assert disc.sum() == pytest.approx(math.pi * radius**2, rel=0.03)
 
 
 def test_segmentation_names_the_visual(renderer):
@@ -95,8 +119,10 @@ def test_images_of_one_pass_agree_with_single_ones(renderer):
 
 
 def test_camera_on_a_moving_link(renderer):
-    models = [Model("box", links=(Link("b", visuals=(visual("v", Box((0.5, 0.5, 0.5)), (0, 0, 0), RED),)),)),
-              Model("robot", links=(Link("eye"),))]
+    models = [
+        Model("box", links=(Link("b", visuals=(visual("v", Box((0.5, 0.5, 0.5)), (0, 0, 0), RED),)),)),
+        Model("robot", links=(Link("eye"),)),
+    ]
     scene, poses = arrange(models, scene=FULL_AMBIENT)
     renderer.set_scene(scene)
     camera = Camera(width=80, height=80, hfov=1.0, link="robot::eye", pose=from_rpy(0, 0, 0.5))
@@ -125,7 +151,7 @@ def test_point_light_attenuation_and_range(renderer):
     picture = draw(renderer, scene_of(wall, lights=[lamp], scene=scene))
     on_axis = 1 / (0.5 + 0.1 * 2 + 0.2 * 4)
     assert abs(int(picture[60, 80, 0]) - 255 * on_axis) <= 2
-    reach = math.sqrt(2.5 ** 2 - 2 ** 2)  # the light's range ends on a circle of the wall
+    reach = math.sqrt(2.5**2 - 2**2)  # the light's range ends on a circle of the wall
     dark, lit = CAMERA.project([[3, reach + 0.15, 0], [3, reach - 0.15, 0]])
     assert picture[60, round(dark[0]), 0] == 0 and picture[60, round(lit[0]), 0] > 30
 
@@ -142,9 +168,10 @@ def test_spot_light_lights_its_cone_only(renderer):
 def test_light_carried_by_a_link(renderer):
     scene = Scene(ambient=(0, 0, 0, 1), background=(0, 0, 0, 1), shadows=False)
     lamp = Light("lamp", "spot", direction=(1, 0, 0), range=20, linear=0, spot=(0.2, 0.3, 1.0))
-    models = [Model("wall", links=(Link("w", visuals=(visual("v", Plane(normal=(-1, 0, 0), size=(9, 9)), (3, 0, 0),
-                                                             (1, 1, 1)),)),)),
-              Model("torch", links=(Link("t", lights=(lamp,)),))]
+    models = [
+        Model("wall", links=(Link("w", visuals=(visual("v", Plane(normal=(-1, 0, 0), size=(9, 9)), (3, 0, 0), (1, 1, 1)),)),)),
+        Model("torch", links=(Link("t", lights=(lamp,)),)),
+    ]
     described, poses = arrange(models, scene=scene)
     renderer.set_scene(described)
     half = math.radians(15) / 2
@@ -157,8 +184,7 @@ def test_light_carried_by_a_link(renderer):
 def test_shadow_of_the_sun(renderer):
     sun = Light("sun", "directional", diffuse=(0.6, 0.6, 0.6, 1), direction=(1, 0, -1), cast_shadows=True)
     scene = Scene(ambient=(0.4, 0.4, 0.4, 1), background=BACKGROUND + (1,), shadows=True)
-    visuals = [visual("floor", Plane(size=(50, 50)), (0, 0, -1), (1, 1, 1)),
-               visual("slab", Box((0.8, 0.8, 0.1)), (1.5, 0, 0.5), RED)]
+    visuals = [visual("floor", Plane(size=(50, 50)), (0, 0, -1), (1, 1, 1)), visual("slab", Box((0.8, 0.8, 0.1)), (1.5, 0, 0.5), RED)]
     camera = Camera(width=160, height=120, hfov=1.2, pose=look_at((1, -3, 2), (3, 0, -1)))
     in_shadow = look_down(camera, (1.5 + 1.5, 0, -1))  # 1.5 m further along x, 1.5 m below
     in_sun = look_down(camera, (1.5 + 1.5, 0.8, -1))
@@ -173,6 +199,7 @@ def test_shadow_of_the_sun(renderer):
 def look_down(camera, p_W):
     """(row, column) of a world point in a camera fixed in the world."""
     from ode_sim.math3 import inverse, transform
+
     column, row = camera.project([transform(inverse(camera.pose), p_W)])[0]
     return round(row), round(column)
 
@@ -183,9 +210,15 @@ def test_a_camera_inside_a_closed_shape_sees_out(renderer):
     assert tuple(picture[60, 80]) == bytes_of(GREEN) and tuple(picture[0, 0]) == bytes_of(BACKGROUND)
 
 
-@pytest.mark.parametrize("geometry", [
-    Box((0.6, 0.6, 0.6)), Sphere(0.4), Cylinder(0.4, 0.8),
-    Polyline(((-0.4, -0.4), (0.4, -0.4), (0.4, 0.4), (0.0, 0.1), (-0.4, 0.4)), 0.6)])
+@pytest.mark.parametrize(
+    "geometry",
+    [
+        Box((0.6, 0.6, 0.6)),
+        Sphere(0.4),
+        Cylinder(0.4, 0.8),
+        Polyline(((-0.4, -0.4), (0.4, -0.4), (0.4, 0.4), (0.0, 0.1), (-0.4, 0.4)), 0.6),
+    ],
+)
 @pytest.mark.parametrize("eye", [(2, 0.3, 1), (-2, 0.5, 1.2), (0.3, 2, -1.5), (0.3, -2, 2)])
 def test_shapes_are_closed_and_face_outwards(renderer, geometry, eye):
     """Seen from outside a convex hull's faces are all turned to the viewer: nothing shines through, depth is the near
@@ -206,25 +239,28 @@ def test_transparency_blends_and_leaves_depth_alone(renderer):
     wall = visual("wall", Box((0.2, 20, 20)), (3.1, 0, 0), (1, 1, 1))
     renderer.set_scene(scene_of(glass, wall))
     images = renderer.images(CAMERA, ORIGIN, ("color", "depth"))
-    assert abs(int(images["color"][60, 80, 0]) - 0.75 ** 2 * 255) <= 140  # at least one face of the pane was blended
+    assert abs(int(images["color"][60, 80, 0]) - 0.75**2 * 255) <= 140  # at least one face of the pane was blended
     assert 100 < images["color"][60, 80, 0] < 220 and images["color"][5, 5, 0] == 255
     assert images["depth"][60, 80] == pytest.approx(3.0, abs=1e-4)
 
 
 def test_texture_is_the_right_way_up(renderer, tmp_path):
     from PIL import Image
+
     quarters = np.zeros((64, 64, 3), np.uint8)
     quarters[:32, :32], quarters[:32, 32:], quarters[32:, :32], quarters[32:, 32:] = RED, GREEN, BLUE, YELLOW
     Image.fromarray(quarters * 255).save(tmp_path / "quarters.png")
     white = (1.0, 1.0, 1.0, 1.0)
-    sign = Visual("sign", from_rpy(0, 0, -1), Plane(size=(1, 1)),
-                  Material(ambient=white, diffuse=white, texture=str(tmp_path / "quarters.png")))
+    sign = Visual(
+        "sign", from_rpy(0, 0, -1), Plane(size=(1, 1)), Material(ambient=white, diffuse=white, texture=str(tmp_path / "quarters.png"))
+    )
     camera = Camera(width=80, height=80, hfov=1.2, pose=look_at((-0.001, 0, 0), (0, 0, -1)))  # from above, +x is up
     picture = draw(renderer, scene_of(sign), camera)
     # u runs along x and v along y: from above, with x up in the picture, the image is turned a quarter to the left
-    at = {name: tuple(picture[look_down(camera, p)]) for name, p in
-          {"-x+y": (-0.25, 0.25, -1), "+x+y": (0.25, 0.25, -1), "-x-y": (-0.25, -0.25, -1),
-           "+x-y": (0.25, -0.25, -1)}.items()}
+    at = {
+        name: tuple(picture[look_down(camera, p)])
+        for name, p in {"-x+y": (-0.25, 0.25, -1), "+x+y": (0.25, 0.25, -1), "-x-y": (-0.25, -0.25, -1), "+x-y": (0.25, -0.25, -1)}.items()
+    }
     assert at == {"-x+y": bytes_of(RED), "+x+y": bytes_of(GREEN), "-x-y": bytes_of(BLUE), "+x-y": bytes_of(YELLOW)}
 
 
@@ -236,6 +272,7 @@ def test_a_sky_is_blue(renderer):
 
 def test_heights_of_a_terrain(renderer, tmp_path):
     from PIL import Image
+
     grey = np.zeros((65, 65), np.uint8)
     grey[:, 40:] = 255  # a step up towards +x
     Image.fromarray(grey).save(tmp_path / "step.png")
@@ -248,6 +285,7 @@ def test_heights_of_a_terrain(renderer, tmp_path):
 
 def test_a_road_has_its_width_in_bends_too_and_its_picture_runs_along_it(renderer, tmp_path):
     from PIL import Image
+
     picture = np.zeros((64, 64, 3), np.uint8)
     picture[:, :32], picture[:, 32:] = (255, 0, 0), (0, 255, 0)  # left, right
     Image.fromarray(picture).save(tmp_path / "half.png")
@@ -258,6 +296,7 @@ def test_a_road_has_its_width_in_bends_too_and_its_picture_runs_along_it(rendere
 
     def at(x, y):
         return tuple(int(v) for v in seen[look_down(camera, (x, y, 0.0))])
+
     left, right, nothing = (255, 0, 0), (0, 255, 0), bytes_of(BACKGROUND)
     assert [at(x, -2.0) for x in (-1.1, -0.9, -0.1, 0.1, 0.9, 1.1)] == [nothing, left, left, right, right, nothing]
     assert [at(4.0, y) for y in (0.9, 1.1, 1.9, 2.1, 2.9, 3.1)] == [nothing, right, right, left, left, nothing]
@@ -265,8 +304,9 @@ def test_a_road_has_its_width_in_bends_too_and_its_picture_runs_along_it(rendere
     assert renderer.visual_names == ("street",) and not renderer.take_problems()
 
 
-@pytest.mark.parametrize("way", [
-    ((0, 0, 0), (3, 0, 0), (0, 0.001, 0)), ((0, 0, 0), (1e-9, 0, 0), (5, 5, 1)), ((0, 0, 0), (0, 1, 0), (0, 0, 0))])
+@pytest.mark.parametrize(
+    "way", [((0, 0, 0), (3, 0, 0), (0, 0.001, 0)), ((0, 0, 0), (1e-9, 0, 0), (5, 5, 1)), ((0, 0, 0), (0, 1, 0), (0, 0, 0))]
+)
 def test_a_road_that_turns_on_the_spot_stays_finite(way):
     mesh = ribbon(np.array(way, float), 2.0)
     assert np.isfinite(mesh.vertices).all() and np.isfinite(mesh.uv).all()
@@ -286,9 +326,9 @@ def test_missing_texture_is_one_line_and_drawn_plain(renderer):
 def test_unreadable_mesh_is_one_line_and_the_rest_is_drawn():
     def broken(path, *_):
         raise DescriptionError(f"{path}: not an STL file")
+
     made = Renderer(assets=Assets(broken))
-    picture = draw(made, scene_of(visual("part", Mesh("/x/part.stl"), (1, 0, 0), GREEN),
-                                  visual("ball", Sphere(0.5), (2, 0, 0), RED)))
+    picture = draw(made, scene_of(visual("part", Mesh("/x/part.stl"), (1, 0, 0), GREEN), visual("ball", Sphere(0.5), (2, 0, 0), RED)))
     assert tuple(picture[60, 80]) == bytes_of(RED)
     (line,) = made.take_problems()
     assert "part.stl" in line and "model 'm'" in line and "\n" not in line
@@ -296,8 +336,13 @@ def test_unreadable_mesh_is_one_line_and_the_rest_is_drawn():
 
 
 def test_mesh_material_is_used_where_the_visual_has_none():
-    triangle = (np.array([[2, -1, -1], [2, 1, -1], [2, 0, 1]], np.float32), np.array([[0, 2, 1]]),
-                np.array([[-1, 0, 0]] * 3, np.float32), None, Material(diffuse=(0, 0, 1, 1)))
+    triangle = (
+        np.array([[2, -1, -1], [2, 1, -1], [2, 0, 1]], np.float32),
+        np.array([[0, 2, 1]]),
+        np.array([[-1, 0, 0]] * 3, np.float32),
+        None,
+        Material(diffuse=(0, 0, 1, 1)),
+    )
     loads = []
     made = Renderer(assets=Assets(lambda *arguments: loads.append(arguments) or [triangle]))
     plain = Visual("plain", Pose(), Mesh("/x/t.dae"))
@@ -309,9 +354,12 @@ def test_mesh_material_is_used_where_the_visual_has_none():
 
 
 def test_egl_and_osmesa_agree(renderer):
-    scene = scene_of(*FOUR, visual("ball", Sphere(0.3), (1.5, 0, 0), (0.3, 0.7, 0.5)),
-                     lights=[Light("sun", "directional", direction=(0.5, 0.2, -1), cast_shadows=True)],
-                     scene=Scene(background=BACKGROUND + (1,)))
+    scene = scene_of(
+        *FOUR,
+        visual("ball", Sphere(0.3), (1.5, 0, 0), (0.3, 0.7, 0.5)),
+        lights=[Light("sun", "directional", direction=(0.5, 0.2, -1), cast_shadows=True)],
+        scene=Scene(background=BACKGROUND + (1,)),
+    )
     other = Renderer(backend="osmesa", shadows="on")
     other.set_scene(scene)
     renderer.set_scene(scene)
@@ -348,6 +396,7 @@ def test_no_back_end_is_one_line(monkeypatch):
 
     def nothing(name):
         raise RuntimeError(f"{name}: no such library\nsecond line")
+
     monkeypatch.setattr(glcontext, "get_backend_by_name", nothing)
     with pytest.raises(RenderingUnavailable) as caught:
         Renderer(backend="egl")
@@ -356,21 +405,34 @@ def test_no_back_end_is_one_line(monkeypatch):
 
 def test_missing_egl_falls_back_to_osmesa(monkeypatch):
     import glcontext
+
     original = glcontext.get_backend_by_name
 
     def no_egl(name):
         if name == "egl":
             raise RuntimeError("libEGL.so not found")
         return original(name)
+
     monkeypatch.setattr(glcontext, "get_backend_by_name", no_egl)
     made = Renderer()
     assert tuple(draw(made, scene_of(*FOUR))[60, 80]) == bytes_of(BACKGROUND)
     made.close()
 
 
-@pytest.mark.parametrize("change", [dict(width=0), dict(height=-3), dict(width=10 ** 6), dict(hfov=0.0), dict(hfov=4.0),
-                                    dict(near=0.0), dict(near=5.0, far=1.0), dict(format="JPEG2000"),
-                                    dict(noise_stddev=-1.0)])
+@pytest.mark.parametrize(
+    "change",
+    [
+        dict(width=0),
+        dict(height=-3),
+        dict(width=10**6),
+        dict(hfov=0.0),
+        dict(hfov=4.0),
+        dict(near=0.0),
+        dict(near=5.0, far=1.0),
+        dict(format="JPEG2000"),
+        dict(noise_stddev=-1.0),
+    ],
+)
 def test_impossible_cameras_are_refused_in_one_line(change):
     with pytest.raises(CameraError) as caught:
         Camera(**change)

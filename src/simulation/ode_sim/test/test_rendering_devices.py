@@ -1,7 +1,8 @@
 """Which card draws: chosen by index, by PCI address or as software; what fails leaves one line, and software draws."""
+
 import pytest
 from ode_sim.description.model import Box
-from ode_sim.rendering import Camera, RenderProcess, Renderer, devices
+from ode_sim.rendering import Camera, Renderer, RenderProcess, devices
 from pictures import RED, draw, scene_of, visual
 from test_rendering_process import CAMERA, World
 
@@ -9,8 +10,9 @@ CARDS = ["0000:17:00.0", "0000:65:00.0", "software"]
 EGL = pytest.mark.skipif("software" not in devices.devices(), reason="EGL has no software device here (libegl1, libgl1-mesa-dri)")
 
 
-@pytest.mark.parametrize("wanted, index", [
-    ("0", 0), ("2", 2), ("0000:65:00.0", 1), ("65:00.0", 1), ("0000:17:00.0 ", 0), ("software", 2), ("Software", 2)])
+@pytest.mark.parametrize(
+    "wanted, index", [("0", 0), ("2", 2), ("0000:65:00.0", 1), ("65:00.0", 1), ("0000:17:00.0 ", 0), ("software", 2), ("Software", 2)]
+)
 def test_a_device_is_named_by_index_address_or_as_software(wanted, index):
     assert devices.index_of(wanted, CARDS) == index
 
@@ -27,8 +29,16 @@ def red_in_the_middle(made):
 
 
 @EGL
-@pytest.mark.parametrize("wanted, lines", [("", []), ("software", []), ("0", []), ("9", ["ODE_SIM_GL_DEVICE: there is no device '9'"]),
-                                           ("65:00.0", ["ODE_SIM_GL_DEVICE: there is no device '65:00.0'"])])
+@pytest.mark.parametrize(
+    "wanted, lines",
+    [
+        ("", []),
+        ("software", []),
+        ("0", []),
+        ("9", ["ODE_SIM_GL_DEVICE: there is no device '9'"]),
+        ("65:00.0", ["ODE_SIM_GL_DEVICE: there is no device '65:00.0'"]),
+    ],
+)
 def test_the_variable_chooses_and_a_wrong_one_costs_no_picture(monkeypatch, wanted, lines):
     monkeypatch.setenv("ODE_SIM_GL_DEVICE", wanted)
     made = Renderer(backend="egl")

@@ -1,4 +1,5 @@
 """Lens distortion: points are where the formula puts them."""
+
 import numpy as np
 import pytest
 from ode_sim.description.model import Box, Sphere
@@ -8,9 +9,8 @@ from pictures import BLUE, ORIGIN, RED, bytes_of, draw, renderer, scene_of, visu
 
 def brown(lens, x, y):
     r2 = x * x + y * y
-    radial = 1 + lens.k1 * r2 + lens.k2 * r2 ** 2 + lens.k3 * r2 ** 3
-    return (x * radial + 2 * lens.p1 * x * y + lens.p2 * (r2 + 2 * x * x),
-            y * radial + lens.p1 * (r2 + 2 * y * y) + 2 * lens.p2 * x * y)
+    radial = 1 + lens.k1 * r2 + lens.k2 * r2**2 + lens.k3 * r2**3
+    return (x * radial + 2 * lens.p1 * x * y + lens.p2 * (r2 + 2 * x * x), y * radial + lens.p1 * (r2 + 2 * y * y) + 2 * lens.p2 * x * y)
 
 
 @pytest.mark.parametrize("lens", [Distortion(k1=-0.25, k2=0.12, p1=-0.003, p2=0.002), Distortion(k1=0.1, k3=0.02)])
@@ -35,7 +35,8 @@ def test_crop_leaves_no_black_border(renderer):
 
 
 def test_depth_under_distortion_is_not_interpolated(renderer):
-    renderer.set_scene(scene_of(visual("near", Box((0.2, 0.5, 0.5)), (1.1, 0, 0), RED),
-                                visual("wall", Box((0.2, 90, 90)), (3.1, 0, 0), BLUE)))
+    renderer.set_scene(
+        scene_of(visual("near", Box((0.2, 0.5, 0.5)), (1.1, 0, 0), RED), visual("wall", Box((0.2, 90, 90)), (3.1, 0, 0), BLUE))
+    )
     depth = renderer.depth(Camera(hfov=1.2, distortion=Distortion(k1=-0.15)), ORIGIN)
     assert ((np.abs(depth - 1.0) < 1e-3) | (np.abs(depth - 3.0) < 1e-3)).all()

@@ -1,4 +1,5 @@
 """Pictures that fill the frame: where the camera stands, and what is drawn."""
+
 import cv2
 import numpy as np
 import ode_sim
@@ -73,14 +74,22 @@ def test_what_is_drawn_is_the_model(world, painter):
 
 
 def test_a_model_in_a_room_is_seen_through_the_wall(world, painter):
-    walls = "".join(f"""<visual name="{side}"><pose>{x} {y} 1 0 0 0</pose><geometry><box><size>{along} {across} 2</size></box></geometry>
+    walls = "".join(
+        f"""<visual name="{side}"><pose>{x} {y} 1 0 0 0</pose><geometry><box><size>{along} {across} 2</size></box></geometry>
         <material><ambient>0 0 1 1</ambient><diffuse>0 0 0 1</diffuse></material></visual>"""
-        for side, x, y, along, across in (("n", 3, 3, 4, 0.1), ("s", 3, -1, 4, 0.1), ("e", 5, 1, 0.1, 4), ("w", 1, 1, 0.1, 4)))
-    room = ode_sim.World.load(WORLD.replace("</world>", f"""<model name="room"><static>true</static><link name="l">{walls}</link></model>
-        </world>"""))
+        for side, x, y, along, across in (("n", 3, 3, 4, 0.1), ("s", 3, -1, 4, 0.1), ("e", 5, 1, 0.1, 4), ("w", 1, 1, 0.1, 4))
+    )
+    room = ode_sim.World.load(
+        WORLD.replace(
+            "</world>",
+            f"""<model name="room"><static>true</static><link name="l">{walls}</link></model>
+        </world>""",
+        )
+    )
     for view in ("left", "iso"):
-        pictures = [cv2.imdecode(np.frombuffer(painter.take(portrait(here, "red", view))[0], np.uint8), cv2.IMREAD_COLOR)
-                    for here in (world, room)]
+        pictures = [
+            cv2.imdecode(np.frombuffer(painter.take(portrait(here, "red", view))[0], np.uint8), cv2.IMREAD_COLOR) for here in (world, room)
+        ]
         red = [(picture[:, :, 2] > 200) & (picture[:, :, 0] < 50) for picture in pictures]
         assert (red[0] == red[1]).all() and red[0].sum() > 1000
         assert ((pictures[1][:, :, 0] > 200) & (pictures[1][:, :, 2] < 50)).any()  # the wall behind it is there

@@ -1,5 +1,6 @@
 """The render process: same bytes as in-process drawing, no frame lost when waited for, no orphan, one line per
 trouble."""
+
 import os
 import signal
 import socket
@@ -16,7 +17,7 @@ import cv2
 import numpy as np
 import pytest
 from ode_sim.description.model import Box, Heightmap, Light, Link, Material, Mesh, Model, Pose, Scene, Sphere, Visual
-from ode_sim.rendering import Camera, RenderProcess, Renderer, arrange, render, segment_names
+from ode_sim.rendering import Camera, Renderer, RenderProcess, arrange, render, segment_names
 from ode_sim.rendering.image import add_noise, cloud, encode
 
 WHITE = Scene(ambient=(1, 1, 1, 1), background=(0, 0, 1, 1), shadows=False)
@@ -41,9 +42,15 @@ class World:
 
     def spawn(self, model):
         first = len(self.link_poses)
-        links = {link.name: SimpleNamespace(index=first + i, scoped_name=f"{model.name}::{link.name}", description=link,
-                                            lights={light.name: light for light in link.lights})
-                 for i, link in enumerate(model.links)}
+        links = {
+            link.name: SimpleNamespace(
+                index=first + i,
+                scoped_name=f"{model.name}::{link.name}",
+                description=link,
+                lights={light.name: light for light in link.lights},
+            )
+            for i, link in enumerate(model.links)
+        }
         self.models[model.name] = SimpleNamespace(name=model.name, description=model, links=links)
         self.link_poses = np.concatenate([self.link_poses, arrange([model])[1]])
         for callback in self.on_spawn:
@@ -63,6 +70,7 @@ def studio_of():
         studio = RenderProcess(world, lines.append)
         made.append(studio)
         return studio, lines
+
     yield make
     for studio in made:
         studio.close()
@@ -71,9 +79,10 @@ def studio_of():
 def take(studio, key, outputs=("image",)):
     """One waited-for frame, copied out of shared memory."""
     taken = []
-    assert studio.draw(key, outputs, lambda frame: taken.append(
-        (frame.error, {name: bytes(data) for name, data in frame.data.items()})), wait=True)
-    (error, data), = taken
+    assert studio.draw(
+        key, outputs, lambda frame: taken.append((frame.error, {name: bytes(data) for name, data in frame.data.items()})), wait=True
+    )
+    ((error, data),) = taken
     assert error == ""
     return data
 
@@ -118,6 +127,7 @@ def test_what_comes_later_is_seen(studio_of):
 
     def centre():
         return tuple(np.frombuffer(take(studio, key)["image"], np.uint8).reshape(48, 64, 3)[24, 32])
+
     assert centre() == (0, 0, 255)
     world.spawn(ball("late", (2, 0, 0), (1, 0, 0)))
     assert centre() == (255, 0, 0)
@@ -173,6 +183,7 @@ def test_fewer_frames_under_way_than_there_is_room_for(studio_of):
     def slow(frame):
         assert free.wait(20)
         got.append(frame.time_ns)
+
     assert studio.draw(key, ("image",), slow, most=1)
     assert not studio.draw(key, ("image",), slow, most=1)
     free.set()
@@ -234,9 +245,18 @@ def test_compressed_images(studio_of):
 
 @pytest.mark.slow
 def test_depth_images_and_cloud(studio_of):
-    wall = Model("wall", links=(Link("link", visuals=(shape("wall", Box((0.2, 1.0, 1.0)), (2.1, 0, 0), (1, 0, 0)),
-                                                      shape("near", Box((0.2, 0.1, 0.1)), (0.4, 0.15, 0),
-                                                            (0, 1, 0)))),))
+    wall = Model(
+        "wall",
+        links=(
+            Link(
+                "link",
+                visuals=(
+                    shape("wall", Box((0.2, 1.0, 1.0)), (2.1, 0, 0), (1, 0, 0)),
+                    shape("near", Box((0.2, 0.1, 0.1)), (0.4, 0.15, 0), (0, 1, 0)),
+                ),
+            ),
+        ),
+    )
     studio, _ = studio_of(World(wall))
     key = studio.add_camera(CAMERA, depth_range=(0.4, 5.0))
     data = take(studio, key, ("depth", "depth16", "cloud"))
@@ -253,19 +273,29 @@ def test_depth_images_and_cloud(studio_of):
     assert points[row, column, 4:5].view(np.uint8)[:3].tolist() == [255, 0, 0]
 
 
-@pytest.mark.parametrize("name,shape_,dtype", [
-    ("L8", (48, 64), np.uint8), ("L16", (48, 64), np.uint16), ("B8G8R8", (48, 64, 3), np.uint8),
-    ("R16G16B16", (48, 64, 3), np.uint16), ("BAYER_RGGB8", (48, 64), np.uint8)])
+@pytest.mark.parametrize(
+    "name,shape_,dtype",
+    [
+        ("L8", (48, 64), np.uint8),
+        ("L16", (48, 64), np.uint16),
+        ("B8G8R8", (48, 64, 3), np.uint8),
+        ("R16G16B16", (48, 64, 3), np.uint16),
+        ("BAYER_RGGB8", (48, 64), np.uint8),
+    ],
+)
 def test_formats(studio_of, name, shape_, dtype):
     world = World(ball("a", (1, 0, 0), (1.0, 0.5, 0.25)))
     image = render(world, Camera(width=64, height=48, format=name))
     assert image.shape == shape_ and image.dtype == dtype
-    assert image[24, 32].tolist() == {"L8": 159, "L16": 159 * 257, "B8G8R8": [64, 128, 255],
-                                       "R16G16B16": [255 * 257, 128 * 257, 64 * 257], "BAYER_RGGB8": 255}[name]
+    assert (
+        image[24, 32].tolist()
+        == {"L8": 159, "L16": 159 * 257, "B8G8R8": [64, 128, 255], "R16G16B16": [255 * 257, 128 * 257, 64 * 257], "BAYER_RGGB8": 255}[name]
+    )
 
 
-@pytest.mark.parametrize("encoding,cell", [("bayer_rggb8", "RG GB"), ("bayer_bggr8", "BG GR"), ("bayer_gbrg8", "GB RG"),
-                                           ("bayer_grbg8", "GR BG")])
+@pytest.mark.parametrize(
+    "encoding,cell", [("bayer_rggb8", "RG GB"), ("bayer_bggr8", "BG GR"), ("bayer_gbrg8", "GB RG"), ("bayer_grbg8", "GR BG")]
+)
 def test_bayer_cells(encoding, cell):
     rgb = np.tile(np.array([10, 20, 30], np.uint8), (5, 7, 1))
     values = {"R": 10, "G": 20, "B": 30}
@@ -342,10 +372,12 @@ def test_a_receiver_that_fails_disturbs_nobody(studio_of):
 
 @pytest.mark.slow
 def test_no_orphan_after_kill_9():
-    code = ("import sys, time; sys.path[:0] = {path!r}\n"
-            "from test_rendering_process import World, CAMERA, take\nfrom ode_sim.rendering import RenderProcess\n"
-            "studio = RenderProcess(World(), print)\ntake(studio, studio.add_camera(CAMERA))\n"
-            "print(studio.pid, flush=True)\ntime.sleep(60)\n").format(path=[os.path.dirname(__file__), *sys.path])
+    code = (
+        "import sys, time; sys.path[:0] = {path!r}\n"
+        "from test_rendering_process import World, CAMERA, take\nfrom ode_sim.rendering import RenderProcess\n"
+        "studio = RenderProcess(World(), print)\ntake(studio, studio.add_camera(CAMERA))\n"
+        "print(studio.pid, flush=True)\ntime.sleep(60)\n"
+    ).format(path=[os.path.dirname(__file__), *sys.path])
     parent = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
     child = int(parent.stdout.readline())
     os.kill(child, 0)
@@ -370,8 +402,10 @@ def wait_for(condition, seconds=60.0):
 
 
 def test_a_process_that_draws_nothing_loads_no_opencv():
-    code = ("import sys\nfrom ode_sim.rendering import Camera, RenderProcess, describe\nassert 'cv2' not in sys.modules\n"
-            "from ode_sim.rendering import NOTHING, Renderer, render, segment_names\nassert 'cv2' in sys.modules\n")
+    code = (
+        "import sys\nfrom ode_sim.rendering import Camera, RenderProcess, describe\nassert 'cv2' not in sys.modules\n"
+        "from ode_sim.rendering import NOTHING, Renderer, render, segment_names\nassert 'cv2' in sys.modules\n"
+    )
     subprocess.run([sys.executable, "-c", code], check=True, env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
 
 
@@ -390,21 +424,37 @@ def test_renderer_is_closed_without_noise():
 
 # ---------------------------------------------------------------------------------------------- bad assets
 
+
 def png(width, height, body, kind=6):
     def chunk(name, data):
         return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, kind, 0, 0, 0))
-            + chunk(b"IDAT", body) + chunk(b"IEND", b""))
+
+    return (
+        b"\x89PNG\r\n\x1a\n"
+        + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, kind, 0, 0, 0))
+        + chunk(b"IDAT", body)
+        + chunk(b"IEND", b"")
+    )
 
 
 GOOD = png(2, 2, zlib.compress(b"\0" + b"\0\xff\0\xff" * 2 + b"\0" + b"\0\xff\0\xff" * 2))
 BAD_TEXTURES = {
-    "empty.png": b"", "text.png": b"not an image", "cut.png": GOOD[:42], "header.png": GOOD[:20],
+    "empty.png": b"",
+    "text.png": b"not an image",
+    "cut.png": GOOD[:42],
+    "header.png": GOOD[:20],
     "crc.png": GOOD[:20] + b"xxxx" + GOOD[24:],
-    "deflate.png": png(2, 2, b"rubbish"), "no_size.png": png(0, 0, b""), "huge.png": png(60000, 60000, zlib.compress(b"")),
-    "bomb.png": png(9500, 9500, zlib.compress(b"")), "kind.png": png(2, 2, zlib.compress(b"x" * 99), kind=5),
-    "page.png": b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\nshowpage\n", "cut.jpg": b"\xff\xd8\xff\xe0\0\x10JFIF",
-    "cut.tif": b"II*\0\x08\0\0\0\xff\xff" + b"\1" * 40, "cut.gif": b"GIF89a\1\0\1\0\x80", "cut.dds": b"DDS " + b"\x7c" * 200}
+    "deflate.png": png(2, 2, b"rubbish"),
+    "no_size.png": png(0, 0, b""),
+    "huge.png": png(60000, 60000, zlib.compress(b"")),
+    "bomb.png": png(9500, 9500, zlib.compress(b"")),
+    "kind.png": png(2, 2, zlib.compress(b"x" * 99), kind=5),
+    "page.png": b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\nshowpage\n",
+    "cut.jpg": b"\xff\xd8\xff\xe0\0\x10JFIF",
+    "cut.tif": b"II*\0\x08\0\0\0\xff\xff" + b"\1" * 40,
+    "cut.gif": b"GIF89a\1\0\1\0\x80",
+    "cut.dds": b"DDS " + b"\x7c" * 200,
+}
 
 
 @pytest.mark.slow
@@ -416,13 +466,15 @@ def test_no_texture_or_mesh_ends_the_cameras(studio_of, tmp_path):
     os.mkfifo(tmp_path / "pipe.png")
     (tmp_path / "wide.png").write_bytes(png(20000, 1, zlib.compress(b"\0" + b"\0\xff\0\xff" * 20000)))
     (tmp_path / "x.stl").write_bytes(b"solid x\nvertex 1 2\n")
-    visuals += [Visual("folder", Pose((0, 0, -5)), Sphere(0.1), Material(texture=str(tmp_path))),
-                Visual("pipe", Pose((0, 0, -5)), Sphere(0.1), Material(texture=str(tmp_path / "pipe.png"))),
-                Visual("mesh", Pose((0, 0, -5)), Mesh(str(tmp_path / "x.stl"))),
-                Visual("terrain", Pose((0, 0, -5)), Heightmap(str(tmp_path / "text.png"))),
-                Visual("far", Pose((1e7, 0, -1e7)), Sphere(1e7), Material(diffuse=(1e6, 0, 0, 1))),
-                Visual("wide", Pose((2, 0, 0)), Sphere(0.3), Material(texture=str(tmp_path / "wide.png"))),
-                shape("ball", Sphere(0.3), (2, 0.7, 0), (1, 0, 0))]
+    visuals += [
+        Visual("folder", Pose((0, 0, -5)), Sphere(0.1), Material(texture=str(tmp_path))),
+        Visual("pipe", Pose((0, 0, -5)), Sphere(0.1), Material(texture=str(tmp_path / "pipe.png"))),
+        Visual("mesh", Pose((0, 0, -5)), Mesh(str(tmp_path / "x.stl"))),
+        Visual("terrain", Pose((0, 0, -5)), Heightmap(str(tmp_path / "text.png"))),
+        Visual("far", Pose((1e7, 0, -1e7)), Sphere(1e7), Material(diffuse=(1e6, 0, 0, 1))),
+        Visual("wide", Pose((2, 0, 0)), Sphere(0.3), Material(texture=str(tmp_path / "wide.png"))),
+        shape("ball", Sphere(0.3), (2, 0.7, 0), (1, 0, 0)),
+    ]
     world = World(Model("m", links=(Link("link", visuals=tuple(visuals)),)))
     studio, lines = studio_of(world)
     image = np.frombuffer(take(studio, studio.add_camera(CAMERA))["image"], np.uint8).reshape(48, 64, 3)

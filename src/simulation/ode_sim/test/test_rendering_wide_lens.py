@@ -1,4 +1,5 @@
 """Wide-angle lenses: where what stands at a known angle is seen, beside and behind the camera too."""
+
 import math
 import xml.etree.ElementTree as ET
 from dataclasses import replace
@@ -28,8 +29,10 @@ def camera(lens="", hfov=3.0, wide=True):
 
 
 def lens(kind, cutoff=3.1, scaled="true", size=512, custom=""):
-    return (f"<lens><type>{kind}</type><scale_to_hfov>{scaled}</scale_to_hfov><cutoff_angle>{cutoff}</cutoff_angle>"
-            f"<env_texture_size>{size}</env_texture_size>{custom}</lens>")
+    return (
+        f"<lens><type>{kind}</type><scale_to_hfov>{scaled}</scale_to_hfov><cutoff_angle>{cutoff}</cutoff_angle>"
+        f"<env_texture_size>{size}</env_texture_size>{custom}</lens>"
+    )
 
 
 def ball(angle, around, distance=2.0):
@@ -38,8 +41,10 @@ def ball(angle, around, distance=2.0):
 
 
 def scene_of(*places):
-    visuals = tuple(Visual(f"v{i}", from_rpy(*place), Sphere(0.1), Material(ambient=(1, 0, 0, 1), diffuse=(1, 0, 0, 1)))
-                    for i, place in enumerate(places))
+    visuals = tuple(
+        Visual(f"v{i}", from_rpy(*place), Sphere(0.1), Material(ambient=(1, 0, 0, 1), diffuse=(1, 0, 0, 1)))
+        for i, place in enumerate(places)
+    )
     background = tuple(value / 255 for value in BACKGROUND)
     return arrange([Model("m", links=(Link("l", visuals=visuals),))], (), Scene(ambient=(1, 1, 1, 1), background=(*background, 1)))[0]
 
@@ -50,9 +55,17 @@ def middle(image):
     return columns.mean() - (image.shape[1] - 1) / 2, rows.mean() - (image.shape[0] - 1) / 2, len(rows)
 
 
-@pytest.mark.parametrize("kind, hfov, custom", [
-    ("gnomonical", 2.4, ""), ("stereographic", 4.6, ""), ("equidistant", 6.2, ""), ("equisolid_angle", 6.2, ""), ("orthographic", 3.0, ""),
-    ("custom", 3.183, "<custom_function><c1>1.05</c1><c2>4</c2><f>1</f><fun>tan</fun></custom_function>")])
+@pytest.mark.parametrize(
+    "kind, hfov, custom",
+    [
+        ("gnomonical", 2.4, ""),
+        ("stereographic", 4.6, ""),
+        ("equidistant", 6.2, ""),
+        ("equisolid_angle", 6.2, ""),
+        ("orthographic", 3.0, ""),
+        ("custom", 3.183, "<custom_function><c1>1.05</c1><c2>4</c2><f>1</f><fun>tan</fun></custom_function>"),
+    ],
+)
 @pytest.mark.parametrize("fraction, around", [(0.15, 0.3), (0.4, math.pi), (0.5, 4.5), (0.65, -0.5), (0.8, 3.0)])
 def test_what_stands_at_an_angle_is_where_the_lens_has_it(renderer, kind, hfov, custom, fraction, around):
     seen = camera(lens(kind, cutoff=6.28, custom=custom), hfov)
@@ -104,16 +117,20 @@ def test_without_a_lens_it_is_stereographic_and_a_plain_camera_has_none():
     assert camera(lens("equidistant", scaled="false")).lens.f == 1.0
 
 
-@pytest.mark.parametrize("written, hfov, message", [
-    ("<lens><type>round</type></lens>", 2.0, "unknown <type> of lens 'round'; use one of gnomonical, "),
-    (lens("custom", custom="<custom_function><fun>cos</fun></custom_function>"), 2.0, "<fun> of the lens is 'cos'; use one of sin, "),
-    (lens("custom", custom="<custom_function><c1>0</c1></custom_function>"), 2.0, "all but c3 other than 0"),
-    (lens("custom", custom="<custom_function><c2>nan</c2></custom_function>"), 2.0, "c2 nan"),
-    (lens("custom", custom="<custom_function><c1>x</c1></custom_function>"), 2.0, "<c1> is 'x', not a number"),
-    (lens("gnomonical"), 3.5, "cannot be scaled to a horizontal_fov of 3.5 rad"),
-    (lens("equidistant", cutoff=-1), 2.0, "<cutoff_angle> of the lens is -1 rad"),
-    (lens("equidistant"), 7.0, "horizontal_fov 7 rad; that of a wideanglecamera must be between 0.01 and 6.28"),
-    (lens("equidistant", size="inf"), 2.0, "<env_texture_size> is inf")])
+@pytest.mark.parametrize(
+    "written, hfov, message",
+    [
+        ("<lens><type>round</type></lens>", 2.0, "unknown <type> of lens 'round'; use one of gnomonical, "),
+        (lens("custom", custom="<custom_function><fun>cos</fun></custom_function>"), 2.0, "<fun> of the lens is 'cos'; use one of sin, "),
+        (lens("custom", custom="<custom_function><c1>0</c1></custom_function>"), 2.0, "all but c3 other than 0"),
+        (lens("custom", custom="<custom_function><c2>nan</c2></custom_function>"), 2.0, "c2 nan"),
+        (lens("custom", custom="<custom_function><c1>x</c1></custom_function>"), 2.0, "<c1> is 'x', not a number"),
+        (lens("gnomonical"), 3.5, "cannot be scaled to a horizontal_fov of 3.5 rad"),
+        (lens("equidistant", cutoff=-1), 2.0, "<cutoff_angle> of the lens is -1 rad"),
+        (lens("equidistant"), 7.0, "horizontal_fov 7 rad; that of a wideanglecamera must be between 0.01 and 6.28"),
+        (lens("equidistant", size="inf"), 2.0, "<env_texture_size> is inf"),
+    ],
+)
 def test_an_impossible_lens_is_refused_in_one_line(written, hfov, message):
     with pytest.raises(CameraError) as caught:
         camera(written, hfov)

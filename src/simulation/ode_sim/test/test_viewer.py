@@ -1,4 +1,5 @@
 """The page without a browser: who may open it, what is drawn and what clicks do. A world of this process, no ROS."""
+
 import contextlib
 import gzip
 import http.client
@@ -16,17 +17,22 @@ from ode_sim.math3 import Pose
 
 viser = pytest.importorskip("viser")
 
-from ode_sim.viewer import LocalSimulation, Page, Refused  # noqa: E402
-from ode_sim.viewer import drawing  # noqa: E402
+from ode_sim.viewer import (  # noqa: E402
+    LocalSimulation,
+    Page,
+    Refused,
+    drawing,  # noqa: E402
+)
 from ode_sim.viewer.overlays import Overlays, inertia_box  # noqa: E402
 from ode_sim.viewer.panels.base import escaped, free_name  # noqa: E402
-from ode_sim.viewer.shapes import shape_model  # noqa: E402
 from ode_sim.viewer.panels.play import clock  # noqa: E402
 from ode_sim.viewer.selection import History  # noqa: E402
+from ode_sim.viewer.shapes import shape_model  # noqa: E402
 from ode_sim.viewer.website import Guard, Website  # noqa: E402
 from viewer_page import EVIL, Client, page, panel, position, use, wait  # noqa: E402, F401
 
 # ---------------------------------------------------------------------------------------------- who may open it
+
 
 def test_guard_of_the_loopback_page():
     guard = Guard()
@@ -72,18 +78,25 @@ def test_the_guard_stands_before_every_request():
     website = Website(port=0, title="The <lab>")
     website.open()
     try:
+
         def ask(path, **headers):
             connection = http.client.HTTPConnection("127.0.0.1", website.port, timeout=30)
             connection.request("GET", path, headers=headers)
             answer = connection.getresponse()
             return answer.status, answer.read()
+
         status, text = ask("/")
         assert status == 200 and b"<title>The &lt;lab&gt;</title>" in text
         status, packed = ask("/", **{"Accept-Encoding": "gzip"})
         assert status == 200 and gzip.decompress(packed) == text
         assert ask("/", Host="evil.example")[0] == 403
-        upgrade = {"Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13",
-                   "Sec-WebSocket-Key": "AAAAAAAAAAAAAAAAAAAAAA==", "Origin": "http://evil.example"}
+        upgrade = {
+            "Connection": "Upgrade",
+            "Upgrade": "websocket",
+            "Sec-WebSocket-Version": "13",
+            "Sec-WebSocket-Key": "AAAAAAAAAAAAAAAAAAAAAA==",
+            "Origin": "http://evil.example",
+        }
         assert ask("/", **upgrade)[0] == 403
         for path in ("/../../../../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "/etc/passwd"):
             assert ask(path)[0] == 404
@@ -137,6 +150,7 @@ def test_what_is_no_request_ends_nothing():
 
 
 # ---------------------------------------------------------------------------------------------- what is drawn
+
 
 def test_models_are_drawn_and_follow(page):
     drawn = page.drawing.model_root("box")
@@ -195,6 +209,7 @@ def test_box_of_an_inertia():
 
 
 # ---------------------------------------------------------------------------------------------- what clicks do
+
 
 def test_play_pause_step_reset(page):
     client, play = Client(), panel(page, "PlayPanel")
@@ -321,9 +336,14 @@ def test_a_refusal_is_told_to_the_page_that_asked(page):
 
 
 def test_joints_are_put_and_driven():
-    arm = d.Model("arm", links=(d.Link("base"), d.Link("tip", inertial=d.Inertial(1.0, ixx=0.1, iyy=0.1, izz=0.1))),
-                  joints=(d.Joint("fix", "fixed", "world", "base"),
-                          d.Joint("hinge", "revolute", "base", "tip", axes=(d.Axis((0.0, 0.0, 1.0), -2.0, 2.0),))))
+    arm = d.Model(
+        "arm",
+        links=(d.Link("base"), d.Link("tip", inertial=d.Inertial(1.0, ixx=0.1, iyy=0.1, izz=0.1))),
+        joints=(
+            d.Joint("fix", "fixed", "world", "base"),
+            d.Joint("hinge", "revolute", "base", "tip", axes=(d.Axis((0.0, 0.0, 1.0), -2.0, 2.0),)),
+        ),
+    )
     page = Page(LocalSimulation(World(d.World(models=(arm,))), paused=True), port=0)
     try:
         client = Client()
@@ -374,6 +394,7 @@ def test_history_forgets_what_was_refused_and_what_is_old():
 
     def refuse():
         raise Refused("no")
+
     with pytest.raises(Refused):
         history.do("x", refuse, lambda: log.append("back"))
     with pytest.raises(Refused):
@@ -396,6 +417,7 @@ def test_what_is_typed_without_a_pause_is_one_step(monkeypatch):
         before = value[0]
         history.do(what, lambda: value.__setitem__(0, number), lambda: value.__setitem__(0, before), typed)
         clock[0] += 0.3
+
     for key in (1.0, 12.0, 12.5):  # of 12.5
         step(key)
     history.undo()
@@ -420,6 +442,7 @@ def test_a_redo_that_comes_at_once_waits_for_the_undo():
         begun.set()
         time.sleep(0.2)
         log.append("back")
+
     history.do("x", lambda: log.append("forth"), back)
     hand = threading.Thread(target=history.undo)
     hand.start()

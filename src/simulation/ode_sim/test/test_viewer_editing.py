@@ -1,4 +1,5 @@
 """Sizes, inertia, lights and physics, changed in a page without a browser; each a step that can be undone."""
+
 import asyncio
 import threading
 import types
@@ -26,9 +27,15 @@ def knobs(page):
     return sorted(name for name in page.server.scene._handle_from_node_name if name.startswith("/knob"))
 
 
-@pytest.mark.parametrize("shape, axis, length, now", [
-    (d.Box((1.0, 2.0, 3.0)), 1, 5.0, (1.0, 5.0, 3.0)), (d.Sphere(0.5), 2, 3.0, (3.0, 3.0, 3.0)),
-    (d.Cylinder(0.5, 2.0), 0, 3.0, (3.0, 3.0, 2.0)), (d.Cylinder(0.5, 2.0), 2, 3.0, (1.0, 1.0, 3.0))])
+@pytest.mark.parametrize(
+    "shape, axis, length, now",
+    [
+        (d.Box((1.0, 2.0, 3.0)), 1, 5.0, (1.0, 5.0, 3.0)),
+        (d.Sphere(0.5), 2, 3.0, (3.0, 3.0, 3.0)),
+        (d.Cylinder(0.5, 2.0), 0, 3.0, (3.0, 3.0, 2.0)),
+        (d.Cylinder(0.5, 2.0), 2, 3.0, (1.0, 1.0, 3.0)),
+    ],
+)
 def test_round_stays_round_and_the_inertia_follows(shape, axis, length, now):
     made = resized(shape_model("m", shape, 2.0), with_size(shape, axis, length))
     assert size_of(shape_of(made)[0]) == now and shape_of(made)[1] == Pose()
@@ -141,15 +148,22 @@ def test_a_colour_is_undone_to_what_each_visual_had(page):
     client, world = Client(), panel(page, "WorldPanel")
     looks = (None, d.Material("Gazebo/Bricks", texture="bricks.png"), d.Material(diffuse=(0.0, 0.0, 1.0, 1.0)))
     visuals = tuple(d.Visual(f"v{number}", Pose(), d.Sphere(0.1), look, 0.1 * number) for number, look in enumerate(looks))
-    page.simulation.call(lambda other: other.spawn(d.Model("lamp", static=True, links=(
-        d.Link("a", visuals=visuals), d.Link("b", visuals=visuals[:1])))))
+    page.simulation.call(
+        lambda other: other.spawn(d.Model("lamp", static=True, links=(d.Link("a", visuals=visuals), d.Link("b", visuals=visuals[:1]))))
+    )
     wait(page, lambda: page.world.model("lamp") is not None)
     before = page.world.model("lamp").description
     page.selection.select("lamp")
     for green in (100, 200):  # a hand in the field of colours
         use(world._properties.colour, client, (0, green, 0, 255))
-    wait(page, lambda: all(visual.material and visual.material.diffuse[1] == 200 / 255
-                           for link in page.world.model("lamp").description.links for visual in link.visuals))
+    wait(
+        page,
+        lambda: all(
+            visual.material and visual.material.diffuse[1] == 200 / 255
+            for link in page.world.model("lamp").description.links
+            for visual in link.visuals
+        ),
+    )
     use(world._history, client, "Undo")
     wait(page, lambda: page.world.model("lamp").description == before)
     use(world._history, client, "Redo")
@@ -201,6 +215,7 @@ def test_a_number_of_the_physics_is_typed_on_while_its_first_keys_are_being_set(
         begun.set()
         assert go_on.wait(10.0)
         usual(*arguments)
+
     page.simulation.set_physics = slow
     first = threading.Thread(target=lambda: use(physics._iterations, client, 7))
     first.start()
@@ -239,6 +254,7 @@ def test_a_search_is_not_filled_up_by_the_links_of_what_is_picked(page):
         use(tree._search, client, search)
         page.turn()
         return [label for (label, *_), button in tree._rows.items() if button.visible]
+
     assert len(listed("")) == 30 and "sun" not in listed("")
     assert listed("sun") == ["sun"]
     assert listed("wall_12") == ["house", "· wall_12"]

@@ -1,4 +1,5 @@
 """From where a page looks at first."""
+
 import math
 
 import numpy as np

@@ -1,4 +1,5 @@
 """What is inserted hangs at the pointer until a click puts it down; a page without a browser."""
+
 import asyncio
 import time
 import types
@@ -41,8 +42,7 @@ class Hand(Client):
 
 
 def click(page, client, x, y, modifier=None):
-    event = types.SimpleNamespace(client=client, client_id=client.client_id, ray_origin=(x, y, 10.0),
-                                  ray_direction=(0.0, 0.0, -1.0))
+    event = types.SimpleNamespace(client=client, client_id=client.client_id, ray_origin=(x, y, 10.0), ray_direction=(0.0, 0.0, -1.0))
     for entry in list(page.server.scene._scene_pointer_cb):
         if entry.modifier == modifier:
             asyncio.run(entry.callback(event))

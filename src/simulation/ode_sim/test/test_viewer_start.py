@@ -1,4 +1,5 @@
 """What makes the page come soon: it prepares no light that is not shown, and the world does not wait for every tab."""
+
 import html
 import re
 
@@ -24,9 +25,9 @@ def program(page):
     digits = np.frombuffer(packed.encode(), np.uint8)
     values = np.zeros(128, np.uint64)
     values[[ord(digit) for digit in DIGITS]] = range(len(DIGITS))
-    digits, rest = digits[:len(digits) // 5 * 5], digits[len(digits) // 5 * 5:]
-    words = values[digits].reshape(-1, 5) @ np.array([88 ** n for n in (4, 3, 2, 1, 0)], np.uint64)
-    last = sum(int(values[digit]) * 88 ** n for n, digit in enumerate(reversed(rest)))
+    digits, rest = digits[: len(digits) // 5 * 5], digits[len(digits) // 5 * 5 :]
+    words = values[digits].reshape(-1, 5) @ np.array([88**n for n in (4, 3, 2, 1, 0)], np.uint64)
+    last = sum(int(values[digit]) * 88**n for n, digit in enumerate(reversed(rest)))
     return zstandard.decompress(words.astype(">u4").tobytes() + last.to_bytes(max(len(rest) - 1, 0), "big")).decode()
 
 
@@ -61,17 +62,21 @@ def test_who_draws_is_asked_later_and_of_the_canvas_that_is_there():
 def test_a_button_does_not_take_the_place_of_a_value_that_waits_to_be_sent():
     before, after = changed()
     sender = re.search(r"let n=!0,r=!1,i=null,a=null;function o\(s\)\{.*?return\{send:o,flush:s,cancel:c\}\}", after).group()
-    assert ("(r&&i&&(i.type!==s.type||i.uuid!==s.uuid||i.name!==s.name||i!==s&&JSON.stringify(i)===JSON.stringify(s))&&"
-            "(c.sendMessage(i),r=!1),i=s,n?(c.sendMessage(s),r=!1,n=!1,"
-            in sender)
+    assert (
+        "(r&&i&&(i.type!==s.type||i.uuid!==s.uuid||i.name!==s.name||i!==s&&JSON.stringify(i)===JSON.stringify(s))&&"
+        "(c.sendMessage(i),r=!1),i=s,n?(c.sendMessage(s),r=!1,n=!1," in sender
+    )
     assert "(i=s,n?(c.sendMessage(s),r=!1,n=!1," in before
 
 
 @pytest.mark.slow
 def test_a_handle_that_is_drawn_through_a_body_is_hit_before_it():
     before, after = changed()
-    order = re.search(r"\.sort\(\((\w+),(\w+)\)=>\{let grip=(o=>.*?),first=grip\(\2\.object\)-grip\(\1\.object\);"
-                      r"if\(first\)return first;", after)
+    order = re.search(
+        r"\.sort\(\((\w+),(\w+)\)=>\{let grip=(o=>.*?),first=grip\(\2\.object\)-grip\(\1\.object\);"
+        r"if\(first\)return first;",
+        after,
+    )
     assert before.count("raycaster.intersectObject(") == 1 and after.index("raycaster.intersectObject(") < order.start()
     # the parts of a handle that are hit are not drawn, or drawn through everything, in a group that stands where it is put
     assert re.search(r"matrixAutoUpdate:!1,.{1,800}?createElement\(`mesh`,\{visible:!1,position:\[0,", before, re.DOTALL)
@@ -99,8 +104,9 @@ def test_panels_that_come_later_know_the_world_that_is_shown():
         def on_world(self, world):
             told.append([model.name for model in world.models])
 
-    page = Page(LocalSimulation(World(d.World(models=(d.Model(name="box", links=(d.Link("l"),)),))), paused=True), port=0,
-                later=lambda: (Notes,))
+    page = Page(
+        LocalSimulation(World(d.World(models=(d.Model(name="box", links=(d.Link("l"),)),))), paused=True), port=0, later=lambda: (Notes,)
+    )
     try:
         assert not any(isinstance(p, Notes) for p in page.panels)
         page.turn()
@@ -132,6 +138,7 @@ def test_more_tabs_wait_until_a_browser_that_is_expected_has_shown_the_world(mon
 def test_what_a_world_lacks_is_said():
     from ode_sim import World
     from ode_sim.viewer import LocalSimulation, Page
+
     world = World.load("<sdf version='1.6'><world name='w'><include><uri>model://nowhere</uri></include></world></sdf>")
     said = []
     with Page(LocalSimulation(world, paused=True), port=0, say=said.append):

@@ -1,4 +1,5 @@
 """What a page shows of a running world and changes in it: moments, contacts, looks, films, a pull, the first view."""
+
 import asyncio
 import math
 import time
@@ -31,6 +32,7 @@ def falling():
 
 
 # ---------------------------------------------------------------------------------------------- going back
+
 
 def test_a_timeline_gives_back_the_same_bits():
     world = falling()
@@ -97,6 +99,7 @@ def test_the_page_goes_back(page):
 
 # ---------------------------------------------------------------------------------------------- contacts and looks
 
+
 def borne(simulation, newtons, seconds=10.0):
     """Wait for a frame in which the contacts bear that much."""
     end = time.monotonic() + seconds
@@ -116,15 +119,20 @@ def test_contacts_bear_the_weight_and_change_no_bit():
         assert np.allclose(simulation.contacts()[:, 2], 0.0, atol=0.01)
         assert (simulation.contacts()[:, 5] > 0.0).all()  # on the ball, not on the ground below it, where no arrow is seen
         assert simulation.call(lambda world: bytes(world.save())) == bytes(plain.save())
-        simulation.insert("late", "<sdf version='1.6'><model name='m'><allow_auto_disable>0</allow_auto_disable><link name='l'>"
-                          "<collision name='c'><geometry><box><size>1 1 1</size></box></geometry></collision></link></model></sdf>",
-                          Pose((4.0, 0.0, 0.5)))
+        simulation.insert(
+            "late",
+            "<sdf version='1.6'><model name='m'><allow_auto_disable>0</allow_auto_disable><link name='l'>"
+            "<collision name='c'><geometry><box><size>1 1 1</size></box></geometry></collision></link></model></sdf>",
+            Pose((4.0, 0.0, 0.5)),
+        )
         simulation.step(500)
         borne(simulation, 2 * 9.8)
         simulation.watch_contacts(False)
         assert not len(simulation.contacts())
-        assert not any(collision.core.watched for collision in simulation.call(
-            lambda world: list(world.models["ball"].links["link"].collisions.values())))
+        assert not any(
+            collision.core.watched
+            for collision in simulation.call(lambda world: list(world.models["ball"].links["link"].collisions.values()))
+        )
     finally:
         simulation.close()
 
@@ -136,8 +144,12 @@ def test_arrows_are_cut_and_small_ones_left_out():
 
 def test_contacts_are_drawn_and_taken_away(page):
     before = set(page.server.scene._handle_from_node_name)
-    page.simulation.insert("ground", "<sdf version='1.6'><model name='g'><static>1</static><link name='l'><collision "
-                           "name='c'><geometry><plane/></geometry></collision></link></model></sdf>", Pose())
+    page.simulation.insert(
+        "ground",
+        "<sdf version='1.6'><model name='g'><static>1</static><link name='l'><collision "
+        "name='c'><geometry><plane/></geometry></collision></link></model></sdf>",
+        Pose(),
+    )
     wait(page, lambda: page.world.model("ground") is not None)
     page.simulation.set_pose("box", Pose((0.0, 0.0, 0.5)))
     page.overlays.contacts(True)
@@ -186,6 +198,7 @@ def test_colour_and_friction_are_changed_and_saved(page):
 
 # ---------------------------------------------------------------------------------------------- films
 
+
 @pytest.mark.parametrize("shadows", (True, False))
 def test_the_box_for_shadows_says_what_is_drawn(shadows):
     page = Page(LocalSimulation(World(d.World()), paused=True), port=0, shadows=shadows)
@@ -199,8 +212,7 @@ def test_the_box_for_shadows_says_what_is_drawn(shadows):
 def test_a_film_shows_what_moved(page, tmp_path):
     cv2 = pytest.importorskip("cv2")
     client, record = Client(), panel(page, "RecordPanel")
-    client.camera = types.SimpleNamespace(position=(4.0, -4.0, 3.0), look_at=(0.0, 0.0, 0.5), fov=FIELD,
-                                          image_width=161, image_height=120)
+    client.camera = types.SimpleNamespace(position=(4.0, -4.0, 3.0), look_at=(0.0, 0.0, 0.5), fov=FIELD, image_width=161, image_height=120)
     use(record._film, client)
     page.simulation.set_pose("box", Pose((0.0, 0.0, 0.5)))
     wait(page, lambda: len(record._movie.shots) > 3)
@@ -220,6 +232,7 @@ def test_a_film_shows_what_moved(page, tmp_path):
 
 
 # ---------------------------------------------------------------------------------------------- a pull, the first view
+
 
 class Hand:
     """What a browser says when the mouse drags a link."""
@@ -246,8 +259,10 @@ def test_a_pull_takes_the_body_to_the_pointer():
         hand = Hand(page, "ball", "link")
 
         def drag(phase):
-            hand.drag(client=client, client_id=1, phase=phase, modifier="cmd/ctrl", end_position=(2.0, 0.0, 1.5),
-                      start_position=(0.0, 0.0, 0.5))
+            hand.drag(
+                client=client, client_id=1, phase=phase, modifier="cmd/ctrl", end_position=(2.0, 0.0, 1.5), start_position=(0.0, 0.0, 0.5)
+            )
+
         drag("start")
         for number in range(150):
             page.simulation.step(20)
@@ -265,8 +280,14 @@ def test_with_shift_a_pull_only_turns():
     try:
         page.simulation.set_pose("ball", Pose((0.0, 0.0, 5.0)))
         wait(page, lambda: page.frame is not None)
-        Hand(page, "ball", "link").drag(client=Client(), client_id=1, phase="start", modifier="cmd/ctrl+shift",
-                                        start_position=(0.1, 0.0, 5.0), end_position=(0.1, 0.3, 5.0))
+        Hand(page, "ball", "link").drag(
+            client=Client(),
+            client_id=1,
+            phase="start",
+            modifier="cmd/ctrl+shift",
+            start_position=(0.1, 0.0, 5.0),
+            end_position=(0.1, 0.3, 5.0),
+        )
         page.simulation.step(50)
         wait(page, lambda: page.frame.iterations == 50)
         pose = page.frame.pose(page.world.model("ball").links["link"])
@@ -318,6 +339,7 @@ def test_a_texture_is_encoded_once_for_all_meshes_that_show_it():
 
     from ode_sim.viewer.drawing import _picture
     from PIL import Image
+
     pixels = np.zeros((8, 6, 4), np.uint8)
     pixels[..., 0], pixels[:4, :, 1], pixels[..., 3] = 200, 90, 255
     for alpha, kind, name in ((255, b"\xff\xd8", "JPEG"), (80, b"\x89PNG", None)):

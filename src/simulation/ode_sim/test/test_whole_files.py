@@ -1,4 +1,5 @@
 """A reader sees a whole file, and a file that cannot be replaced stays."""
+
 import os
 import threading
 
@@ -13,6 +14,7 @@ def test_readers_never_see_half_of_it(tmp_path):
     def read():
         while not done.is_set():
             seen.add(path.read_text())
+
     reader = threading.Thread(target=read)
     reader.start()
     try:

@@ -1,4 +1,5 @@
 """Robots of a few links as text, and what is asked of what is read from it."""
+
 from ode_sim.description import ResourceFinder, read_urdf
 
 FINDER = ResourceFinder(environment=False, stock="/nowhere", package_path=lambda name: None)
@@ -11,8 +12,10 @@ def link(name, mass=1.0, body=""):
 
 
 def joint(name, parent, child, kind="fixed", xyz="0 0 0", rpy="0 0 0", body=""):
-    return (f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
-            f'<origin xyz="{xyz}" rpy="{rpy}"/>{body}</joint>')
+    return (
+        f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
+        f'<origin xyz="{xyz}" rpy="{rpy}"/>{body}</joint>'
+    )
 
 
 def box(tag="collision", name=None, xyz="0 0 0"):
@@ -32,7 +35,7 @@ def names(items):
 
 
 def one(items, name):
-    found, = [item for item in items if item.name == name]
+    (found,) = [item for item in items if item.name == name]
     return found
 
 

@@ -1,4 +1,5 @@
 """A page without a browser, and what a browser would send to it."""
+
 import time
 import types
 
@@ -42,8 +43,7 @@ def use(handle, client, value=None):
 @pytest.fixture
 def page():
     """A box at the origin and a ball with markup in its name, paused."""
-    world = World(d.World(lights=(d.Light("sun", "directional"),), models=(
-        shape_model("box", d.Box()), shape_model(EVIL, d.Sphere(0.5)))))
+    world = World(d.World(lights=(d.Light("sun", "directional"),), models=(shape_model("box", d.Box()), shape_model(EVIL, d.Sphere(0.5)))))
     world.models[EVIL].pose = Pose((3.0, 0.0, 0.5))
     page = Page(LocalSimulation(world, paused=True), port=0)
     wait(page, lambda: page.frame is not None)

@@ -1,8 +1,8 @@
 """Packets as a receiver sees them: headers by the Theora specification, pictures by ffmpeg's own decoder."""
+
 import av
 import numpy as np
 import pytest
-
 from theora_image_transport.encoder import Encoder, Settings, available
 from theora_image_transport.msg import Packet
 
@@ -13,7 +13,7 @@ def scene(step=0):
     """(123, 162, 3) uint8 RGB: ramps and a box that moves."""
     rows, columns = np.indices(SHAPE)
     picture = np.stack([columns, rows, 255 - columns], axis=2).astype(np.uint8)
-    picture[40:80, 20 + 4 * step:60 + 4 * step] = (250, 30, 30)
+    picture[40:80, 20 + 4 * step : 60 + 4 * step] = (250, 30, 30)
     return picture
 
 
@@ -27,9 +27,9 @@ def decode(headers, packets):
 
 def rgb(frame):
     """By hand: PyAV makes no arrays of 4:2:0 frames of odd size."""
-    y, u, v = (np.frombuffer(p, np.uint8).reshape(-1, p.line_size)[:, :p.width].astype(float) for p in frame.planes)
-    u, v = (np.kron(p, np.ones((2, 2)))[:frame.height, :frame.width] - 128 for p in (u, v))
-    y = y[:frame.height]
+    y, u, v = (np.frombuffer(p, np.uint8).reshape(-1, p.line_size)[:, : p.width].astype(float) for p in frame.planes)
+    u, v = (np.kron(p, np.ones((2, 2)))[: frame.height, : frame.width] - 128 for p in (u, v))
+    y = y[: frame.height]
     return np.clip(np.stack([y + 1.402 * v, y - 0.344 * u - 0.714 * v, y + 1.772 * u], axis=2), 0, 255)
 
 
@@ -88,13 +88,16 @@ def test_bitrate_is_aimed_at():
     def total(bitrate):
         encoder = Encoder(SHAPE, "rgb8", Settings(bitrate=bitrate))
         assert int.from_bytes(encoder.headers[0].data[37:40], "big") == bitrate
-        return sum(len(packet.data) for i in range(30) for packet in encoder.encode(
-            noise.integers(0, 255, (*SHAPE, 3), np.uint8).tobytes()))
+        return sum(
+            len(packet.data) for i in range(30) for packet in encoder.encode(noise.integers(0, 255, (*SHAPE, 3), np.uint8).tobytes())
+        )
 
     assert total(200_000) < total(2_000_000) / 2
 
 
 def test_two_encoders_give_the_same_bytes():
-    runs = [[packet for i in range(5) for packet in encoder.encode(scene(i).tobytes())]
-            for encoder in (Encoder(SHAPE, "rgb8"), Encoder(SHAPE, "rgb8"))]
+    runs = [
+        [packet for i in range(5) for packet in encoder.encode(scene(i).tobytes())]
+        for encoder in (Encoder(SHAPE, "rgb8"), Encoder(SHAPE, "rgb8"))
+    ]
     assert runs[0] == runs[1]

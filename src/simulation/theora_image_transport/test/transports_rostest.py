@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Images through image_transport's republish and the plugins of all transports, and back."""
+
 import unittest
 
 import numpy as np
@@ -31,8 +32,7 @@ class Transports(unittest.TestCase):
     def setUpClass(cls):
         cls.ways = {"compressed": None, "compressedDepth": None, "theora": None, "python": None}
         cls.listeners = [rospy.Subscriber(f"out/{way}", Image, cls.keep, way) for way in cls.ways]
-        cls.senders = {"rgb8": rospy.Publisher("colour", Image, queue_size=1),
-                       "32FC1": rospy.Publisher("depth", Image, queue_size=1)}
+        cls.senders = {"rgb8": rospy.Publisher("colour", Image, queue_size=1), "32FC1": rospy.Publisher("depth", Image, queue_size=1)}
         cls.python = TheoraPublisher("/python", "rgb8", (HEIGHT, WIDTH), 2)
 
     @classmethod
@@ -71,8 +71,7 @@ class Transports(unittest.TestCase):
             self.assertLess(np.abs(self.pixels(got, np.uint8, -1) - colour()).mean(), 8, way)
 
     def test_parameters(self):
-        for name in ("packed/compressed/jpeg_quality", "packed_depth/compressedDepth/png_level",
-                     "packed_theora/theora/quality"):
+        for name in ("packed/compressed/jpeg_quality", "packed_depth/compressedDepth/png_level", "packed_theora/theora/quality"):
             self.assertTrue(rospy.has_param(name), name)
 
 

@@ -17,6 +17,7 @@ A plan is YAML; metres, radians. What is not given takes the defaults of Gazebo'
 or a floor plan drawn dark on light, also one that map_server wrote: ``image: plan.png``, ``resolution: 0.05`` (m per
 pixel), ``origin: [x, y, 0]``, ``occupied_thresh``, ``negate``.
 """
+
 from __future__ import annotations
 
 import math
@@ -130,6 +131,7 @@ class Building:
 
 # ---------------------------------------------------------------------------------------------- reading
 
+
 class _Entry:
     """One mapping of the plan; knows its place (``walls[2].doors[0]``) for messages."""
 
@@ -158,8 +160,12 @@ class _Entry:
         value = self.value.get(key)
         if value is None or value == "":
             return default
-        if not isinstance(value, (str, int, float)) or (isinstance(value, int) and abs(value) > 10 ** 18) \
-                or not str(value).isprintable() or len(str(value)) > most:
+        if (
+            not isinstance(value, (str, int, float))
+            or (isinstance(value, int) and abs(value) > 10**18)
+            or not str(value).isprintable()
+            or len(str(value)) > most
+        ):
             raise PlanError(f"{self.place}.{key}: {_shown(value)} is no name")
         return str(value)
 
@@ -195,7 +201,7 @@ class _Short(reprlib.Repr):
     maxlevel = 3
 
     def repr_int(self, x: int, level: int) -> str:  # repr of one of thousands of digits is an error
-        return str(x) if abs(x) < 10 ** 18 else f"{'-' * (x < 0)}1e{int(x.bit_length() * math.log10(2.0))}"
+        return str(x) if abs(x) < 10**18 else f"{'-' * (x < 0)}1e{int(x.bit_length() * math.log10(2.0))}"
 
 
 def _shown(value: Any) -> str:
@@ -247,8 +253,26 @@ def read_plan(path: str, resolution: Optional[float] = None) -> Building:
 
 def building_of(plan: Any, folder: str = ".") -> Building:
     """As :func:`read_plan`, of a plan already read; ``folder`` is where its image is looked for."""
-    top = _Entry(plan, "plan", ("walls", "name", "wall", "stairs", "levels", "models", "height", "image", "resolution",
-                                "origin", "negate", "occupied_thresh", "free_thresh", "mode"))
+    top = _Entry(
+        plan,
+        "plan",
+        (
+            "walls",
+            "name",
+            "wall",
+            "stairs",
+            "levels",
+            "models",
+            "height",
+            "image",
+            "resolution",
+            "origin",
+            "negate",
+            "occupied_thresh",
+            "free_thresh",
+            "mode",
+        ),
+    )
     defaults = _Entry(top.value.get("wall") or {}, "wall", ("thickness", "height") + _LOOK)
     look = defaults.look(Look())
     if "image" in top.value:
@@ -288,14 +312,16 @@ def _walls(parent: _Entry, defaults: _Entry, default_look: Look) -> List[Wall]:
         pieces: List[Wall] = []
         for start, end in zip(path, path[1:]):
             length = math.dist(start, end)
-            mine = [(o, at) for o, at in openings
-                    if done <= o.at < done + length or (o.at == total and end == path[-1])]
+            mine = [(o, at) for o, at in openings if done <= o.at < done + length or (o.at == total and end == path[-1])]
             for opening, at in mine:
                 if min(opening.at - done, done + length - opening.at) < 0.5 * opening.width - 1e-9:
-                    raise PlanError(f"{at}: {opening.width:g} m wide at {opening.at:g} m does not fit; this piece of "
-                                    f"wall runs from {done:g} to {done + length:g} m")
-            pieces.append(Wall(start, end, thickness, height, look, tuple(
-                Opening(o.kind, o.at - done, o.width, o.height, o.sill) for o, _ in mine)))
+                    raise PlanError(
+                        f"{at}: {opening.width:g} m wide at {opening.at:g} m does not fit; this piece of "
+                        f"wall runs from {done:g} to {done + length:g} m"
+                    )
+            pieces.append(
+                Wall(start, end, thickness, height, look, tuple(Opening(o.kind, o.at - done, o.width, o.height, o.sill) for o, _ in mine))
+            )
             done += length
         for opening, at in openings:
             if not 0.0 <= opening.at <= total:
@@ -331,11 +357,17 @@ def _openings(wall: _Entry, wall_height: float) -> List[Tuple[Opening, str]]:
     for key, kind, width, height, sill in (("doors", "door", 0.9, 2.0, 0.0), ("windows", "window", 0.8, 0.8, 0.5)):
         for value, place in wall.entries(key):
             entry = _Entry(value, place, ("at", "width", "height", "sill"))
-            opening = Opening(kind, entry.number("at", positive=False), entry.number("width", width),
-                              entry.number("height", height), entry.number("sill", sill, positive=False))
+            opening = Opening(
+                kind,
+                entry.number("at", positive=False),
+                entry.number("width", width),
+                entry.number("height", height),
+                entry.number("sill", sill, positive=False),
+            )
             if opening.sill < 0.0 or opening.sill + opening.height > wall_height + 1e-9:
-                raise PlanError(f"{place}: reaches from {opening.sill:g} to {opening.sill + opening.height:g} m; "
-                                f"the wall is {wall_height:g} m high")
+                raise PlanError(
+                    f"{place}: reaches from {opening.sill:g} to {opening.sill + opening.height:g} m; the wall is {wall_height:g} m high"
+                )
             found.append((opening, place))
     return found
 
@@ -347,9 +379,17 @@ def _stairs(parent: _Entry, default_look: Look) -> List[Stairs]:
         steps = entry.number("steps", 15, most=_MOST_STEPS)
         if steps != int(steps):
             raise PlanError(f"{place}.steps: {steps:g} is no whole number")
-        stairs.append(Stairs(entry.point("at"), entry.number("yaw", 0.0, positive=False), entry.number("width", 1.0),
-                             entry.number("depth", 3.5), entry.number("height", 2.5), int(steps),
-                             entry.look(default_look)))
+        stairs.append(
+            Stairs(
+                entry.point("at"),
+                entry.number("yaw", 0.0, positive=False),
+                entry.number("width", 1.0),
+                entry.number("depth", 3.5),
+                entry.number("height", 2.5),
+                int(steps),
+                entry.look(default_look),
+            )
+        )
     return stairs
 
 
@@ -374,8 +414,13 @@ def _walls_of_image(top: _Entry, defaults: _Entry, look: Look, folder: str) -> L
     resolution = top.number("resolution", None, most=100.0)
     x, y = top.numbers("origin", (2, 3))[:2] if "origin" in top.value else (0.0, 0.0)
     height = defaults.number("height", 2.5)
-    rectangles = wall_rectangles(os.path.join(folder, top.text("image", "", most=4096)), resolution, (x, y),
-                                 top.number("occupied_thresh", 0.5), bool(top.value.get("negate", 0)))
+    rectangles = wall_rectangles(
+        os.path.join(folder, top.text("image", "", most=4096)),
+        resolution,
+        (x, y),
+        top.number("occupied_thresh", 0.5),
+        bool(top.value.get("negate", 0)),
+    )
     if max(abs(value) for rectangle in rectangles for value in rectangle) > FARTHEST:
         raise PlanError(f"resolution: with {resolution:g} m per pixel the picture reaches farther than {FARTHEST:g} m")
     walls = []

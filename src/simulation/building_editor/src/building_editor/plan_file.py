@@ -1,4 +1,5 @@
 """Reading the YAML of a plan: only what a plan can need, of a size that a person writes."""
+
 from __future__ import annotations
 
 from typing import Any
@@ -21,8 +22,9 @@ class _Loader(yaml.SafeLoader):
     def compose_node(self, parent, index):
         self._depth += 1
         if self._depth > _DEEPEST:
-            raise yaml.MarkedYAMLError(problem=f"it nests more than {_DEEPEST} lists and mappings",
-                                       problem_mark=self.peek_event().start_mark)
+            raise yaml.MarkedYAMLError(
+                problem=f"it nests more than {_DEEPEST} lists and mappings", problem_mark=self.peek_event().start_mark
+            )
         node = super().compose_node(parent, index)
         self._depth -= 1
         return node

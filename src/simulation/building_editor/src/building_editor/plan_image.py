@@ -1,4 +1,5 @@
 """Walls found in the picture of a floor plan."""
+
 from __future__ import annotations
 
 from typing import Dict, List, Tuple
@@ -14,8 +15,9 @@ _MOST_RECTANGLES = 5000
 _MOST_PIXELS = 16_000_000
 
 
-def wall_rectangles(path: str, resolution: float, origin: Tuple[float, float], occupied: float = 0.5,
-                    negate: bool = False) -> List[Rectangle]:
+def wall_rectangles(
+    path: str, resolution: float, origin: Tuple[float, float], occupied: float = 0.5, negate: bool = False
+) -> List[Rectangle]:
     """The dark areas of an image as upright rectangles, in metres.
 
     :param resolution: m per pixel. :param origin: x, y of the lower left corner, m.
@@ -34,11 +36,19 @@ def wall_rectangles(path: str, resolution: float, origin: Tuple[float, float], o
     if not rectangles:
         raise PlanError(f"image {path}: nothing in it is dark enough to be a wall")
     if len(rectangles) > _MOST_RECTANGLES:
-        raise PlanError(f"image {path}: more than {_MOST_RECTANGLES} pieces of wall; use a cleaner or coarser picture "
-                        "whose walls stand upright")
+        raise PlanError(
+            f"image {path}: more than {_MOST_RECTANGLES} pieces of wall; use a cleaner or coarser picture whose walls stand upright"
+        )
     height = dark.shape[0]
-    return [(origin[0] + c0 * resolution, origin[1] + (height - r1) * resolution,
-             origin[0] + c1 * resolution, origin[1] + (height - r0) * resolution) for r0, c0, r1, c1 in rectangles]
+    return [
+        (
+            origin[0] + c0 * resolution,
+            origin[1] + (height - r1) * resolution,
+            origin[0] + c1 * resolution,
+            origin[1] + (height - r0) * resolution,
+        )
+        for r0, c0, r1, c1 in rectangles
+    ]
 
 
 def _merged_runs(mask: np.ndarray) -> List[Tuple[int, int, int, int]]:

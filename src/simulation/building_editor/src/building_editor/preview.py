@@ -1,4 +1,5 @@
 """A building drawn from above."""
+
 from __future__ import annotations
 
 import contextlib
@@ -14,7 +15,14 @@ from building_editor.sdf_model import outline
 _WIDEST = 20_000  # pixels of a drawing
 
 _PAPER, _GRID, _WALL, _DOOR, _WINDOW, _STEP, _MODEL = (
-    (255, 255, 255), (226, 230, 234), (60, 64, 72), (214, 158, 84), (86, 156, 214), (150, 150, 158), (96, 160, 96))
+    (255, 255, 255),
+    (226, 230, 234),
+    (60, 64, 72),
+    (214, 158, 84),
+    (86, 156, 214),
+    (150, 150, 158),
+    (96, 160, 96),
+)
 
 
 def draw(building: Building, width: int = 1000) -> Image.Image:
@@ -35,6 +43,7 @@ def draw(building: Building, width: int = 1000) -> Image.Image:
     image = Image.new("RGB", (page[0] * len(building.levels), page[1]), _PAPER)
     pen = ImageDraw.Draw(image)
     for number, level in enumerate(building.levels):
+
         def at(x: float, y: float) -> Tuple[float, float]:
             return (number * page[0] + (x - x0) * scale, (y1 - y) * scale)
 
@@ -103,8 +112,10 @@ def _font_of(text: str) -> Any:
 
 def _draw_wall(pen: ImageDraw.ImageDraw, wall: Wall, at) -> None:
     (before, after), length = wall.reach, wall.length
-    pen.polygon([at(*p) for p in _turned(wall.start, wall.yaw, 0.5 * (length + after - before), 0.0,
-                                         length + before + after, wall.thickness)], fill=_WALL)
+    pen.polygon(
+        [at(*p) for p in _turned(wall.start, wall.yaw, 0.5 * (length + after - before), 0.0, length + before + after, wall.thickness)],
+        fill=_WALL,
+    )
     for opening in wall.openings:
         corners = _turned(wall.start, wall.yaw, opening.at, 0.0, opening.width, wall.thickness)
         pen.polygon([at(*p) for p in corners], fill=_DOOR if opening.kind == "door" else _WINDOW)
@@ -113,6 +124,7 @@ def _draw_wall(pen: ImageDraw.ImageDraw, wall: Wall, at) -> None:
 def _turned(origin, yaw: float, x: float, y: float, length: float, width: float):
     """Corners of a rectangle around (x, y) of a frame at ``origin`` turned by ``yaw``."""
     c, s = math.cos(yaw), math.sin(yaw)
-    return [(origin[0] + c * (x + dx * length) - s * (y + dy * width),
-             origin[1] + s * (x + dx * length) + c * (y + dy * width))
-            for dx, dy in ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5))]
+    return [
+        (origin[0] + c * (x + dx * length) - s * (y + dy * width), origin[1] + s * (x + dx * length) + c * (y + dy * width))
+        for dx, dy in ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5))
+    ]

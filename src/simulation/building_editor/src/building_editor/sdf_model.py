@@ -1,4 +1,5 @@
 """A building as SDF 1.6, laid out as Gazebo's building editor lays it out: links Wall_n, Stairs_n, Floor_n of boxes."""
+
 from __future__ import annotations
 
 import math
@@ -20,8 +21,10 @@ Rectangle = Tuple[float, float, float, float]  # x0, y0, x1, y1
 def wall_boxes(wall: Wall) -> List[Box]:
     """The wall without its openings, in its link frame: origin on the floor at the wall's middle, x along it."""
     ends = (-0.5 * wall.length - wall.reach[0], 0.5 * wall.length + wall.reach[1])
-    holes = [(o.at - 0.5 * o.width - 0.5 * wall.length, o.at + 0.5 * o.width - 0.5 * wall.length, o.sill,
-              o.sill + o.height) for o in wall.openings]
+    holes = [
+        (o.at - 0.5 * o.width - 0.5 * wall.length, o.at + 0.5 * o.width - 0.5 * wall.length, o.sill, o.sill + o.height)
+        for o in wall.openings
+    ]
     cuts = sorted(set(ends) | {x for hole in holes for x in hole[:2]})
     columns: List[Tuple[float, float, List[Tuple[float, float]]]] = []
     for x0, x1 in zip(cuts, cuts[1:]):
@@ -36,15 +39,13 @@ def wall_boxes(wall: Wall) -> List[Box]:
             columns[-1] = (columns[-1][0], x1, solid)
         else:
             columns.append((x0, x1, solid))
-    return [((0.5 * (x0 + x1), 0.0, 0.5 * (z0 + z1)), (x1 - x0, wall.thickness, z1 - z0))
-            for x0, x1, solid in columns for z0, z1 in solid]
+    return [((0.5 * (x0 + x1), 0.0, 0.5 * (z0 + z1)), (x1 - x0, wall.thickness, z1 - z0)) for x0, x1, solid in columns for z0, z1 in solid]
 
 
 def stair_boxes(stairs: Stairs) -> List[Box]:
     """Solid steps, in the frame at the front edge of the lowest, x in the direction of climbing."""
     tread, rise = stairs.depth / stairs.steps, stairs.height / stairs.steps
-    return [(((i + 0.5) * tread, 0.0, 0.5 * (i + 1) * rise), (tread, stairs.width, (i + 1) * rise))
-            for i in range(stairs.steps)]
+    return [(((i + 0.5) * tread, 0.0, 0.5 * (i + 1) * rise), (tread, stairs.width, (i + 1) * rise)) for i in range(stairs.steps)]
 
 
 def outline(levels: Sequence[Level]) -> Rectangle:
@@ -65,10 +66,12 @@ def outline(levels: Sequence[Level]) -> Rectangle:
 def stairwell(stairs: Stairs) -> Rectangle:
     """The upright rectangle around the stairs."""
     c, s = math.cos(stairs.yaw), math.sin(stairs.yaw)
-    corners = [(stairs.at[0] + c * x - s * y, stairs.at[1] + s * x + c * y)
-               for x in (0.0, stairs.depth) for y in (-0.5 * stairs.width, 0.5 * stairs.width)]
-    return (min(x for x, _ in corners), min(y for _, y in corners),
-            max(x for x, _ in corners), max(y for _, y in corners))
+    corners = [
+        (stairs.at[0] + c * x - s * y, stairs.at[1] + s * x + c * y)
+        for x in (0.0, stairs.depth)
+        for y in (-0.5 * stairs.width, 0.5 * stairs.width)
+    ]
+    return (min(x for x, _ in corners), min(y for _, y in corners), max(x for x, _ in corners), max(y for _, y in corners))
 
 
 def floor_pieces(area: Rectangle, holes: Sequence[Rectangle]) -> List[Rectangle]:
@@ -81,14 +84,17 @@ def floor_pieces(area: Rectangle, holes: Sequence[Rectangle]) -> List[Rectangle]
                 rest.append((x0, y0, x1, y1))
                 continue
             left, right = max(x0, hx0), min(x1, hx1)
-            rest += [piece for piece in ((x0, y0, left, y1), (right, y0, x1, y1), (left, y0, right, max(y0, hy0)),
-                                         (left, min(y1, hy1), right, y1))
-                     if piece[2] - piece[0] > 1e-9 and piece[3] - piece[1] > 1e-9]
+            rest += [
+                piece
+                for piece in ((x0, y0, left, y1), (right, y0, x1, y1), (left, y0, right, max(y0, hy0)), (left, min(y1, hy1), right, y1))
+                if piece[2] - piece[0] > 1e-9 and piece[3] - piece[1] > 1e-9
+            ]
         pieces = rest
     return pieces
 
 
 # ---------------------------------------------------------------------------------------------- SDF
+
 
 def model_element(building: Building) -> ET.Element:
     """The ``<model>``, static; its origin is the middle of the building on the ground."""
@@ -118,8 +124,15 @@ def _links(building: Building) -> Iterator[Tuple[str, float, float, float, float
         for wall in level.walls:
             boxes = wall_boxes(wall)
             if boxes:
-                yield (f"Wall_{wall_number}", 0.5 * (wall.start[0] + wall.end[0]), 0.5 * (wall.start[1] + wall.end[1]),
-                       level.base, wall.yaw, boxes, wall.look)
+                yield (
+                    f"Wall_{wall_number}",
+                    0.5 * (wall.start[0] + wall.end[0]),
+                    0.5 * (wall.start[1] + wall.end[1]),
+                    level.base,
+                    wall.yaw,
+                    boxes,
+                    wall.look,
+                )
             wall_number += 1
         for stairs in level.stairs:
             yield (f"Stairs_{stairs_number}", *stairs.at, level.base, stairs.yaw, stair_boxes(stairs), stairs.look)
@@ -129,9 +142,15 @@ def _links(building: Building) -> Iterator[Tuple[str, float, float, float, float
             x0, y0, x1, y1 = outline([near for near in (below, level) if near.walls or near.stairs])
             area = (x0 + _INSET, y0 + _INSET, x1 - _INSET, y1 - _INSET)
             pieces = floor_pieces(area, [stairwell(stairs) for stairs in below.stairs])
-            yield (f"Floor_{number}", 0.0, 0.0, level.base, 0.0, [
-                ((0.5 * (a + c), 0.5 * (b + d), -0.5 * FLOOR_THICKNESS), (c - a, d - b, FLOOR_THICKNESS))
-                for a, b, c, d in pieces], level.floor)
+            yield (
+                f"Floor_{number}",
+                0.0,
+                0.0,
+                level.base,
+                0.0,
+                [((0.5 * (a + c), 0.5 * (b + d), -0.5 * FLOOR_THICKNESS), (c - a, d - b, FLOOR_THICKNESS)) for a, b, c, d in pieces],
+                level.floor,
+            )
 
 
 def _material(look: Look) -> ET.Element:
@@ -184,8 +203,7 @@ def write(building: Building, output: str) -> None:
     suffix = os.path.splitext(output)[1].lower()
     if output.endswith("/") or os.path.isdir(output):
         os.makedirs(output, exist_ok=True)
-        files = {os.path.join(output, "model.sdf"): model_text(building),
-                 os.path.join(output, "model.config"): config_text(building)}
+        files = {os.path.join(output, "model.sdf"): model_text(building), os.path.join(output, "model.config"): config_text(building)}
     elif suffix == ".world":
         files = {output: world_text(building)}
     elif suffix == ".sdf":

@@ -1,4 +1,5 @@
 """libgazebo_ros_bumper.so: gazebo_msgs/ContactsState of a contact sensor, empty ones included."""
+
 from __future__ import annotations
 
 from collections import deque
@@ -7,9 +8,9 @@ from typing import Deque, Dict, List, Tuple
 import numpy as np
 import rospy
 from gazebo_msgs.msg import ContactsState, ContactState
-from geometry_msgs.msg import Vector3, Wrench
 from gazebo_ros import SdfElement
 from gazebo_ros.plugin import PluginError, SensorPlugin
+from geometry_msgs.msg import Vector3, Wrench
 from ode_sim import CollisionHandle, math3
 from ode_sim.description.urdf_extensions import LUMP
 
@@ -73,8 +74,15 @@ class Bumper(SensorPlugin):
             pair = int(contact["collision1"]), int(contact["collision2"])
             if not self.collisions.isdisjoint(pair):
                 pairs.setdefault(pair, []).append(contact)
-        self.steps.append((self.server.now(), [self._state(self.world.collision(first), self.world.collision(second), contacts)
-                                               for (first, second), contacts in pairs.items()]))
+        self.steps.append(
+            (
+                self.server.now(),
+                [
+                    self._state(self.world.collision(first), self.world.collision(second), contacts)
+                    for (first, second), contacts in pairs.items()
+                ],
+            )
+        )
 
     def _state(self, first: CollisionHandle, second: CollisionHandle, contacts) -> ContactState:
         sign = 1.0
@@ -102,8 +110,10 @@ class Bumper(SensorPlugin):
         told = [(time, state) for time, states in self.steps for state in states]
         self.steps.clear()
         for index, (time, state) in enumerate(told):
-            state.info = (f"Debug:  i:({index}/{len(told)})     my geom:{state.collision1_name}"
-                          f"   other geom:{state.collision2_name}         time:{time.secs}.{time.nsecs:09d}\n")
+            state.info = (
+                f"Debug:  i:({index}/{len(told)})     my geom:{state.collision1_name}"
+                f"   other geom:{state.collision2_name}         time:{time.secs}.{time.nsecs:09d}\n"
+            )
             message.states.append(state)
         self.publisher.publish(message)
 

@@ -1,4 +1,5 @@
 """libgazebo_ros_camera.so: images of a ``<sensor type="camera">`` and their camera_info."""
+
 from __future__ import annotations
 
 from gazebo_ros.plugin import SensorPlugin
@@ -10,8 +11,7 @@ class Camera(SensorPlugin):
     """Publishes while somebody listens, at the sensor's rate, no faster than ``<updateRate>`` (Hz of sim time)."""
 
     def load(self, server, sensor, sdf) -> None:
-        self.camera = RosCamera(server, sensor, sdf, sensor.description.element.find("camera"),
-                                node_namespace(sensor, sdf))
+        self.camera = RosCamera(server, sensor, sdf, sensor.description.element.find("camera"), node_namespace(sensor, sdf))
         sensor.connect(self.measure, wanted=self.wanted)
 
     def wanted(self) -> bool:

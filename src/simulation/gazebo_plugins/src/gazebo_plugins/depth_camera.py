@@ -1,5 +1,6 @@
 """libgazebo_ros_openni_kinect.so and libgazebo_ros_depth_camera.so: colour, depth and a point cloud of a
 ``<sensor type="depth">``."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -14,8 +15,7 @@ from gazebo_plugins.image_message import PointCloud2
 from gazebo_plugins.image_topics import ImageTopics
 from gazebo_plugins.ros_camera import RosCamera, node_namespace
 
-_FIELDS = [PointField(name, offset, PointField.FLOAT32, 1)
-                      for name, offset in (("x", 0), ("y", 4), ("z", 8), ("rgb", 16))]
+_FIELDS = [PointField(name, offset, PointField.FLOAT32, 1) for name, offset in (("x", 0), ("y", 4), ("z", 8), ("rgb", 16))]
 _POINT_STEP = 32
 
 
@@ -26,18 +26,26 @@ class DepthCamera(SensorPlugin):
     organised = False
 
     def load(self, server, sensor, sdf) -> None:
-        self.camera = camera = RosCamera(server, sensor, sdf, sensor.description.element.find("camera"),
-                                         node_namespace(sensor, sdf), depth_range=self.depth_range(sdf))
+        self.camera = camera = RosCamera(
+            server, sensor, sdf, sensor.description.element.find("camera"), node_namespace(sensor, sdf), depth_range=self.depth_range(sdf)
+        )
         millimetres = sdf.get("useDepth16UC1Format", False)
         self.depth = ImageTopics(
             join(camera.namespace, sdf.text_or("depthImageTopicName", "depth/image_raw")),
-            "16UC1" if millimetres else "32FC1", (camera.camera.height, camera.camera.width), camera.queue_size,
-            source="depth16" if millimetres else "depth", compressible=False)
+            "16UC1" if millimetres else "32FC1",
+            (camera.camera.height, camera.camera.width),
+            camera.queue_size,
+            source="depth16" if millimetres else "depth",
+            compressible=False,
+        )
         self.depth_info = rospy.Publisher(
-            join(camera.namespace, sdf.text_or("depthImageCameraInfoTopicName", "depth/camera_info")), CameraInfo,
-            queue_size=camera.queue_size)
-        self.points = rospy.Publisher(join(camera.namespace, sdf.text_or("pointCloudTopicName", "points")),
-                                      PointCloud2, queue_size=camera.queue_size)
+            join(camera.namespace, sdf.text_or("depthImageCameraInfoTopicName", "depth/camera_info")),
+            CameraInfo,
+            queue_size=camera.queue_size,
+        )
+        self.points = rospy.Publisher(
+            join(camera.namespace, sdf.text_or("pointCloudTopicName", "points")), PointCloud2, queue_size=camera.queue_size
+        )
         sensor.connect(self.measure, wanted=self.wanted)
 
     def depth_range(self, sdf):
@@ -62,6 +70,7 @@ class DepthCamera(SensorPlugin):
                 self.points.publish(self._cloud(header, frame.data["cloud"]))
             if with_info:
                 self._publish_info(header)
+
         if outputs:
             self.camera.shoot(header, outputs, arrived)
         elif with_info:

@@ -1,4 +1,5 @@
 """libgazebo_ros_diff_drive.so: two driven wheels, odometry, wheel transforms."""
+
 from __future__ import annotations
 
 from typing import List
@@ -27,15 +28,13 @@ class DiffDrive(ModelPlugin):
         self.radius = sdf.get("wheelDiameter", 0.15) / 2
         self.torque = sdf.get("wheelTorque", 5.0)
         self.acceleration = sdf.get("wheelAcceleration", 0.0)
-        self.encoders = EncoderOdometry(self.left, self.right, self.radius, self.separation) \
-            if from_encoders(sdf) else None
+        self.encoders = EncoderOdometry(self.left, self.right, self.radius, self.separation) if from_encoders(sdf) else None
         self.publish_odometry_tf = sdf.get("publishOdomTF", True)
         self.publish_wheel_tf = sdf.get("publishWheelTF", False)
         self.gate = PeriodAdded(sdf.get("updateRate", 100.0))
         self.command = Command(self.topics, sdf.text_or("commandTopic", "cmd_vel"))
         self.odometry = OdometryPublisher(self.topics, sdf, "base_footprint") if sdf.get("publishTf", True) else None
-        self.joint_states = self.topics.publisher("joint_states", JointState, 1000) \
-            if sdf.get("publishWheelJointState", False) else None
+        self.joint_states = self.topics.publisher("joint_states", JointState, 1000) if sdf.get("publishWheelJointState", False) else None
         self.ramped = [0.0, 0.0]  # rim speeds as the ramp left them, m/s: left, right
         self.rim_speeds = [0.0, 0.0]  # commanded last
         self._drive()
@@ -79,8 +78,12 @@ class DiffDrive(ModelPlugin):
                 self.odometry.send_tf(now, pose)
         if self.publish_wheel_tf:
             for joint in (self.left, self.right):
-                TfBroadcaster.send(now, self.topics.frame(joint.parent.name), self.topics.frame(joint.child.name),
-                                   math3.relative(self.model.pose, joint.child.pose))
+                TfBroadcaster.send(
+                    now,
+                    self.topics.frame(joint.parent.name),
+                    self.topics.frame(joint.child.name),
+                    math3.relative(self.model.pose, joint.child.pose),
+                )
         if self.joint_states:
             self.joint_states.publish(wheel_states(now, [self.right, self.left]))
 

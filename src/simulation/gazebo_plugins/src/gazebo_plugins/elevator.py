@@ -1,4 +1,5 @@
 """libgazebo_ros_elevator.so: a cabin that goes to the floor whose number is sent, and doors that open there."""
+
 from __future__ import annotations
 
 import rospy

@@ -1,5 +1,6 @@
 """libhector_gazebo_ros_force_based_move.so and the copies of it that omnidirectional robots bring: forces push the base to the
 commanded velocity, wheels are there for the looks."""
+
 from __future__ import annotations
 
 import math
@@ -38,10 +39,16 @@ class ForceBasedMove(ModelPlugin):
         self.topics = Topics(sdf, model.name, "C")
         self.gate = PeriodAdded(sdf.get("odometryRate", 20.0))
         self.link = self._base(sdf.text_or("robotBaseFrame", "base_footprint"))
-        self.gains = (sdf.get("x_velocity_p_gain", self.gain), sdf.get("y_velocity_p_gain", self.gain),
-                      sdf.get("yaw_velocity_p_gain", self.turn_gain))
-        self.limits = (sdf.get("max_x_velocity", self.fastest), sdf.get("max_y_velocity", self.fastest),
-                       sdf.get("max_yaw_velocity", self.fastest_turn))
+        self.gains = (
+            sdf.get("x_velocity_p_gain", self.gain),
+            sdf.get("y_velocity_p_gain", self.gain),
+            sdf.get("yaw_velocity_p_gain", self.turn_gain),
+        )
+        self.limits = (
+            sdf.get("max_x_velocity", self.fastest),
+            sdf.get("max_y_velocity", self.fastest),
+            sdf.get("max_yaw_velocity", self.fastest_turn),
+        )
         self.time_limit = sdf.get("cmdVelTimeOut", sdf.get("commandWatchdog", self.timeout))
         self.sends_tf = sdf.get("publishOdometryTf", True)
         self.command = Command(self.topics, sdf.text_or("commandTopic", "cmd_vel"))
@@ -83,8 +90,10 @@ class ForceBasedMove(ModelPlugin):
     def _push(self, pose, velocity) -> None:
         wanted = (self.command.x, self.command.y, self.command.yaw_rate)
         dt = self.server.world.dt
-        ahead, left, turn = (min(gain, most / dt) * (max(-limit, min(limit, aim)) - actual) for gain, most, limit, aim, actual
-                             in zip(self.gains, self.most, self.limits, wanted, velocity))
+        ahead, left, turn = (
+            min(gain, most / dt) * (max(-limit, min(limit, aim)) - actual)
+            for gain, most, limit, aim, actual in zip(self.gains, self.most, self.limits, wanted, velocity)
+        )
         yaw = yaw_of(pose)
         cos, sin = math.cos(yaw), math.sin(yaw)
         self.link.add_force((cos * ahead - sin * left, sin * ahead + cos * left, 0.0))
@@ -94,9 +103,10 @@ class ForceBasedMove(ModelPlugin):
         yaw = yaw_of(self.place) + velocity[2] * elapsed / 2
         cos, sin = math.cos(yaw), math.sin(yaw)
         x, y, _ = self.place.p
-        self.place = Pose((x + (cos * velocity[0] - sin * velocity[1]) * elapsed,
-                           y + (sin * velocity[0] + cos * velocity[1]) * elapsed, 0.0),
-                          math3.quat_from_rpy(0.0, 0.0, yaw + velocity[2] * elapsed / 2))
+        self.place = Pose(
+            (x + (cos * velocity[0] - sin * velocity[1]) * elapsed, y + (sin * velocity[0] + cos * velocity[1]) * elapsed, 0.0),
+            math3.quat_from_rpy(0.0, 0.0, yaw + velocity[2] * elapsed / 2),
+        )
 
     def reset(self) -> None:
         self.command.clear()

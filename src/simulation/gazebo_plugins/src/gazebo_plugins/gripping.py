@@ -1,4 +1,5 @@
 """Holding on to things: libgazebo_ros_vacuum_gripper.so and libgazebo_grasp_fix.so."""
+
 from __future__ import annotations
 
 import itertools
@@ -83,8 +84,7 @@ class GraspFix(ModelPlugin):
         fingers = [child.text for child in arm.children("gripper_link")]
         unknown = [name for name in fingers if name not in model.links]
         if unknown or not fingers:
-            raise PluginError(f"<gripper_link> {', '.join(unknown) or 'is missing'}: no such link in model "
-                              f"{model.name}")
+            raise PluginError(f"<gripper_link> {', '.join(unknown) or 'is missing'}: no such link in model {model.name}")
         self.collisions: Dict[int, str] = {}
         for name in fingers:
             for collision in model.links[name].collisions.values():
@@ -135,8 +135,11 @@ class GraspFix(ModelPlugin):
                     if link.model is not self.model and not link.model.static:
                         pushes.setdefault(link.model.name, []).append(math3.scale(tuple(contact["normal"]), sign))
                         links[link.model.name] = link
-        return {name: links[name] for name, normals in pushes.items()
-                if any(math3.dot(a, b) < math.cos(self.angle) for a in normals for b in normals)}
+        return {
+            name: links[name]
+            for name, normals in pushes.items()
+            if any(math3.dot(a, b) < math.cos(self.angle) for a in normals for b in normals)
+        }
 
     def _hold(self, link) -> None:
         self.finger_gap = self._gap()

@@ -1,4 +1,5 @@
 """libgazebo_ros_hand_of_god.so: a link is pulled to a tf frame by a critically damped spring."""
+
 from __future__ import annotations
 
 import math
@@ -38,8 +39,10 @@ class HandOfGod(ModelPlugin):
                 rospy.logwarn("%s: waiting for the transform world -> %s_desired", self.link.scoped_name, self.frame)
                 self.told = True
             return
-        desired = Pose((transform.translation.x, transform.translation.y, transform.translation.z),
-                       (transform.rotation.x, transform.rotation.y, transform.rotation.z, transform.rotation.w))
+        desired = Pose(
+            (transform.translation.x, transform.translation.y, transform.translation.z),
+            (transform.rotation.x, transform.rotation.y, transform.rotation.z, transform.rotation.w),
+        )
         pose = self.link.pose
         x, y, z, w = math3.quat_multiply(desired.q, math3.quat_inverse(pose.q))
         if w < 0.0:
@@ -47,10 +50,10 @@ class HandOfGod(ModelPlugin):
         length = math.sqrt(x * x + y * y + z * z)
         turn = math3.scale((x, y, z), 2 * math.atan2(length, w) / length) if length > 1e-12 else (0.0, 0.0, 0.0)
         spring, damper = self.stiffness, self.damping
-        self.link.add_force(math3.sub(math3.scale(math3.sub(desired.p, pose.p), spring[0]),
-                                      math3.scale(self.link.linear_velocity(), damper[0])))
-        self.link.add_torque(math3.sub(math3.scale(turn, spring[1]),
-                                       math3.scale(self.link.angular_velocity(), damper[1])))
+        self.link.add_force(
+            math3.sub(math3.scale(math3.sub(desired.p, pose.p), spring[0]), math3.scale(self.link.linear_velocity(), damper[0]))
+        )
+        self.link.add_torque(math3.sub(math3.scale(turn, spring[1]), math3.scale(self.link.angular_velocity(), damper[1])))
         TfBroadcaster.send(self.server.now(), "world", self.frame + "_actual", pose)
 
     def shutdown(self) -> None:

@@ -1,4 +1,5 @@
 """libgazebo_ros_harness.so: a model hangs from the world, is lowered by a winch, and let go."""
+
 from __future__ import annotations
 
 import math
@@ -28,13 +29,11 @@ class Harness(ModelPlugin):
         winch = sdf.child("winch")
         name = required(winch, "joint") if winch else required(sdf, "detach")
         if name not in joints:
-            raise PluginError(f"<winch> names the joint '{name}', which is not among the plugin's: "
-                              f"{', '.join(joints) or 'none'}")
+            raise PluginError(f"<winch> names the joint '{name}', which is not among the plugin's: {', '.join(joints) or 'none'}")
         joint = joints[name]
         child = required(joint, "child")
         if child not in model.links:
-            raise PluginError(f"joint {name}: model {model.name} has no link '{child}'; it has "
-                              f"{', '.join(model.links)}")
+            raise PluginError(f"joint {name}: model {model.name} has no link '{child}'; it has {', '.join(model.links)}")
         self.link = model.links[child]
         axis = joint.child("axis")
         limit = axis.child("limit") if axis else None
@@ -57,8 +56,7 @@ class Harness(ModelPlugin):
         if math.isfinite(message.data):
             self.velocity = message.data
         else:
-            rospy.logwarn("%s: a winch velocity that is not a finite number is ignored",
-                          self.topics.resolve("harness/velocity"))
+            rospy.logwarn("%s: a winch velocity that is not a finite number is ignored", self.topics.resolve("harness/velocity"))
 
     def _release(self, message: Bool) -> None:
         if message.data:

@@ -1,16 +1,18 @@
 """The hector_gazebo_plugins that robot descriptions carry: IMU, GPS, sonar and magnetometer with drifting errors."""
+
 from __future__ import annotations
 
 import math
 from typing import Tuple
 
 import numpy as np
-from geometry_msgs.msg import Quaternion, Vector3, Vector3Stamped
 from gazebo_ros.plugin import ModelPlugin, SensorPlugin
+from geometry_msgs.msg import Quaternion, Vector3, Vector3Stamped
 from node_signals.rates import PeriodAdded
 from ode_sim import math3
 from ode_sim.description.xmlsource import leading_numbers
-from sensor_msgs.msg import Imu, MagneticField, NavSatFix, NavSatStatus, Range as RangeMsg
+from sensor_msgs.msg import Imu, MagneticField, NavSatFix, NavSatStatus
+from sensor_msgs.msg import Range as RangeMsg
 from std_srvs.srv import Empty, EmptyResponse
 
 from gazebo_plugins.imu import Differentiator
@@ -69,8 +71,7 @@ class HectorImu(_BodyPlugin):
     def load(self, server, model, sdf) -> None:
         self._start(server, model, sdf, 0.0)
         rng = server.world.rng(f"{model.name}/hector_imu/{self.link.name}")
-        self.accel, self.rate, self.yaw = (DriftingError(sdf, prefix, n, rng) for prefix, n in
-                                           (("accel", 3), ("rate", 3), ("yaw", 1)))
+        self.accel, self.rate, self.yaw = (DriftingError(sdf, prefix, n, rng) for prefix, n in (("accel", 3), ("rate", 3), ("yaw", 1)))
         if sdf.get("gaussianNoise", 0.0):
             self.accel.sigma = np.full(3, sdf.get("gaussianNoise", 0.0))
         self.offset = math3.quat_from_rpy(*sdf.get("rpyOffset", sdf.get("rpyOffsets", (0.0, 0.0, 0.0))))
@@ -79,8 +80,8 @@ class HectorImu(_BodyPlugin):
         self.topics.service(sdf.text_or("serviceName", topic + "/calibrate"), Empty, self._calibrate)
         message = self.message = Imu()
         message.header.frame_id = sdf.get("frameId", self.link.name) or self.link.name
-        message.angular_velocity_covariance = diagonal(self.rate.sigma ** 2)
-        message.linear_acceleration_covariance = diagonal(self.accel.sigma ** 2)
+        message.angular_velocity_covariance = diagonal(self.rate.sigma**2)
+        message.linear_acceleration_covariance = diagonal(self.accel.sigma**2)
         message.orientation_covariance = diagonal((self.accel.sigma[0] ** 2,) * 2 + (self.yaw.sigma[0] ** 2,))
         self.acceleration = Differentiator(self.link)
 
@@ -114,8 +115,12 @@ class HectorGps(_BodyPlugin):
 
     def load(self, server, model, sdf) -> None:
         self._start(server, model, sdf, 4.0)
-        reference = [sdf.get("referenceLatitude", 49.9), sdf.get("referenceLongitude", 8.9),
-                     math.radians(sdf.get("referenceHeading", 0.0)), sdf.get("referenceAltitude", 0.0)]
+        reference = [
+            sdf.get("referenceLatitude", 49.9),
+            sdf.get("referenceLongitude", 8.9),
+            math.radians(sdf.get("referenceHeading", 0.0)),
+            sdf.get("referenceAltitude", 0.0),
+        ]
         if sdf.get("useWorldSphericalCoordinates", False):
             latitude, longitude, elevation, heading = server.description.spherical_coordinates
             reference = [latitude, longitude, math.pi / 2 - math.radians(heading), elevation]
@@ -151,7 +156,7 @@ class HectorGps(_BodyPlugin):
         message.longitude = self.longitude - math.degrees(west / self.radius_east)
         message.altitude = self.altitude + z
         error = self.position_error
-        message.position_covariance = diagonal(error.drift ** 2 + error.sigma ** 2)
+        message.position_covariance = diagonal(error.drift**2 + error.sigma**2)
         message.position_covariance_type = NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN
         self.fix.publish(message)
         vx, vy, vz = np.array(self.link.linear_velocity()) + self.velocity_error(dt)
@@ -171,8 +176,11 @@ class HectorMagnetic(_BodyPlugin):
             heading = math.pi / 2 - math.radians(server.description.spherical_coordinates[3])
         declination, dip = math.radians(sdf.get("declination", 0.0)), math.radians(sdf.get("inclination", 60.0))
         magnitude = sdf.get("magnitude", 1.0)
-        self.field_W = (magnitude * math.cos(dip) * math.cos(heading - declination),
-                        magnitude * math.cos(dip) * math.sin(heading - declination), -magnitude * math.sin(dip))
+        self.field_W = (
+            magnitude * math.cos(dip) * math.cos(heading - declination),
+            magnitude * math.cos(dip) * math.sin(heading - declination),
+            -magnitude * math.sin(dip),
+        )
         self.error = DriftingError(sdf, "", 3, server.world.rng(f"{model.name}/hector_magnetic/{self.link.name}"))
         self.frame = sdf.get("frameId", self.link.name) or self.link.name
         self.kind = MagneticField if sdf.get("useMagneticFieldMsgs", False) else Vector3Stamped
@@ -200,8 +208,7 @@ class HectorSonar(SensorPlugin):
         message = self.message = RangeMsg()
         message.header.frame_id = sdf.text_or("frameId", "/sonar_link")
         message.radiation_type = RangeMsg.ULTRASOUND
-        message.field_of_view = min(abs(scan.max_angle - scan.min_angle)
-                                    for scan in (self.fan.horizontal, self.fan.vertical))
+        message.field_of_view = min(abs(scan.max_angle - scan.min_angle) for scan in (self.fan.horizontal, self.fan.vertical))
         message.min_range, message.max_range = self.fan.min, self.fan.max
         self.last_ns = 0
         self.publisher = self.topics.publisher(sdf.text_or("topicName", "sonar"), RangeMsg)

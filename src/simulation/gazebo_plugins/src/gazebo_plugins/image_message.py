@@ -1,4 +1,5 @@
 """sensor_msgs messages whose data stays where it is until it goes into the socket buffer."""
+
 from __future__ import annotations
 
 import struct
@@ -16,8 +17,11 @@ class Image(sensor_msgs.msg.Image):
 
     def serialize(self, buff) -> None:
         self.header.serialize(buff)
-        buff.write(struct.pack("<II", self.height, self.width) + _text(self.encoding)
-                   + struct.pack("<BII", self.is_bigendian, self.step, len(self.data)))
+        buff.write(
+            struct.pack("<II", self.height, self.width)
+            + _text(self.encoding)
+            + struct.pack("<BII", self.is_bigendian, self.step, len(self.data))
+        )
         buff.write(self.data)
 
 

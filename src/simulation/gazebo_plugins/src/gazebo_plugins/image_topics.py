@@ -1,4 +1,5 @@
 """An image topic as image_transport offers it: the raw image, and compressed ones beside it with their parameters."""
+
 from __future__ import annotations
 
 from functools import lru_cache
@@ -15,8 +16,9 @@ if TYPE_CHECKING:
     from theora_image_transport.publisher import TheoraPublisher
 
 COMPRESSED = (
-    Parameter("format", str, "jpeg", description="Compression format",
-              enum={"jpeg": "JPEG lossy compression", "png": "PNG lossless compression"}),
+    Parameter(
+        "format", str, "jpeg", description="Compression format", enum={"jpeg": "JPEG lossy compression", "png": "PNG lossless compression"}
+    ),
     Parameter("jpeg_quality", int, 80, 1, 100, "JPEG quality percentile"),
     Parameter("png_level", int, 9, 1, 9, "PNG compression level"),
 )
@@ -38,8 +40,7 @@ class _NotADepth(rospy.SubscribeListener):
     def peer_subscribe(self, topic_name, topic_publish, peer_publish) -> None:
         if not self._said:
             self._said = True
-            rospy.logwarn("%s stays empty: it is for depth images, this one is %s; use compressed", topic_name,
-                          self._encoding)
+            rospy.logwarn("%s stays empty: it is for depth images, this one is %s; use compressed", topic_name, self._encoding)
 
 
 @lru_cache(maxsize=1)
@@ -64,8 +65,9 @@ class ImageTopics:
     :param queue_size: messages kept for a slow subscriber.
     """
 
-    def __init__(self, topic: str, encoding: str, shape: Tuple[int, int], queue_size: int, source: str = "image",
-                 compressible: bool = True):
+    def __init__(
+        self, topic: str, encoding: str, shape: Tuple[int, int], queue_size: int, source: str = "image", compressible: bool = True
+    ):
         self._source, self._encoding, (self._height, self._width) = source, encoding, shape
         self._raw = rospy.Publisher(topic, Image, queue_size=queue_size)
         self._compressed = self._depth = None
@@ -74,12 +76,16 @@ class ImageTopics:
         if compressible:
             self._settings = f"jpeg:{COMPRESSED[1].default}"
             self._compressed = rospy.Publisher(f"{topic}/compressed", CompressedImage, queue_size=queue_size)
-            self._depth = rospy.Publisher(f"{topic}/compressedDepth", CompressedImage, queue_size=queue_size,
-                                          subscriber_listener=_NotADepth(encoding))
-            self._parameters = (Server(f"{topic}/compressed", COMPRESSED, self._configure),
-                                Server(f"{topic}/compressedDepth", COMPRESSED_DEPTH, lambda config, level: None))
+            self._depth = rospy.Publisher(
+                f"{topic}/compressedDepth", CompressedImage, queue_size=queue_size, subscriber_listener=_NotADepth(encoding)
+            )
+            self._parameters = (
+                Server(f"{topic}/compressed", COMPRESSED, self._configure),
+                Server(f"{topic}/compressedDepth", COMPRESSED_DEPTH, lambda config, level: None),
+            )
             if _theora():
                 from theora_image_transport.publisher import TheoraPublisher
+
                 self._theora = TheoraPublisher(topic, encoding, shape, queue_size)
 
     def _configure(self, config: Dict, _level: int) -> None:
@@ -99,15 +105,13 @@ class ImageTopics:
         for name, data in frame.data.items():
             kind = name.partition(":")[0]
             if name == self._source:
-                self._raw.publish(Image(header, self._height, self._width, self._encoding, 0, len(data) // self._height,
-                                        data))
+                self._raw.publish(Image(header, self._height, self._width, self._encoding, 0, len(data) // self._height, data))
                 if self._theora is not None:
                     self._theora.publish(header, data)
             elif kind in ("jpeg", "png") and self._compressed is not None:
                 colour = "rgb" in self._encoding or "bgr" in self._encoding
                 target = ("bgr16" if kind == "png" and self._encoding.endswith("16") else "bgr8") if colour else ""
-                self._compressed.publish(CompressedImage(header, f"{self._encoding}; {kind} compressed {target}",
-                                                         bytes(data)))
+                self._compressed.publish(CompressedImage(header, f"{self._encoding}; {kind} compressed {target}", bytes(data)))
 
     def shutdown(self) -> None:
         for publisher in (self._raw, self._compressed, self._depth):

@@ -3,15 +3,16 @@
 The two differ upstream and packages know it: the model plugin's acceleration is the bare derivative of velocity (0 at
 rest), the sensor's includes the reaction to gravity (+9.8 along z at rest).
 """
+
 from __future__ import annotations
 
 import math
 from typing import Optional
 
 import numpy as np
-from geometry_msgs.msg import Quaternion, Vector3
 from gazebo_ros import SdfElement
 from gazebo_ros.plugin import ModelPlugin, SensorPlugin
+from geometry_msgs.msg import Quaternion, Vector3
 from node_signals.rates import Spaced
 from ode_sim import math3
 from sensor_msgs.msg import Imu
@@ -126,8 +127,7 @@ class ImuSensor(SensorPlugin):
         message.header.frame_id = required(sdf, "frameName")
         for name in ("orientation_covariance", "angular_velocity_covariance", "linear_acceleration_covariance"):
             setattr(message, name, diagonal((sigma * sigma,) * 3))
-        self.reference = math3.quat_inverse(self._orientation()) \
-            if sdf.get("initialOrientationAsReference", False) else None
+        self.reference = math3.quat_inverse(self._orientation()) if sdf.get("initialOrientationAsReference", False) else None
         self.acceleration = Differentiator(sensor.link, sensor.description.pose.p)
         self.last_ns = 0
         self.gate = Spaced(sdf.get("updateRateHZ", 1.0))

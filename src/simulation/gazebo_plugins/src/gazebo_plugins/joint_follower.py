@@ -1,4 +1,5 @@
 """Mimic joints: libroboticsgroup_gazebo_mimic_joint_plugin.so and its descendants. Gazebo itself lets them hang."""
+
 from __future__ import annotations
 
 from gazebo_ros.plugin import ModelPlugin

@@ -1,4 +1,5 @@
 """libgazebo_ros_joint_state_publisher.so: positions and velocities of named joints, straight from the engine."""
+
 from __future__ import annotations
 
 from gazebo_ros.plugin import ModelPlugin, PluginError

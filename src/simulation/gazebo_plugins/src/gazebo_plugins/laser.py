@@ -2,18 +2,20 @@
 
 A ``gpu_ray`` sensor needs no GPU here: both kinds cast rays against collision shapes.
 """
+
 from __future__ import annotations
 
 from typing import Optional
 
 import numpy as np
 import rospy
-from geometry_msgs.msg import Point32
 from gazebo_ros import SdfElement, names
 from gazebo_ros.plugin import PluginError, SensorPlugin
+from geometry_msgs.msg import Point32
 from node_signals.rates import Spaced
 from ode_sim import math3
-from sensor_msgs.msg import ChannelFloat32, LaserScan, PointCloud, Range as RangeMsg
+from sensor_msgs.msg import ChannelFloat32, LaserScan, PointCloud
+from sensor_msgs.msg import Range as RangeMsg
 
 from gazebo_plugins.ros_side import Topics, subscribed, told_namespace
 
@@ -29,9 +31,8 @@ class _Scan:
         self.min_angle = sdf.get("min_angle", 0.0) if sdf else 0.0
         self.max_angle = sdf.get("max_angle", 0.0) if sdf else 0.0
         self.count = max(1, int(self.samples * self.resolution))  # values reported
-        if self.resolution <= 0.0 or self.count * self.samples > _MOST_RAYS ** 2:
-            raise PluginError(f"<samples>{self.samples}</samples> with <resolution>{self.resolution}</resolution> is "
-                              "not possible")
+        if self.resolution <= 0.0 or self.count * self.samples > _MOST_RAYS**2:
+            raise PluginError(f"<samples>{self.samples}</samples> with <resolution>{self.resolution}</resolution> is not possible")
 
     def rays(self) -> np.ndarray:
         """(samples,) rad."""

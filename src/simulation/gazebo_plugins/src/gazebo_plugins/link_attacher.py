@@ -1,4 +1,5 @@
 """libgazebo_ros_link_attacher.so: services that hold links of two models together and let them go."""
+
 from __future__ import annotations
 
 from typing import Dict, Tuple
@@ -18,8 +19,10 @@ class LinkAttacher(WorldPlugin):
     def load(self, server, sdf) -> None:
         self.server = server
         self.attachments: Dict[Pair, Attachment] = {}
-        self.services = [offers.service(f"/link_attacher_node/{name}", Attach, handler)
-                         for name, handler in (("attach", self._attach), ("detach", self._detach))]
+        self.services = [
+            offers.service(f"/link_attacher_node/{name}", Attach, handler)
+            for name, handler in (("attach", self._attach), ("detach", self._detach))
+        ]
 
     def _attach(self, request: AttachRequest) -> AttachResponse:
         return self._answer(request, self._hold)
@@ -37,15 +40,12 @@ class LinkAttacher(WorldPlugin):
 
     def _links(self, request: AttachRequest):
         links = []
-        for model_name, link_name in ((request.model_name_1, request.link_name_1),
-                                      (request.model_name_2, request.link_name_2)):
+        for model_name, link_name in ((request.model_name_1, request.link_name_1), (request.model_name_2, request.link_name_2)):
             model = self.server.world.models.get(model_name)
             if model is None:
-                raise PluginError(f"there is no model '{model_name}'; there are "
-                                  f"{', '.join(self.server.world.models) or 'none'}")
+                raise PluginError(f"there is no model '{model_name}'; there are {', '.join(self.server.world.models) or 'none'}")
             if link_name not in model.links:
-                raise PluginError(f"model {model_name} has no link '{link_name}'; it has "
-                                  f"{', '.join(model.links) or 'none'}")
+                raise PluginError(f"model {model_name} has no link '{link_name}'; it has {', '.join(model.links) or 'none'}")
             links.append(model.links[link_name])
         return links
 

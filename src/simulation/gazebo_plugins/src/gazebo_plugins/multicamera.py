@@ -1,4 +1,5 @@
 """libgazebo_ros_multicamera.so: the two cameras of a ``<sensor type="multicamera">`` as a stereo pair."""
+
 from __future__ import annotations
 
 from typing import List
@@ -20,14 +21,16 @@ class Multicamera(SensorPlugin):
         by_side = {side: [e for e in elements if side in e.get("name", "")] for side in _SIDES}
         if len(elements) != 2 or any(len(found) != 1 for found in by_side.values()):
             names = ", ".join(f"'{e.get('name', '')}'" for e in elements) or "none"
-            raise PluginError(f"sensor '{sensor.name}' needs exactly two cameras, one with 'left' and one with 'right' "
-                              f"in its name; it has: {names}")
+            raise PluginError(
+                f"sensor '{sensor.name}' needs exactly two cameras, one with 'left' and one with 'right' in its name; it has: {names}"
+            )
         namespace = node_namespace(sensor, sdf)
         self.cameras: List[RosCamera] = []
         try:
             for side, (element,) in by_side.items():
-                self.cameras.append(RosCamera(server, sensor, sdf, element, join(namespace, side),
-                                              baseline=0.0 if side == "left" else None))
+                self.cameras.append(
+                    RosCamera(server, sensor, sdf, element, join(namespace, side), baseline=0.0 if side == "left" else None)
+                )
         except PluginError:
             self.shutdown()  # the left one may already be there
             raise

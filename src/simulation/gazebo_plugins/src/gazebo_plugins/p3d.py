@@ -1,8 +1,9 @@
 """libgazebo_ros_p3d.so: the true pose and velocity of a link as nav_msgs/Odometry."""
+
 from __future__ import annotations
 
-from geometry_msgs.msg import Twist, Vector3
 from gazebo_ros.plugin import ModelPlugin, PluginError
+from geometry_msgs.msg import Twist, Vector3
 from nav_msgs.msg import Odometry
 from node_signals.rates import Spaced
 from ode_sim import math3
@@ -25,8 +26,9 @@ class P3D(ModelPlugin):
         if frame not in _WORLD:
             self.reference = model.links.get(frame)
             if self.reference is None:
-                raise PluginError(f"<frameName> must be world, map or a link of model {model.name}; '{frame}' is none "
-                                  f"of them ({', '.join(model.links)})")
+                raise PluginError(
+                    f"<frameName> must be world, map or a link of model {model.name}; '{frame}' is none of them ({', '.join(model.links)})"
+                )
         self.xyz = sdf.get("xyzOffset", sdf.get("xyzOffsets", (0.0, 0.0, 0.0)))
         self.rpy = math3.quat_from_rpy(*sdf.get("rpyOffset", sdf.get("rpyOffsets", (0.0, 0.0, 0.0))))
         sigma = sdf.get("gaussianNoise", 0.0)

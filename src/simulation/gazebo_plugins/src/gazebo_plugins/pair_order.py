@@ -5,6 +5,7 @@ they collide with: doubling the side is the next class, infinite planes and what
 the smaller class is the first; of equals the one that stands still, else the one that was made last.
 ``contacts.cpp`` of gazebo_cpp has the same rule for plugins in C++.
 """
+
 from __future__ import annotations
 
 import math

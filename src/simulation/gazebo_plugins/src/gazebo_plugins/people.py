@@ -1,4 +1,5 @@
 """libActorPlugin.so: a person of a world wanders from one place to the next and keeps away from what stands in the way."""
+
 from __future__ import annotations
 
 import math

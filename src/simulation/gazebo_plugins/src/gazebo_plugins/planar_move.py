@@ -1,4 +1,5 @@
 """libgazebo_ros_planar_move.so: the whole model glides over the plane as commanded, without wheels."""
+
 from __future__ import annotations
 
 import math

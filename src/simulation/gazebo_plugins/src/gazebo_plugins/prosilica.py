@@ -1,4 +1,5 @@
 """libgazebo_ros_prosilica.so: a camera that streams, or gives one picture for each request."""
+
 from __future__ import annotations
 
 import threading
@@ -54,32 +55,31 @@ class Prosilica(Camera):
         if request.binning_x > 1 or request.binning_y > 1:
             return GetPolledImageResponse(success=False, status_message="binning is not supported; use 0 or 1")
         roi, camera = request.roi, self.camera.camera
-        if any((roi.x_offset, roi.y_offset)) or roi.width not in (
-            0, camera.width) or roi.height not in (0, camera.height):
-            return GetPolledImageResponse(
-                success=False, status_message="a region of interest is not supported; leave it 0")
+        if any((roi.x_offset, roi.y_offset)) or roi.width not in (0, camera.width) or roi.height not in (0, camera.height):
+            return GetPolledImageResponse(success=False, status_message="a region of interest is not supported; leave it 0")
         image_topic, info_topic = self._topics(request.response_namespace)
         header = Header(stamp=self._server.now(), frame_id=self.camera.frame_id)
         taken = threading.Event()
 
         def arrived(header: Header, frame: Frame) -> None:
             data = bytes(frame.data["image"])  # a latched message outlives the frame
-            image_topic.publish(Image(header, camera.height, camera.width, camera.encoding, 0,
-                                      len(data) // camera.height, data))
+            image_topic.publish(Image(header, camera.height, camera.width, camera.encoding, 0, len(data) // camera.height, data))
             info_topic.publish(self.camera.info(header))
             taken.set()
+
         self._server.call(lambda: self.camera.shoot(header, ("image",), arrived))
         if not taken.wait(_TIMEOUT):
-            return GetPolledImageResponse(
-                success=False, status_message="the camera gives no picture; see the simulator's log")
+            return GetPolledImageResponse(success=False, status_message="the camera gives no picture; see the simulator's log")
         return GetPolledImageResponse(success=True, stamp=header.stamp)
 
     def _topics(self, namespace: str):
         """Publishers of a response namespace, latched: the caller may subscribe only after the answer."""
         if namespace not in self._publishers:
             base = join(self.camera.namespace, namespace)
-            self._publishers[namespace] = (rospy.Publisher(f"{base}/image_raw", Image, queue_size=2, latch=True),
-                                           rospy.Publisher(f"{base}/camera_info", CameraInfo, queue_size=2, latch=True))
+            self._publishers[namespace] = (
+                rospy.Publisher(f"{base}/image_raw", Image, queue_size=2, latch=True),
+                rospy.Publisher(f"{base}/camera_info", CameraInfo, queue_size=2, latch=True),
+            )
         return self._publishers[namespace]
 
     def shutdown(self) -> None:

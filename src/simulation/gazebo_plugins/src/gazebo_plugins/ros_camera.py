@@ -1,4 +1,5 @@
 """What all camera plugins share: one simulated camera with its topics, parameters and services."""
+
 from __future__ import annotations
 
 import copy
@@ -7,7 +8,8 @@ from typing import Callable, Optional, Tuple
 
 import numpy as np
 import rospy
-from dynamic_parameters import Parameter, Server as ParameterServer
+from dynamic_parameters import Parameter
+from dynamic_parameters import Server as ParameterServer
 from gazebo_ros.names import join, resolve_frame, robot_namespace, tf_prefix
 from gazebo_ros.plugin import PluginError
 from gazebo_ros.rate_watch import RateWatch
@@ -33,14 +35,24 @@ def camera_of(sensor, sdf, element) -> Camera:
         raise PluginError(f"sensor '{sensor.name}' has no <camera> element")
     given = (element.findtext("image/format") or "R8G8B8").strip()
     try:
-        camera = read_camera(element, sensor.description.pose, sensor.link.scoped_name,
-                             f"{sensor.scoped_name}::{element.get('name', '')}",
-                             image_format=given if given in ENCODINGS else "B8G8R8", wide=sensor.description.type == "wideanglecamera")
+        camera = read_camera(
+            element,
+            sensor.description.pose,
+            sensor.link.scoped_name,
+            f"{sensor.scoped_name}::{element.get('name', '')}",
+            image_format=given if given in ENCODINGS else "B8G8R8",
+            wide=sensor.description.type == "wideanglecamera",
+        )
     except CameraError as error:
         raise PluginError(f"sensor '{sensor.name}': {error}") from None
     if given not in ENCODINGS:
-        rospy.logerr("sensor '%s' of model '%s': unknown image format '%s', bgr8 is published; known: %s", sensor.name,
-                     sensor.model.name, given, ", ".join(ENCODINGS))
+        rospy.logerr(
+            "sensor '%s' of model '%s': unknown image format '%s', bgr8 is published; known: %s",
+            sensor.name,
+            sensor.model.name,
+            given,
+            ", ".join(ENCODINGS),
+        )
     return replace(camera, distortion=replace(camera.distortion, crop=sdf.get("borderCrop", True)))
 
 
@@ -56,8 +68,16 @@ class RosCamera:
     :param depth_range: m, outside of which a depth is invalid.
     """
 
-    def __init__(self, server, sensor, sdf, element, namespace: str, baseline: Optional[float] = None,
-                 depth_range: Tuple[float, float] = (0.0, np.inf)):
+    def __init__(
+        self,
+        server,
+        sensor,
+        sdf,
+        element,
+        namespace: str,
+        baseline: Optional[float] = None,
+        depth_range: Tuple[float, float] = (0.0, np.inf),
+    ):
         self.sensor = sensor
         self.namespace = namespace
         self.camera = camera_of(sensor, sdf, element)
@@ -68,8 +88,10 @@ class RosCamera:
         given = told_namespace(sdf, sensor.model.name, "Camera")
         rospy.loginfo('Camera Plugin (ns = %s)  <tf_prefix_>, set to "%s"', given, prefix)
         if not sdf.get("cameraName", ""):
-            rospy.logwarn("dynamic reconfigure is not enabled for this image topic [%s] becuase <cameraName> is not "
-                          "specified", sdf.text_or("imageTopicName", "image_raw"))  # upstream's spelling
+            rospy.logwarn(
+                "dynamic reconfigure is not enabled for this image topic [%s] becuase <cameraName> is not specified",
+                sdf.text_or("imageTopicName", "image_raw"),
+            )  # upstream's spelling
         self.frame_id = resolve_frame(prefix, sdf.get("frameName", ""))
         #: the plugin's own ``<updateRate>``
         self._plugin_rate = sdf.get("updateRate", 0.0)
@@ -77,24 +99,34 @@ class RosCamera:
         self._watch = RateWatch()
         self._world = server.world
         self._closed = False
-        self._shooting = Shooting(server, self.camera, f"camera '{sensor.name}' of model '{sensor.model.name}'",
-                                  depth_range)
+        self._shooting = Shooting(server, self.camera, f"camera '{sensor.name}' of model '{sensor.model.name}'", depth_range)
         name = sdf.text_or("cameraName", sensor.name)
         info = camera_info(self.camera, calibration, calibration.baseline if baseline is None else baseline)
         self._info_service = CameraInfoService(namespace, name.strip("/").replace("/", "_"), info)
-        self._info = rospy.Publisher(join(namespace, sdf.text_or("cameraInfoTopicName", "camera_info")), CameraInfo,
-                                     queue_size=self.queue_size)
-        self.image = ImageTopics(join(namespace, sdf.text_or("imageTopicName", "image_raw")), self.camera.encoding,
-                                 (self.camera.height, self.camera.width), self.queue_size)
-        self._rate = (ParameterServer(namespace, _RATE, self._set_rate) if sdf.get("cameraName", "") else None)
+        self._info = rospy.Publisher(
+            join(namespace, sdf.text_or("cameraInfoTopicName", "camera_info")), CameraInfo, queue_size=self.queue_size
+        )
+        self.image = ImageTopics(
+            join(namespace, sdf.text_or("imageTopicName", "image_raw")),
+            self.camera.encoding,
+            (self.camera.height, self.camera.width),
+            self.queue_size,
+        )
+        self._rate = ParameterServer(namespace, _RATE, self._set_rate) if sdf.get("cameraName", "") else None
 
     def _check_focal_length(self, given: float) -> None:
         if given and abs(given - self.camera.focal_length) > 1e-8:
-            rospy.logwarn("sensor '%s' of model '%s': <focalLength> %g does not fit width %d and horizontal_fov %g, "
-                          "which give %g; camera_info carries %g, the picture is drawn with the field of view",
-                          self.sensor.name, self.sensor.model.name, given, self.camera.width, self.camera.hfov,
-                          self.camera.focal_length,
-                          given)
+            rospy.logwarn(
+                "sensor '%s' of model '%s': <focalLength> %g does not fit width %d and horizontal_fov %g, "
+                "which give %g; camera_info carries %g, the picture is drawn with the field of view",
+                self.sensor.name,
+                self.sensor.model.name,
+                given,
+                self.camera.width,
+                self.camera.hfov,
+                self.camera.focal_length,
+                given,
+            )
 
     def _set_rate(self, config, level: int) -> None:
         if level != -1:  # the default is not the user's wish: the sensor's own rate holds until somebody changes it
@@ -112,9 +144,11 @@ class RosCamera:
 
     def take(self) -> None:
         """Take one picture of now and publish what somebody listens to; image and camera_info share the stamp."""
+
         def arrived(header: Header, frame: Frame) -> None:
             self.image.publish(header, frame)
             self.publish_info(header)
+
         outputs = self.image.outputs()
         if outputs:
             self.shoot(self.header(), outputs, arrived)
@@ -131,9 +165,9 @@ class RosCamera:
             if not self._closed:
                 deliver(header, frame)
                 self.sensor.pictured(measured_ns)
+
         taken = self._shooting.shoot(outputs, arrived)
-        said = self._watch.asked(self.sensor.measurement_ns, taken, self.sensor.update_rate.rate, self._plugin_rate,
-                                 self._world.dt)
+        said = self._watch.asked(self.sensor.measurement_ns, taken, self.sensor.update_rate.rate, self._plugin_rate, self._world.dt)
         if said:
             rospy.logwarn("camera '%s' of model '%s' %s", self.sensor.name, self.sensor.model.name, said)
 

@@ -1,16 +1,17 @@
 """What most plugins share towards ROS: topics in the plugin's namespace, rate gates, noise, messages from poses."""
+
 from __future__ import annotations
 
 from typing import Any, Callable, Collection, Dict, List, Optional, Sequence
 
 import rospy
 import tf2_ros
-from geometry_msgs.msg import Point, Pose as PoseMsg, Quaternion, Transform, TransformStamped, Vector3
+from gazebo_ros import names
+from geometry_msgs.msg import Point, Quaternion, Transform, TransformStamped, Vector3
+from geometry_msgs.msg import Pose as PoseMsg
 from node_signals import offers
 from ode_sim.description.model import Pose
 from plugin_loader import PluginError
-
-from gazebo_ros import names
 
 _NS = 1_000_000_000
 
@@ -38,8 +39,7 @@ class Topics:
     def publisher(self, name: str, kind: type, queue_size: int = 1, latch: bool = False) -> rospy.Publisher:
         return self._keep(offers.publisher(self.resolve(name), kind, queue_size=queue_size, latch=latch))
 
-    def subscriber(self, name: str, kind: type, callback: Callable[[Any], None],
-                   queue_size: int = 1) -> rospy.Subscriber:
+    def subscriber(self, name: str, kind: type, callback: Callable[[Any], None], queue_size: int = 1) -> rospy.Subscriber:
         return self._keep(offers.subscriber(self.resolve(name), kind, callback, queue_size=queue_size, tcp_nodelay=True))
 
     def service(self, name: str, kind: type, handler: Callable[[Any], Any]) -> rospy.Service:
@@ -130,8 +130,7 @@ def joint_named(model, name: str, tag: str) -> Any:
     """
     joint = model.joints.get(name.removeprefix(model.name + "::"))
     if joint is None:
-        raise PluginError(f"<{tag}> names the joint '{name}', which model {model.name} does not have; "
-                          f"it has {_listed(model.joints)}")
+        raise PluginError(f"<{tag}> names the joint '{name}', which model {model.name} does not have; it has {_listed(model.joints)}")
     return joint
 
 
@@ -145,9 +144,11 @@ def find_link(model, world, sdf, tag: str = "bodyName") -> Any:
         raise PluginError(f"<{tag}> is missing: it must name a link of model {model.name}")
     link = model.links.get(name) or world.find_link(name)
     if link is None:
-        raise PluginError(f"<{tag}> names the link '{name}', which does not exist; model {model.name} has "
-                          f"{_listed(model.links)}. A link behind a fixed joint is merged into its parent "
-                          "(<preserveFixedJoint> keeps it)")
+        raise PluginError(
+            f"<{tag}> names the link '{name}', which does not exist; model {model.name} has "
+            f"{_listed(model.links)}. A link behind a fixed joint is merged into its parent "
+            "(<preserveFixedJoint> keeps it)"
+        )
     return link
 
 

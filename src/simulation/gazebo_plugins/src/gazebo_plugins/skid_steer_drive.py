@@ -1,4 +1,5 @@
 """libgazebo_ros_skid_steer_drive.so: four wheels, the two of a side turning alike."""
+
 from __future__ import annotations
 
 from gazebo_ros.plugin import ModelPlugin
@@ -7,8 +8,12 @@ from node_signals.rates import PeriodAdded
 from gazebo_plugins.ros_side import Topics, find_joint
 from gazebo_plugins.wheels import UNKNOWN, Command, OdometryPublisher, ground_truth
 
-_WHEELS = (("leftFrontJoint", "left_front_joint", -1), ("rightFrontJoint", "right_front_joint", 1),
-           ("leftRearJoint", "left_rear_joint", -1), ("rightRearJoint", "right_rear_joint", 1))
+_WHEELS = (
+    ("leftFrontJoint", "left_front_joint", -1),
+    ("rightFrontJoint", "right_front_joint", 1),
+    ("leftRearJoint", "left_rear_joint", -1),
+    ("rightRearJoint", "right_rear_joint", 1),
+)
 
 
 class SkidSteerDrive(ModelPlugin):
@@ -21,8 +26,14 @@ class SkidSteerDrive(ModelPlugin):
         self.torque = sdf.get("torque", 5.0)
         self.broadcast_tf = sdf.get("broadcastTF", False)
         self.gate = PeriodAdded(sdf.get("updateRate", 100.0))
-        covariance = (sdf.get("covariance_x", 1e-4), sdf.get("covariance_y", 1e-4), UNKNOWN, UNKNOWN, UNKNOWN,
-                      sdf.get("covariance_yaw", 1e-2))
+        covariance = (
+            sdf.get("covariance_x", 1e-4),
+            sdf.get("covariance_y", 1e-4),
+            UNKNOWN,
+            UNKNOWN,
+            UNKNOWN,
+            sdf.get("covariance_yaw", 1e-2),
+        )
         self.command = Command(self.topics, sdf.text_or("commandTopic", "cmd_vel"))
         self.odometry = OdometryPublisher(self.topics, sdf, "base_footprint", covariance, covariance)
         self._drive()

@@ -1,4 +1,5 @@
 """libgazebo_ros_template.so: does nothing, as its original."""
+
 from gazebo_ros.plugin import ModelPlugin
 
 

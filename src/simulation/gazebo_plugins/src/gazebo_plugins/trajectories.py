@@ -1,4 +1,5 @@
 """libgazebo_ros_joint_pose_trajectory.so: joints are put to the points of a trajectory one after the other."""
+
 from __future__ import annotations
 
 import math
@@ -44,8 +45,9 @@ class JointPoseTrajectory(ModelPlugin):
         unknown = [name for name in message.joint_names if name not in still.model.joints]
         if unknown:
             raise PluginError(f"model {still.model.name} has no joint {', '.join(unknown)}")
-        if any(len(point.positions) != len(message.joint_names) or not all(map(math.isfinite, point.positions))
-               for point in message.points):
+        if any(
+            len(point.positions) != len(message.joint_names) or not all(map(math.isfinite, point.positions)) for point in message.points
+        ):
             raise PluginError("each point needs one finite position per joint")
         self.still, self.still_pose = still, still.pose
         self.joints = [still.model.joints[name] for name in message.joint_names]

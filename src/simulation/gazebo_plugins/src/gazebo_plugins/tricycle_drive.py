@@ -1,4 +1,5 @@
 """libgazebo_ros_tricycle_drive.so: one steered and driven wheel, two wheels with encoders."""
+
 from __future__ import annotations
 
 import math
@@ -36,14 +37,12 @@ class TricycleDrive(ModelPlugin):
         self.speed_tolerance = sdf.get("wheelSpeedTolerance", 0.01)
         self.steering_speed = sdf.get("steeringSpeed", 0.0)
         self.angle_tolerance = sdf.get("steeringAngleTolerance", 0.01)
-        self.encoders = EncoderOdometry(self.left, self.right, self.encoder_radius, self.encoder_separation) \
-            if from_encoders(sdf) else None
+        self.encoders = EncoderOdometry(self.left, self.right, self.encoder_radius, self.encoder_separation) if from_encoders(sdf) else None
         self.publish_wheel_tf = sdf.get("publishWheelTF", False)
         self.gate = PeriodAdded(sdf.get("updateRate", 100.0))
         self.command = Command(self.topics, sdf.text_or("commandTopic", "cmd_vel"))
         self.odometry = OdometryPublisher(self.topics, sdf, "base_link")
-        self.joint_states = self.topics.publisher("joint_states", JointState, 1000) \
-            if sdf.get("publishWheelJointState", False) else None
+        self.joint_states = self.topics.publisher("joint_states", JointState, 1000) if sdf.get("publishWheelJointState", False) else None
         self.reset()
         server.drives(self.steering, self.driven)
         server.before_step(self.step)
@@ -86,8 +85,12 @@ class TricycleDrive(ModelPlugin):
         joints = (self.steering, self.driven, self.left, self.right)
         if self.publish_wheel_tf:
             for joint in joints:
-                TfBroadcaster.send(now, self.topics.frame(joint.parent.name), self.topics.frame(joint.name),
-                                   math3.relative(joint.parent.pose, joint.child.pose))
+                TfBroadcaster.send(
+                    now,
+                    self.topics.frame(joint.parent.name),
+                    self.topics.frame(joint.name),
+                    math3.relative(joint.parent.pose, joint.child.pose),
+                )
         if self.joint_states:
             message = JointState()
             message.header.stamp = now

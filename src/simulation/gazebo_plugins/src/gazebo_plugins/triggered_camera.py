@@ -1,4 +1,5 @@
 """libgazebo_ros_triggered_camera.so and libgazebo_ros_triggered_multicamera.so: one picture per trigger message."""
+
 from __future__ import annotations
 
 import threading
@@ -18,8 +19,9 @@ class _Trigger:
     def __init__(self, namespace: str, sdf):
         self._count = 0
         self._lock = threading.Lock()
-        self._subscriber = rospy.Subscriber(join(namespace, sdf.text_or("triggerTopicName", "image_trigger")), Empty,
-                                            self._pull, queue_size=100)
+        self._subscriber = rospy.Subscriber(
+            join(namespace, sdf.text_or("triggerTopicName", "image_trigger")), Empty, self._pull, queue_size=100
+        )
 
     def _pull(self, _message) -> None:
         with self._lock:

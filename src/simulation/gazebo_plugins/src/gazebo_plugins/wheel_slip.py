@@ -1,9 +1,11 @@
 """libgazebo_ros_wheel_slip.so: wheels that slip in proportion to the force, adjustable while they roll."""
+
 from __future__ import annotations
 
 from typing import Any, Dict
 
-from dynamic_parameters import Parameter, Server as Reconfigure
+from dynamic_parameters import Parameter
+from dynamic_parameters import Server as Reconfigure
 from gazebo_ros.plugin import ModelPlugin, PluginError
 from ode_sim import math3
 
@@ -11,8 +13,17 @@ from gazebo_plugins.ros_side import Topics
 
 _UNCHANGED = -1.0
 _TAGS = {"lateral": "slip_compliance_lateral", "longitudinal": "slip_compliance_longitudinal"}
-_TABLE = [Parameter(f"slip_compliance_unitless_{way}", float, _UNCHANGED, _UNCHANGED, 20.0,
-                    f"{way} slip per friction force over normal force; -1 leaves what the model says") for way in _TAGS]
+_TABLE = [
+    Parameter(
+        f"slip_compliance_unitless_{way}",
+        float,
+        _UNCHANGED,
+        _UNCHANGED,
+        20.0,
+        f"{way} slip per friction force over normal force; -1 leaves what the model says",
+    )
+    for way in _TAGS
+]
 
 
 class _Wheel:
@@ -32,8 +43,7 @@ class _Wheel:
         self.joint = joint
         self.radius, self.force = sdf.get("wheel_radius", 0.0), sdf.get("wheel_normal_force", 0.0)
         if self.radius <= 0.0 or self.force <= 0.0:
-            raise PluginError(f"<wheel link_name='{name}'>: <wheel_radius> (m) and <wheel_normal_force> (N) must be "
-                              "positive")
+            raise PluginError(f"<wheel link_name='{name}'>: <wheel_radius> (m) and <wheel_normal_force> (N) must be positive")
         self.own = {way: sdf.get(tag, 0.0) for way, tag in _TAGS.items()}
         self.compliance = dict(self.own)
         self.surfaces = [collision.surface for collision in link.collisions.values()]
@@ -67,6 +77,7 @@ class WheelSlip(ModelPlugin):
                 value = config[f"slip_compliance_unitless_{way}"]
                 for wheel in self.wheels:
                     wheel.compliance[way] = wheel.own[way] if value < 0.0 else value
+
         self.server.call(apply)
 
     def step(self) -> None:

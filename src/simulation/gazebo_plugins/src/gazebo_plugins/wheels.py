@@ -1,4 +1,5 @@
 """What the plugins that drive on wheels share: the newest command, odometry messages, ground truth pose."""
+
 from __future__ import annotations
 
 import math
@@ -62,8 +63,14 @@ class OdometryPublisher:
     :param twist_covariance: the same of the twist
     """
 
-    def __init__(self, topics: Topics, sdf, base_frame: str, pose_covariance: Sequence[float] = POSE_COVARIANCE,
-                 twist_covariance: Sequence[float] = (0.0,) * 6):
+    def __init__(
+        self,
+        topics: Topics,
+        sdf,
+        base_frame: str,
+        pose_covariance: Sequence[float] = POSE_COVARIANCE,
+        twist_covariance: Sequence[float] = (0.0,) * 6,
+    ):
         self.frame = topics.frame(sdf.text_or("odometryFrame", "odom"))
         self.base = topics.frame(sdf.text_or("robotBaseFrame", base_frame))
         self.publisher = topics.publisher(sdf.text_or("odometryTopic", "odom"), Odometry)

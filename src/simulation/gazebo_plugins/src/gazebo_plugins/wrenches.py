@@ -1,12 +1,13 @@
 """Forces in and out: libgazebo_ros_ft_sensor.so, libgazebo_ros_f3d.so, libgazebo_ros_force.so."""
+
 from __future__ import annotations
 
 import math
 
 import rospy
-from geometry_msgs.msg import Vector3, Wrench, WrenchStamped
 from gazebo_ros import SdfElement
 from gazebo_ros.plugin import ModelPlugin, PluginError, SensorPlugin
+from geometry_msgs.msg import Vector3, Wrench, WrenchStamped
 from node_signals.rates import Spaced
 from ode_sim import math3
 
@@ -49,8 +50,10 @@ class Scale:
         elif self.frame == "sensor":
             q_WF = math3.quat_multiply(joint.frame().q, self.sensor.description.pose.q)
         q_FW = math3.quat_inverse(q_WF)
-        return [tuple(noise(self.sign * value, dt) for noise, value in zip(noises, math3.quat_rotate(q_FW, vector)))
-                for noises, vector in zip(self.noise, (feedback.parent_force, feedback.parent_torque))]
+        return [
+            tuple(noise(self.sign * value, dt) for noise, value in zip(noises, math3.quat_rotate(q_FW, vector)))
+            for noises, vector in zip(self.noise, (feedback.parent_force, feedback.parent_torque))
+        ]
 
 
 class FTSensor(ModelPlugin, SensorPlugin):

@@ -1,4 +1,5 @@
 """The ROS face of the simulator: the server node ``gazebo``, its plugins' base classes, and spawn_model."""
+
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 

@@ -1,4 +1,5 @@
 """Callbacks of the step loop, and whose they are."""
+
 from __future__ import annotations
 
 import threading
@@ -11,6 +12,7 @@ from gazebo_ros.plugin_host import PluginInstance
 
 class Connection:
     """A callback of the step loop; :meth:`disconnect` ends it."""
+
     __slots__ = ("f", "owner", "_callbacks")
 
     def __init__(self, f: Callable[[], None], owner: Optional[PluginInstance], callbacks: CallbackList):

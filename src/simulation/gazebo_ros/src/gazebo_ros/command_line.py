@@ -1,4 +1,5 @@
 """The options of gzserver, and how commands end that cannot go on."""
+
 from __future__ import annotations
 
 import argparse
@@ -22,19 +23,28 @@ def parse(arguments: List[str]) -> argparse.Namespace:
     :param arguments: without the program name and without ROS remappings
     :returns: world, pause, lockstep, seed (None = not given), iters, server_plugin (list), physics, verbose ...
     """
-    parser = argparse.ArgumentParser(prog="gzserver", usage="gzserver [options] [world_file]", allow_abbrev=False,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter,
-                                     description="Run the simulator without a window.")
+    parser = argparse.ArgumentParser(
+        prog="gzserver",
+        usage="gzserver [options] [world_file]",
+        allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        description="Run the simulator without a window.",
+    )
     parser.add_argument("-v", "--version", action="version", version=VERSION)
     parser.add_argument("--verbose", action="store_true", help="say more on the terminal")
     parser.add_argument("-u", "--pause", action="store_true", help="start paused")
-    parser.add_argument("--lockstep", action="store_true", default=os.environ.get(LOCKSTEP_VARIABLE, "0") not in ("", "0"),
-                        help=f"physics waits for the sensors, as with {LOCKSTEP_VARIABLE}=1 in the environment")
+    parser.add_argument(
+        "--lockstep",
+        action="store_true",
+        default=os.environ.get(LOCKSTEP_VARIABLE, "0") not in ("", "0"),
+        help=f"physics waits for the sensors, as with {LOCKSTEP_VARIABLE}=1 in the environment",
+    )
     parser.add_argument("-e", "--physics", default="ode", metavar="ENGINE", help="only ode is there")
     parser.add_argument("--seed", type=int, help="of the random numbers")
     parser.add_argument("--iters", type=int, default=0, metavar="N", help="end after N steps")
-    parser.add_argument("-s", "--server-plugin", action="append", default=[], metavar="LIBRARY",
-                        help="system plugin; those of gazebo_ros are always there")
+    parser.add_argument(
+        "-s", "--server-plugin", action="append", default=[], metavar="LIBRARY", help="system plugin; those of gazebo_ros are always there"
+    )
     parser.add_argument("--minimal_comms", action="store_true", help="accepted")
     parser.add_argument("-p", "--play", metavar="FILE", help="not supported")
     parser.add_argument("-r", "--record", action="store_true", help="not supported; use rosbag")

@@ -2,6 +2,7 @@
 
 The C++ half is the package gazebo_cpp: it mirrors the models of the world and calls plugins within the step, without Python's lock.
 """
+
 from __future__ import annotations
 
 import os
@@ -25,8 +26,11 @@ try:
 except ImportError:  # built without compiled plugins, or on a system that lacks what they need
     _core = None  # type: ignore[assignment]  # the usual form for a module that may not be there
 
-_OF_ANOTHER_CORE = "" if _core is None or _core.layout == ode_sim._core.layout else (
-    "gazebo_cpp was not built with this ode_sim and would read its world wrongly; build both: catkin build ode_sim gazebo_cpp")
+_OF_ANOTHER_CORE = (
+    ""
+    if _core is None or _core.layout == ode_sim._core.layout
+    else ("gazebo_cpp was not built with this ode_sim and would read its world wrongly; build both: catkin build ode_sim gazebo_cpp")
+)
 _bridge: Optional[Bridge] = None
 _searched: Optional[List[str]] = None
 
@@ -53,7 +57,7 @@ def find_library(filename: str) -> Optional[str]:
     if names[0].endswith(".so") and not base.startswith("lib"):
         names.append("lib" + names[0])
     absolute = os.path.isabs(folder)  # of another machine, maybe: Gazebo's own folder, a workspace that has moved
-    for place in ([folder, *folders()] if absolute else [os.path.join(path, folder) for path in folders()]):
+    for place in [folder, *folders()] if absolute else [os.path.join(path, folder) for path in folders()]:
         for each in names:
             path = os.path.join(place, each)
             if os.path.isfile(path):
@@ -68,6 +72,7 @@ def resolve(library: str, plugin: d.Plugin, label: str) -> Callable[[], "Compile
     :raises PluginError: the library cannot be loaded
     """
     import compiled_plugins
+
     _core.share_tf()
     problem = compiled_plugins.why_not(library)
     if problem:
@@ -196,9 +201,16 @@ class Bridge:
         _core.set_reporter(lambda error, line: (rospy.logerr if error else rospy.logwarn)("%s", line))
         _core.set_verbose(rospy.get_param("/gazebo/verbose", False) is True)
         _core.set_host(self._insert, self._remove, self._order, self._step, self._parameter, self._plugin)
-        _core.start(world.core.address, description.name, sdf_writer.world_text(description),
-                    world.physics.real_time_update_rate, description.magnetic_field, description.spherical_coordinates)
+        _core.start(
+            world.core.address,
+            description.name,
+            sdf_writer.world_text(description),
+            world.physics.real_time_update_rate,
+            description.magnetic_field,
+            description.spherical_coordinates,
+        )
         from gazebo_ros.compiled_cameras import CompiledCameras
+
         CompiledCameras(server)
         for model in world.models.values():
             self._add(model)
@@ -214,12 +226,26 @@ class Bridge:
 
     @staticmethod
     def _add(model) -> None:
-        links = [(link.name, link.core.id, [_collision(c) for c in link.collisions.values()],
-                  [sensor.name for sensor in link.description.sensors]) for link in model.links.values()]
+        links = [
+            (
+                link.name,
+                link.core.id,
+                [_collision(c) for c in link.collisions.values()],
+                [sensor.name for sensor in link.description.sensors],
+            )
+            for link in model.links.values()
+        ]
         joints = [(joint.name, joint.description.type, joint.core.id) for joint in model.joints.values()]
         pose, actor = model.initial_pose, model.world.actors.get(model.name)
-        _core.add_model(model.name, sdf_writer.model_text(model.description), model.core.id, (*pose.p, *pose.q), links, joints,
-                        None if actor is None else list(actor.lengths.items()))
+        _core.add_model(
+            model.name,
+            sdf_writer.model_text(model.description),
+            model.core.id,
+            (*pose.p, *pose.q),
+            links,
+            joints,
+            None if actor is None else list(actor.lengths.items()),
+        )
         if actor is not None:
             actor.direct(Director(model.name))
 
@@ -237,6 +263,7 @@ class Bridge:
                 f()
             except (ValueError, KeyError, DescriptionError) as error:
                 rospy.logerr("%s, asked for by a compiled plugin: %s", what, str(error).strip("'\""))
+
         self._server._calls.put((attempt, Future()))
 
     def _insert(self, text: str, pose: List[float]) -> None:
@@ -274,8 +301,13 @@ class Bridge:
 
     def _order(self, what: str) -> None:
         server = self._server
-        orders = {"pause": server.pause, "unpause": server.unpause, "reset": server.reset_simulation,
-                  "reset_time": server.reset_time, "reset_poses": server.reset_world}
+        orders = {
+            "pause": server.pause,
+            "unpause": server.unpause,
+            "reset": server.reset_simulation,
+            "reset_time": server.reset_time,
+            "reset_poses": server.reset_world,
+        }
         self._later(orders[what], what)
 
     def _step(self, steps: int) -> None:
@@ -304,7 +336,19 @@ class Director:
 def _collision(handle) -> Tuple[str, int, str, List[float], str, float]:
     geometry = handle.description.geometry
     kind = type(geometry).__name__.lower()
-    numbers = {"box": lambda g: g.size, "sphere": lambda g: (g.radius,), "cylinder": lambda g: (g.radius, g.length),
-               "capsule": lambda g: (g.radius, g.length), "plane": lambda g: g.normal, "mesh": lambda g: g.scale}
-    return handle.name, handle.core.id, kind, list(numbers.get(kind, lambda g: ())(geometry)), getattr(geometry, "uri", ""), \
-        handle.laser_retro
+    numbers = {
+        "box": lambda g: g.size,
+        "sphere": lambda g: (g.radius,),
+        "cylinder": lambda g: (g.radius, g.length),
+        "capsule": lambda g: (g.radius, g.length),
+        "plane": lambda g: g.normal,
+        "mesh": lambda g: g.scale,
+    }
+    return (
+        handle.name,
+        handle.core.id,
+        kind,
+        list(numbers.get(kind, lambda g: ())(geometry)),
+        getattr(geometry, "uri", ""),
+        handle.laser_retro,
+    )

@@ -2,6 +2,7 @@
 
 C++ (gazebo_cpp's ``core/picture_sensors.cpp``) says when a picture is due and what of it somebody waits for; nothing is drawn else.
 """
+
 from __future__ import annotations
 
 import os
@@ -33,17 +34,29 @@ class _Taken:
         self._world, self._rate, self._watch = server.world, sensor.update_rate, RateWatch()
         element = sensor.element.findall("camera")[index]
         given = (element.findtext("image/format") or "R8G8B8").strip()
-        self._camera = read_camera(element, sensor.pose, link.scoped_name,
-                                   f"{link.scoped_name}::{sensor.name}::{element.get('name', '')}",
-                                   image_format=given if given in ENCODINGS else "B8G8R8")
+        self._camera = read_camera(
+            element,
+            sensor.pose,
+            link.scoped_name,
+            f"{link.scoped_name}::{sensor.name}::{element.get('name', '')}",
+            image_format=given if given in ENCODINGS else "B8G8R8",
+        )
         # One at a time, as in Gazebo: plugins stamp a picture with the time at which they get it.
         self._shooting = Shooting(server, self._as_told(view), self._label, most=1)
 
     def _as_told(self, view: Tuple[float, ...]) -> Camera:
         x, y, z, *q = view[:7]
         hfov, near, far, width, height, crop = view[7:]
-        return replace(self._camera, pose=d.Pose((x, y, z), (q[0], q[1], q[2], q[3])), hfov=hfov, near=near, far=far,
-                       width=int(width), height=int(height), distortion=replace(self._camera.distortion, crop=bool(crop)))
+        return replace(
+            self._camera,
+            pose=d.Pose((x, y, z), (q[0], q[1], q[2], q[3])),
+            hfov=hfov,
+            near=near,
+            far=far,
+            width=int(width),
+            height=int(height),
+            distortion=replace(self._camera.distortion, crop=bool(crop)),
+        )
 
     def shoot(self, view: Tuple[float, ...], outputs: Tuple[str, ...]) -> bool:
         """:raises CameraError: what no camera can be, once; there are no pictures until it is told otherwise."""
@@ -114,6 +127,7 @@ def save_picture(file: str, pixels: bytes, width: int, height: int, image_format
     :param file: its ending says how. :param image_format: SDF's
     """
     import cv2  # half a second, for the few who save
+
     encoding = ENCODINGS.get(image_format, "bgr8")
     image = np.frombuffer(pixels, np.uint16 if encoding.endswith("16") else np.uint8)
     image = image.reshape(height, width, -1)

@@ -6,6 +6,7 @@ no step begins while one is not empty, and a request for steps ends when the sub
 drops in a queue of its own cannot be known here. One that takes nothing at all for half a minute is not waited for until it reads on:
 a node that hangs must not hold the others' world for ever.
 """
+
 from __future__ import annotations
 
 import fcntl
@@ -39,6 +40,7 @@ class Delivery:
 
     def install(self) -> None:
         """From now on every connection to a subscriber is kept account of; for the start of the process."""
+
         def connect(connection: Any, queue_size: int) -> Any:
             return QueuedConnection(connection, queue_size) if connection.name in self._left_out else _Kept(self, connection)
 
@@ -65,14 +67,24 @@ class Delivery:
                 with self._changed:
                     kept.given_up = True
                     self._busy.discard(kept)
-                rospy.logwarn("lock-step: %s has taken nothing of %s for %.0f s and is not waited for any more; it misses what is "
-                              "published until it reads on", kept.who, kept.name, _HANGS_AFTER)
+                rospy.logwarn(
+                    "lock-step: %s has taken nothing of %s for %.0f s and is not waited for any more; it misses what is "
+                    "published until it reads on",
+                    kept.who,
+                    kept.name,
+                    _HANGS_AFTER,
+                )
                 continue
             before = self._waited.get(kept, 0.0)
             now = self._waited[kept] = before + time.monotonic() - began
             if before < _TOLD_AFTER <= now or int(before / _TOLD_AGAIN) != int(now / _TOLD_AGAIN):
-                rospy.logwarn("lock-step: the simulation stood still for %.0f s by now because %s takes %s more slowly than it is "
-                              "published; end it, or have it ask for less", now, kept.who, kept.name)
+                rospy.logwarn(
+                    "lock-step: the simulation stood still for %.0f s by now because %s takes %s more slowly than it is "
+                    "published; end it, or have it ask for less",
+                    now,
+                    kept.who,
+                    kept.name,
+                )
 
     def taken(self) -> bool:
         """The systems on which the subscribers run have received all that was sent; asked again and again until it is so."""

@@ -1,4 +1,5 @@
 """Who drives which joint: two plugins that drive the same one do not know of each other, and the robot stands still for ever."""
+
 from __future__ import annotations
 
 import threading
@@ -30,9 +31,14 @@ class Drivers:
                     contested.setdefault(id(other), [other]).append(joint)
                 there.append(owner)
         for other, *shared in contested.values():
-            rospy.logwarn("%s and %s both drive %s of model %s: one undoes in every step what the other does, as in Gazebo, and the "
-                          "robot may never move. Leave one of them out, or the transmissions of these joints", other.label, owner.label,
-                          _listed(shared), shared[0].model.name)
+            rospy.logwarn(
+                "%s and %s both drive %s of model %s: one undoes in every step what the other does, as in Gazebo, and the "
+                "robot may never move. Leave one of them out, or the transmissions of these joints",
+                other.label,
+                owner.label,
+                _listed(shared),
+                shared[0].model.name,
+            )
 
     def ended(self, owner: Any) -> None:
         """It drives nothing any more."""

@@ -1,4 +1,5 @@
 """Where models, worlds and media are looked for, in the server and in whatever shows its world."""
+
 from __future__ import annotations
 
 from typing import List, Optional
@@ -10,6 +11,7 @@ from plugin_loader import exported_values
 
 def make_finder(rospack: rospkg.RosPack) -> ResourceFinder:
     """Search paths: the environment's, then what packages export for gazebo_ros."""
+
     def package(name: str) -> Optional[str]:
         try:
             return rospack.get_path(name)

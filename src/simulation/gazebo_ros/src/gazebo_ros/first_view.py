@@ -1,4 +1,5 @@
 """``<gui><camera>`` of a world: where the window's eye, and that of a picture, stands at first."""
+
 from __future__ import annotations
 
 import math
@@ -26,7 +27,10 @@ def first_view(world: str, finder: ResourceFinder) -> Optional[Pose]:
         return None
     numbers = leading_numbers(element.text or "", 6)
     if len(numbers) not in (3, 6) or not all(map(math.isfinite, numbers)) or max(map(abs, numbers[:3])) > FARTHEST:
-        rospy.logwarn("%s: <gui><camera><pose>%s</pose> must be x y z roll pitch yaw, m and rad; the window chooses its own view",
-                      file or "world", (element.text or "").strip())
+        rospy.logwarn(
+            "%s: <gui><camera><pose>%s</pose> must be x y z roll pitch yaw, m and rad; the window chooses its own view",
+            file or "world",
+            (element.text or "").strip(),
+        )
         return None
     return math3.from_rpy(*(*numbers, 0.0, 0.0, 0.0)[:6])

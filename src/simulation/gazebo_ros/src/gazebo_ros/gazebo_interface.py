@@ -1,4 +1,5 @@
 """The simulator's services as Python functions."""
+
 from __future__ import annotations
 
 import re
@@ -9,7 +10,6 @@ import rospy
 from gazebo_msgs.srv import SetModelConfiguration, SpawnModel
 from geometry_msgs.msg import Pose
 from node_signals.services import wait_for_service
-
 
 _SENT_TEXT = re.compile(r"\btext(?=:\d+)")  # the server's name for a description that it was sent
 
@@ -32,25 +32,46 @@ def _call(what: str, name: str, service: type, *arguments: Any, origin: str = ""
     return response.success
 
 
-def spawn_sdf_model_client(model_name: str, model_xml: str, robot_namespace: str, initial_pose: Pose,
-                           reference_frame: str, gazebo_namespace: str, origin: str = "") -> Optional[bool]:
+def spawn_sdf_model_client(
+    model_name: str, model_xml: str, robot_namespace: str, initial_pose: Pose, reference_frame: str, gazebo_namespace: str, origin: str = ""
+) -> Optional[bool]:
     """Spawn SDF text. True when it worked, False when the simulator refused, None when the call failed.
 
     :param origin: where the text was read: errors name its lines by that
     """
-    return _call("Spawn", gazebo_namespace + "/spawn_sdf_model", SpawnModel, model_name, model_xml, robot_namespace,
-                 initial_pose, reference_frame, origin=origin)
+    return _call(
+        "Spawn",
+        gazebo_namespace + "/spawn_sdf_model",
+        SpawnModel,
+        model_name,
+        model_xml,
+        robot_namespace,
+        initial_pose,
+        reference_frame,
+        origin=origin,
+    )
 
 
-def spawn_urdf_model_client(model_name: str, model_xml: str, robot_namespace: str, initial_pose: Pose,
-                            reference_frame: str, gazebo_namespace: str, origin: str = "") -> Optional[bool]:
+def spawn_urdf_model_client(
+    model_name: str, model_xml: str, robot_namespace: str, initial_pose: Pose, reference_frame: str, gazebo_namespace: str, origin: str = ""
+) -> Optional[bool]:
     """Spawn URDF text; returns as :func:`spawn_sdf_model_client`."""
-    return _call("Spawn", gazebo_namespace + "/spawn_urdf_model", SpawnModel, model_name, model_xml, robot_namespace,
-                 initial_pose, reference_frame, origin=origin)
+    return _call(
+        "Spawn",
+        gazebo_namespace + "/spawn_urdf_model",
+        SpawnModel,
+        model_name,
+        model_xml,
+        robot_namespace,
+        initial_pose,
+        reference_frame,
+        origin=origin,
+    )
 
 
-def set_model_configuration_client(model_name: str, model_param_name: str, joint_names: List[str],
-                                   joint_positions: List[float], gazebo_namespace: str) -> Optional[bool]:
+def set_model_configuration_client(
+    model_name: str, model_param_name: str, joint_names: List[str], joint_positions: List[float], gazebo_namespace: str
+) -> Optional[bool]:
     """Put joints to positions (rad, m), one wall second after the service is there, when controllers have started."""
     name = gazebo_namespace + "/set_model_configuration"
     wait_for_service(name)

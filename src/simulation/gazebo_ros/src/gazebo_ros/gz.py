@@ -1,5 +1,6 @@
 """``gz``: what students type to ask or change a running simulator. It talks to the node ``/gazebo`` by its
 services; ``gz topic`` is about Gazebo's own transport."""
+
 from __future__ import annotations
 
 import argparse
@@ -11,8 +12,18 @@ import node_signals
 import rosgraph
 import rospy
 from gazebo_msgs.msg import ModelState, PerformanceMetrics
-from gazebo_msgs.srv import (ApplyJointEffort, DeleteModel, GetModelProperties, GetModelState, GetPhysicsProperties,
-                             GetWorldProperties, JointRequest, SetModelState, SetPhysicsProperties, SpawnModel)
+from gazebo_msgs.srv import (
+    ApplyJointEffort,
+    DeleteModel,
+    GetModelProperties,
+    GetModelState,
+    GetPhysicsProperties,
+    GetWorldProperties,
+    JointRequest,
+    SetModelState,
+    SetPhysicsProperties,
+    SpawnModel,
+)
 from geometry_msgs.msg import Point, Pose, Quaternion
 from ode_sim import math3
 from ode_sim.description import DescriptionError, load_world, read_model
@@ -43,8 +54,7 @@ def call(name: str, service: type, *arguments: Any) -> Any:
 
 
 def _pose(options: argparse.Namespace) -> Pose:
-    return Pose(Point(options.x, options.y, options.z),
-                Quaternion(*math3.quat_from_rpy(options.roll, options.pitch, options.yaw)))
+    return Pose(Point(options.x, options.y, options.z), Quaternion(*math3.quat_from_rpy(options.roll, options.pitch, options.yaw)))
 
 
 def model(options: argparse.Namespace) -> None:
@@ -94,9 +104,14 @@ def physics(options: argparse.Namespace) -> None:
             raise Failure(f"-g {options.gravity}: three numbers with commas are needed, as in 0,0,-9.8") from None
     if options.iters is not None:
         now.ode_config.sor_pgs_iters = options.iters
-    call("set_physics_properties", SetPhysicsProperties,
-         now.time_step if options.step_size is None else options.step_size,
-         now.max_update_rate if options.update_rate is None else options.update_rate, now.gravity, now.ode_config)
+    call(
+        "set_physics_properties",
+        SetPhysicsProperties,
+        now.time_step if options.step_size is None else options.step_size,
+        now.max_update_rate if options.update_rate is None else options.update_rate,
+        now.gravity,
+        now.ode_config,
+    )
 
 
 def stats(options: argparse.Namespace) -> None:
@@ -131,22 +146,25 @@ def sdf(options: argparse.Namespace) -> None:
 def joint(options: argparse.Namespace) -> None:
     """Put a force or torque on a joint, from now on; 0 ends it."""
     if not options.joint_name or options.force is None:
-        raise Failure("a joint (-j) and its force (-f, N or Nm) are needed; targets of position and velocity are "
-                      "the work of a controller: see ros_control")
+        raise Failure(
+            "a joint (-j) and its force (-f, N or Nm) are needed; targets of position and velocity are "
+            "the work of a controller: see ros_control"
+        )
     if options.model_name:
         names = call("get_model_properties", GetModelProperties, options.model_name).joint_names
         if options.joint_name not in names:
             raise Failure(f"model {options.model_name} has no joint {options.joint_name}; it has {', '.join(names)}")
     call("clear_joint_forces", JointRequest, options.joint_name)
     if options.force:
-        call("apply_joint_effort", ApplyJointEffort, options.joint_name, options.force, rospy.Time(),
-             rospy.Duration(-1))
+        call("apply_joint_effort", ApplyJointEffort, options.joint_name, options.force, rospy.Time(), rospy.Duration(-1))
 
 
 def log(_options: argparse.Namespace) -> None:
     """Not here: rosbag records and plays."""
-    raise Failure("logs of world states are not written here; rosbag record /gazebo/model_states records, and the same "
-                  "world, seed and commands give the same run again")
+    raise Failure(
+        "logs of world states are not written here; rosbag record /gazebo/model_states records, and the same "
+        "world, seed and commands give the same run again"
+    )
 
 
 def helps(options: argparse.Namespace) -> None:
@@ -159,8 +177,9 @@ def helps(options: argparse.Namespace) -> None:
 
 
 def parser() -> argparse.ArgumentParser:
-    top = argparse.ArgumentParser(prog="gz", description="Ask or change a running simulator (the node /gazebo).",
-                                  formatter_class=argparse.RawDescriptionHelpFormatter)
+    top = argparse.ArgumentParser(
+        prog="gz", description="Ask or change a running simulator (the node /gazebo).", formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     top.add_argument("-v", "--version", action="version", version=VERSION)
     commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
 

@@ -1,4 +1,5 @@
 """``gz topic``: what goes over Gazebo's own transport, in lines like those of the original."""
+
 from __future__ import annotations
 
 import argparse

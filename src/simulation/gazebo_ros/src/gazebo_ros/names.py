@@ -14,6 +14,7 @@ planar_move, skid_steer and most others. D: imu_sensor. spawn_model writes its o
 plugin without one.
 A relative namespace is resolved against that of the gazebo node.
 """
+
 from __future__ import annotations
 
 import rosgraph

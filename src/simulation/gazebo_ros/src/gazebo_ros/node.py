@@ -1,4 +1,5 @@
 """The node ``gazebo``: from the command line to a running world, and to its end."""
+
 from __future__ import annotations
 
 import gc
@@ -73,8 +74,7 @@ def _run() -> int:
     _use_sim_time(True)
     node_signals.before_init_node()
     # rospy's clock would come back from the /clock that this node publishes: the server sets it without that detour
-    rospy.init_node("gazebo", disable_rostime=True, disable_signals=True,
-                    log_level=verbose.level(options.verbose))
+    rospy.init_node("gazebo", disable_rostime=True, disable_signals=True, log_level=verbose.level(options.verbose))
     rospy.on_shutdown(ending.request)
     for line in command_line.remarks(options):
         rospy.logwarn("%s", line)
@@ -146,8 +146,7 @@ def _wait_for_master(ending: _Ending) -> None:
     warned = False
     while not rosgraph.is_master_online() and not ending.requested:
         if not warned:
-            print(f"gzserver: no ROS master at {rosgraph.get_master_uri()}; waiting for one (start roscore)",
-                  file=sys.stderr, flush=True)
+            print(f"gzserver: no ROS master at {rosgraph.get_master_uri()}; waiting for one (start roscore)", file=sys.stderr, flush=True)
             warned = True
         time.sleep(0.5)
 
@@ -170,8 +169,12 @@ def _runs_already() -> bool:
         return False
     finally:
         socket.setdefaulttimeout(timeout)
-    print(f"gzserver: {name} runs already (process {pid}) and goes on, this one ends; models are spawned into that world. "
-          f"For another world end it first: rosnode kill {name}", file=sys.stderr, flush=True)
+    print(
+        f"gzserver: {name} runs already (process {pid}) and goes on, this one ends; models are spawned into that world. "
+        f"For another world end it first: rosnode kill {name}",
+        file=sys.stderr,
+        flush=True,
+    )
     return True
 
 
@@ -195,8 +198,17 @@ def make_server(options, sim_time: bool = True) -> Server:
     if options.lockstep:
         delivery = Delivery({"/rosout", *map(rospy.resolve_name, ("~view", "~view_contacts"))})
         delivery.install()
-    server = Server(world, description, finder, host, paused=options.pause, lockstep=options.lockstep, delivery=delivery,
-                    iterations=options.iters, ros_time=sim_time)
+    server = Server(
+        world,
+        description,
+        finder,
+        host,
+        paused=options.pause,
+        lockstep=options.lockstep,
+        delivery=delivery,
+        iterations=options.iters,
+        ros_time=sim_time,
+    )
     server.first_view = first_view(name, finder)
     server.report_problems(f"world {description.name}")
     for library in options.server_plugin:

@@ -1,4 +1,5 @@
 """A ROS master for the command ``gazebo`` typed alone: Gazebo runs without ROS, this simulator speaks nothing else."""
+
 from __future__ import annotations
 
 import os
@@ -19,10 +20,19 @@ def start_if_missing() -> None:
     place = urlparse(uri)
     if rosgraph.is_master_online() or not place.port or not rosgraph.network.is_local_address(place.hostname or ""):
         return
-    subprocess.Popen(["rosmaster", "--core", "-p", str(place.port)], start_new_session=True, preexec_fn=end_with_parent,
-                     stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    print(f"gazebo: no ROS master runs at {uri}: this simulator brings its own, which ends with it "
-          f"(process {os.getpid()})", file=sys.stderr, flush=True)
+    subprocess.Popen(
+        ["rosmaster", "--core", "-p", str(place.port)],
+        start_new_session=True,
+        preexec_fn=end_with_parent,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    print(
+        f"gazebo: no ROS master runs at {uri}: this simulator brings its own, which ends with it (process {os.getpid()})",
+        file=sys.stderr,
+        flush=True,
+    )
     end = time.monotonic() + _START
     while not rosgraph.is_master_online() and time.monotonic() < end:
         time.sleep(0.05)

@@ -1,4 +1,5 @@
 """``rosrun gazebo_ros picture [MODEL] -o FILE.png``: what does the simulated world, or a model, look like now?"""
+
 from __future__ import annotations
 
 import argparse
@@ -14,8 +15,11 @@ from gazebo_ros.srv import TakePicture
 
 
 def parser() -> argparse.ArgumentParser:
-    made = argparse.ArgumentParser(prog="picture", description="Writes a picture of the simulated world, or of one of "
-                                   "its models, as it is now, also while it is paused. Needs no display.")
+    made = argparse.ArgumentParser(
+        prog="picture",
+        description="Writes a picture of the simulated world, or of one of "
+        "its models, as it is now, also while it is paused. Needs no display.",
+    )
     add = made.add_argument
     add("model", nargs="?", default="", help="fills the frame; without it: all that stands on the ground")
     add("-o", "--output", metavar="FILE.png", required=True)

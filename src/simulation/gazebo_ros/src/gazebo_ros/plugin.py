@@ -14,6 +14,7 @@ publishers, subscribers and services are made as in any node. ROS callbacks run 
 use ``server.call(f)``. Raise :class:`PluginError` with one line for the user when a parameter is wrong: the plugin
 stays inactive, everything else goes on.
 """
+
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
@@ -21,9 +22,10 @@ from typing import TYPE_CHECKING
 from plugin_loader import PluginError
 
 if TYPE_CHECKING:  # a plugin's own annotations may name them, too: from gazebo_ros.protocols import Server
+    from ode_sim.handles import ModelHandle
+
     from gazebo_ros.protocols import Sensor, Server
     from gazebo_ros.sdf_element import SdfElement
-    from ode_sim.handles import ModelHandle
 
 __all__ = ["ModelPlugin", "PluginError", "SensorPlugin", "WorldPlugin"]
 

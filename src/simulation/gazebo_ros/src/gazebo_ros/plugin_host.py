@@ -1,4 +1,5 @@
 """Plugins by library name: finding the class, starting it, and saying in one line what went wrong."""
+
 from __future__ import annotations
 
 import difflib
@@ -76,15 +77,16 @@ class PluginHost:
     def _unknown(self, filename: str) -> str:
         """Why a library is left out, and the names it may have been meant to be."""
         if not filename:
-            return "left out: it names no library; write filename=\"libgazebo_ros_....so\""
+            return 'left out: it names no library; write filename="libgazebo_ros_....so"'
         if not self._libraries:
             return "left out: no plugins are known; is a workspace with gazebo_plugins sourced?"
-        close = [self._libraries[key] for key in difflib.get_close_matches(library_key(filename), self._libraries, n=3,
-                                                                           cutoff=0.75)]
+        close = [self._libraries[key] for key in difflib.get_close_matches(library_key(filename), self._libraries, n=3, cutoff=0.75)]
         return "not known here and is left out. " + (
-            f"Did you mean {' or '.join(close)}?" if close else
-            f"It is none of the {len(self._libraries)} that packages export (rospack plugins --attrib=plugin gazebo_ros), "
-            "nor a library in GAZEBO_PLUGIN_PATH, LD_LIBRARY_PATH or a sourced workspace's lib")
+            f"Did you mean {' or '.join(close)}?"
+            if close
+            else f"It is none of the {len(self._libraries)} that packages export (rospack plugins --attrib=plugin gazebo_ros), "
+            "nor a library in GAZEBO_PLUGIN_PATH, LD_LIBRARY_PATH or a sourced workspace's lib"
+        )
 
     def resolve(self, plugin: d.Plugin, where: str) -> Optional[ResolvedPlugin]:
         """Import the class of a ``<plugin>``. Unknown or broken ones are one WARN or ERROR line, and None.

@@ -3,6 +3,7 @@
 ``Server`` is the server as one plugin sees it, ``Sensor`` what a sensor plugin measures with. Models, links and joints are those of
 ``ode_sim``; ``SdfElement`` is :class:`gazebo_ros.SdfElement`.
 """
+
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Callable, Optional, Protocol, TypeVar

@@ -1,4 +1,5 @@
 """Says once why a camera gives fewer pictures than it was asked for."""
+
 from __future__ import annotations
 
 import math
@@ -57,12 +58,16 @@ class RateWatch:
         :param due, wanted: pictures a second. :param left_out: how many of how many
         """
         if due >= _KEPT * wanted:
-            return (f"{left_out} were left out, since this machine does not draw them as fast as the simulation runs. Fewer or smaller "
-                    "pictures help, a lower real_time_update_rate of the world, or lock-step, where the simulation waits for each "
-                    "picture (ODE_SIM_LOCKSTEP=1 in the environment)")
+            return (
+                f"{left_out} were left out, since this machine does not draw them as fast as the simulation runs. Fewer or smaller "
+                "pictures help, a lower real_time_update_rate of the world, or lock-step, where the simulation waits for each "
+                "picture (ODE_SIM_LOCKSTEP=1 in the environment)"
+            )
         if 1.0 / (dt * math.ceil(1.0 / (wanted * dt) - 1e-6)) < _KEPT * wanted:
             return f"one is taken after a step of the physics, which is {dt:g} s long"
         if plugin_rate <= 0.0:
             return ""
-        return (f"of the sensor's {sensor_rate:g} a second (<update_rate>) the plugin takes those that are "
-                f"1/{plugin_rate:g} s or more apart (<updateRate>). Give both the same number")
+        return (
+            f"of the sensor's {sensor_rate:g} a second (<update_rate>) the plugin takes those that are "
+            f"1/{plugin_rate:g} s or more apart (<updateRate>). Give both the same number"
+        )

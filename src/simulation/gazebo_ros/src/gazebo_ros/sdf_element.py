@@ -1,4 +1,5 @@
 """Lenient reading of an SDF element, as plugins of Gazebo Classic read theirs."""
+
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
@@ -72,7 +73,7 @@ class SdfElement:
         numbers = leading_numbers(text, count)
         if len(numbers) < count:
             wanted = "a number" if count == 1 else f"{count} numbers"
-            used = numbers + default[len(numbers):] if isinstance(default, tuple) else default
+            used = numbers + default[len(numbers) :] if isinstance(default, tuple) else default
             self._warn(f"<{tag}>{text}</{tag}>: {wanted} expected, using {used}")
             return used
         if isinstance(default, tuple):

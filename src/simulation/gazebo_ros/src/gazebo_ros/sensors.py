@@ -12,6 +12,7 @@ A sensor plugin says what it measures and whether anybody wants it::
 
 An unwanted sensor costs one comparison a step, and nothing at all is measured.
 """
+
 from __future__ import annotations
 
 import time

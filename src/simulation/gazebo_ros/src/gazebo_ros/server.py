@@ -1,4 +1,5 @@
 """The step loop: what is called when, and how other threads get at the world."""
+
 from __future__ import annotations
 
 import queue
@@ -10,12 +11,12 @@ from dataclasses import dataclass, field
 from typing import Any, Callable, ContextManager, Dict, Iterable, List, Optional, Tuple, Type, Union
 
 import rospy
+from node_signals.rates import Spaced
 from ode_sim.description import model as d
 from ode_sim.errors import Unavailable
 from ode_sim.handles import ModelHandle
 
 from gazebo_ros import protocols
-from node_signals.rates import Spaced
 from gazebo_ros.callbacks import CallbackList, Connection
 from gazebo_ros.delivery import Delivery
 from gazebo_ros.driving import Drivers
@@ -55,8 +56,11 @@ class ResolvedModel:
     def __init__(self, model: d.Model, host: PluginHost):
         where = f"model {model.name}"
         self.plugins = [host.resolve(plugin, where) for plugin in model.plugins]
-        self.sensor_plugins = {(type(part), part.name, sensor.name): [host.resolve(plugin, where) for plugin in sensor.plugins]
-                               for part in model.parts for sensor in part.sensors}
+        self.sensor_plugins = {
+            (type(part), part.name, sensor.name): [host.resolve(plugin, where) for plugin in sensor.plugins]
+            for part in model.parts
+            for sensor in part.sensors
+        }
 
 
 @dataclass
@@ -83,8 +87,19 @@ class Server:
         let ``rospy.Time.now()`` of this process be :meth:`now` (off when /use_sim_time is false)
     """
 
-    def __init__(self, world, description: d.World, finder, host: PluginHost, *, paused: bool = False,
-                 lockstep: bool = False, delivery: Optional[Delivery] = None, iterations: int = 0, ros_time: bool = True):
+    def __init__(
+        self,
+        world,
+        description: d.World,
+        finder,
+        host: PluginHost,
+        *,
+        paused: bool = False,
+        lockstep: bool = False,
+        delivery: Optional[Delivery] = None,
+        iterations: int = 0,
+        ros_time: bool = True,
+    ):
         self.world = world
         self.description = description
         self.finder = finder
@@ -399,8 +414,9 @@ class Server:
         for plugin in filter(None, resolved.plugins):
             self._start(plugin, ModelPlugin, runtime.plugins, handle)
 
-    def _start(self, resolved: ResolvedPlugin, base: Type[Any], started: List[PluginInstance],
-               *subject: Union[ModelHandle, protocols.Sensor]) -> None:
+    def _start(
+        self, resolved: ResolvedPlugin, base: Type[Any], started: List[PluginInstance], *subject: Union[ModelHandle, protocols.Sensor]
+    ) -> None:
         """Load one plugin; a failure leaves it out with one line.
 
         :param subject: what the plugin is attached to: a model handle, a Sensor, or nothing for the world

@@ -1,4 +1,5 @@
 """The step loop as plugins see it."""
+
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Callable

@@ -1,4 +1,5 @@
 """spawn_model: puts a robot or an object into the running simulator."""
+
 from __future__ import annotations
 
 import argparse
@@ -9,8 +10,8 @@ import threading
 import xml.etree.ElementTree as ET
 from typing import Callable, List, Tuple
 
-import rosgraph
 import node_signals
+import rosgraph
 import rospy
 from gazebo_msgs.srv import DeleteModel, GetPhysicsProperties, GetWorldProperties
 from geometry_msgs.msg import Point, Pose, Quaternion
@@ -21,7 +22,7 @@ from std_srvs.srv import Empty
 from gazebo_ros import gazebo_interface
 from gazebo_ros.command_line import Failure
 
-_DATABASE = ('<sdf version="1.4"><world name="default"><include><uri>model://{}</uri></include></world></sdf>')
+_DATABASE = '<sdf version="1.4"><world name="default"><include><uri>model://{}</uri></include></world></sdf>'
 _PACKAGE = re.compile(r"""(<mesh\b[^>]*?\bfilename\s*=\s*["'])package://""")
 _ANSWER = 20.0  # s, in which the simulator answers between two steps
 
@@ -41,15 +42,26 @@ def parse(arguments: List[str]) -> argparse.Namespace:
     parser.add_argument("-gazebo_namespace", default="/gazebo", metavar="NS", help="of the simulator's services")
     parser.add_argument("-robot_namespace", default=rospy.get_namespace(), metavar="NS", help="given to its plugins")
     parser.add_argument("-unpause", action="store_true", help="unpause the simulation afterwards")
-    parser.add_argument("-paused_until_controllers", action="store_true", help="pause the simulation before, and let it run when the "
-                        "first controllers that move something start: joints do not fall meanwhile")
+    parser.add_argument(
+        "-paused_until_controllers",
+        action="store_true",
+        help="pause the simulation before, and let it run when the "
+        "first controllers that move something start: joints do not fall meanwhile",
+    )
     parser.add_argument("-wait", metavar="MODEL", help="wait until this model exists")
     for name in "xyz":
         parser.add_argument(f"-{name}", type=float, default=0.0, help="m")
     for name, angle in (("R", "roll"), ("P", "pitch"), ("Y", "yaw")):
         parser.add_argument(f"-{name}", type=float, default=0.0, help=f"{angle}, rad")
-    parser.add_argument("-J", dest="joints", nargs=2, action="append", default=[], metavar=("JOINT", "POSITION"),
-                        help="initial position of a joint, rad or m; may be repeated")
+    parser.add_argument(
+        "-J",
+        dest="joints",
+        nargs=2,
+        action="append",
+        default=[],
+        metavar=("JOINT", "POSITION"),
+        help="initial position of a joint, rad or m; may be repeated",
+    )
     parser.add_argument("-package_to_model", action="store_true", help="turn package:// of meshes into model://")
     parser.add_argument("-b", action="store_true", dest="bond", help="stay, and delete the model when ended")
     for name in ("roll", "pitch", "yaw"):
@@ -66,11 +78,11 @@ def parse(arguments: List[str]) -> argparse.Namespace:
 
 def pose_of(options: argparse.Namespace) -> Pose:
     """From x y z (m) and roll, pitch, yaw (rad)."""
-    (cr, sr), (cp, sp), (cy, sy) = ((math.cos(angle / 2), math.sin(angle / 2))
-                                    for angle in (options.R, options.P, options.Y))
-    return Pose(Point(options.x, options.y, options.z),
-                Quaternion(sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy,
-                           cr * cp * sy - sr * sp * cy, cr * cp * cy + sr * sp * sy))
+    (cr, sr), (cp, sp), (cy, sy) = ((math.cos(angle / 2), math.sin(angle / 2)) for angle in (options.R, options.P, options.Y))
+    return Pose(
+        Point(options.x, options.y, options.z),
+        Quaternion(sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy, cr * cp * sy - sr * sp * cy, cr * cp * cy + sr * sp * sy),
+    )
 
 
 def model_text(options: argparse.Namespace) -> Tuple[str, str]:
@@ -87,16 +99,16 @@ def model_text(options: argparse.Namespace) -> Tuple[str, str]:
         except OSError as error:
             raise Failure(f"cannot read {options.file}: {error.strerror}") from error
         except UnicodeDecodeError as error:
-            raise Failure(f"cannot read {options.file}: it is no text in UTF-8 (byte {error.start}); "
-                          "save it as such") from error
+            raise Failure(f"cannot read {options.file}: it is no text in UTF-8 (byte {error.start}); save it as such") from error
     elif options.param:
         rospy.loginfo("Loading model XML from ros parameter %s", options.param)
         where = f"parameter {rospy.resolve_name(options.param)}"
         try:
             text = rospy.get_param(options.param)
         except KeyError:
-            raise Failure(f"{where} is not set; load the robot first, as in "
-                          f"<param name=\"{options.param}\" command=\"$(find xacro)/xacro ...\"/>") from None
+            raise Failure(
+                f'{where} is not set; load the robot first, as in <param name="{options.param}" command="$(find xacro)/xacro ..."/>'
+            ) from None
     elif options.database:
         rospy.loginfo("Loading model XML from Gazebo Model Database")
         text, where = _DATABASE.format(options.database), "-database"
@@ -178,8 +190,11 @@ class Hold:
             return
         rospy.delete_param(self._parameter)
         if done:
-            rospy.logwarn("model %s has no controllers to wait for (its description names no libgazebo_ros_control.so): "
-                          "-paused_until_controllers has no effect", self._options.model)
+            rospy.logwarn(
+                "model %s has no controllers to wait for (its description names no libgazebo_ros_control.so): "
+                "-paused_until_controllers has no effect",
+                self._options.model,
+            )
         if not self._was_paused:
             _unpause(self._options.gazebo_namespace)
 
@@ -195,8 +210,18 @@ def spawn(options: argparse.Namespace) -> None:
     client = gazebo_interface.spawn_urdf_model_client if options.urdf else gazebo_interface.spawn_sdf_model_client
 
     def ask() -> bool:
-        return bool(client(options.model, text, options.robot_namespace, pose_of(options), options.reference_frame,
-                           options.gazebo_namespace, origin=where))
+        return bool(
+            client(
+                options.model,
+                text,
+                options.robot_namespace,
+                pose_of(options),
+                options.reference_frame,
+                options.gazebo_namespace,
+                origin=where,
+            )
+        )
+
     if bond:  # from here on its end waits for the answer, so the simulator must be there
         service = f"{options.gazebo_namespace}/spawn_{'urdf' if options.urdf else 'sdf'}_model"
         wait_for_service(service)
@@ -208,8 +233,9 @@ def spawn(options: argparse.Namespace) -> None:
         raise Failure(f"model {options.model} was not spawned")
     if options.joints:
         names, positions = zip(*options.joints)
-        if not gazebo_interface.set_model_configuration_client(options.model, options.param or "", list(names),
-                                                               list(positions), options.gazebo_namespace):
+        if not gazebo_interface.set_model_configuration_client(
+            options.model, options.param or "", list(names), list(positions), options.gazebo_namespace
+        ):
             raise Failure(f"model {options.model} is spawned, but its joints were not set")
     if options.unpause and not held:
         _unpause(options.gazebo_namespace)

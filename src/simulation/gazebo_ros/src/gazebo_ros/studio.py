@@ -1,4 +1,5 @@
 """The render process that all cameras of one simulator share, those of compiled plugins too; it lives as long as there is a camera."""
+
 from __future__ import annotations
 
 import weakref
@@ -45,8 +46,7 @@ class Shooting:
 
         :returns: False when the picture is left out because too many are under way
         """
-        return self._shared.process.draw(self._key, outputs, lambda frame: self._arrived(frame, deliver), self._wait,
-                                         self._most)
+        return self._shared.process.draw(self._key, outputs, lambda frame: self._arrived(frame, deliver), self._wait, self._most)
 
     def _arrived(self, frame: Frame, deliver: Callable[[Frame], None]) -> None:
         if not frame.error:

@@ -1,4 +1,5 @@
 """Real-time pacing of the step loop."""
+
 from __future__ import annotations
 
 import time

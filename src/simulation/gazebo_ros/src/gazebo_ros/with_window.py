@@ -1,4 +1,5 @@
 """The command ``gazebo``: a window beside the server, which ends with it - and it with the window."""
+
 from __future__ import annotations
 
 import os

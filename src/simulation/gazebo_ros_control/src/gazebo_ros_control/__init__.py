@@ -13,6 +13,7 @@
 ``default_robot_hw_sim``
     Position, velocity and effort commands, with and without PID gains, joint limits, emergency stop.
 """
+
 from .robot_hw_sim import RobotHWSim
 
 __all__ = ["RobotHWSim"]

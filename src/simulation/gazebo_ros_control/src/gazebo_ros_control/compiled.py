@@ -1,4 +1,5 @@
 """Simulated robot hardware in C++: classes that packages export for pluginlib."""
+
 from __future__ import annotations
 
 import os
@@ -26,11 +27,13 @@ class CompiledSimClass:
             raise PluginError(f"{what} is compiled C++, and gazebo_ros_control was built without what that needs ({error})") from error
         base = "gazebo_ros_control::RobotHWSim"
         if plugin.base != base:
-            raise PluginError(f"{what} is no simulated hardware: {plugin.file} gives it base_class_type=\"{plugin.base}\", that has {base}")
+            raise PluginError(f'{what} is no simulated hardware: {plugin.file} gives it base_class_type="{plugin.base}", that has {base}')
         library = compiled.find_library(os.path.basename(plugin.path))
         if library is None:
-            raise PluginError(f"{what}: its library {os.path.basename(plugin.path)}.so is not found in "
-                              f"{', '.join(compiled.folders())}; is the package built, and was its workspace sourced here?")
+            raise PluginError(
+                f"{what}: its library {os.path.basename(plugin.path)}.so is not found in "
+                f"{', '.join(compiled.folders())}; is the package built, and was its workspace sourced here?"
+            )
         problem = compiled_plugins.why_not(library)
         if problem:
             raise PluginError(f"{what}: {problem}")

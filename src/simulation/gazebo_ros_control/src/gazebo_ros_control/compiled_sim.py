@@ -1,4 +1,5 @@
 """Simulated robot hardware in C++, as the plugin and its controllers see it. Imports compiled code."""
+
 from __future__ import annotations
 
 from typing import Any, List, Optional
@@ -27,8 +28,9 @@ class CompiledRobotHWSim(CompiledRobotHW, RobotHWSim):
         super().__init__(Robot(sim.address, sim))
         self._sim = sim
 
-    def init_sim(self, robot_namespace: str, model_nh: NodeHandle, model: Any, urdf: Optional[str],
-                 transmissions: List[TransmissionInfo]) -> bool:
+    def init_sim(
+        self, robot_namespace: str, model_nh: NodeHandle, model: Any, urdf: Optional[str], transmissions: List[TransmissionInfo]
+    ) -> bool:
         """See :meth:`RobotHWSim.init_sim`; it reads the transmissions itself."""
         try:
             return self._sim.init(robot_namespace, model.name, urdf or "")

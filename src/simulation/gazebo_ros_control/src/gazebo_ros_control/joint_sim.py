@@ -2,6 +2,7 @@
 
 ``core/wiring.cpp`` gives plain commands to the joint in every step; where a PID stands between, its mode does.
 """
+
 from __future__ import annotations
 
 import math
@@ -24,10 +25,10 @@ class Mode:
     effort_limit = math.inf
 
     def __init__(self, joint, handle: JointHandle, limits):
-        self.joint = joint          # ode_sim.JointHandle
+        self.joint = joint  # ode_sim.JointHandle
         self.handle = handle
         self.state = handle.state
-        self.limits = limits        # joint_limits_interface handle
+        self.limits = limits  # joint_limits_interface handle
         self.e_stop = False
 
     def enter(self) -> None:
@@ -106,8 +107,7 @@ class PositionPidMode(_ByPid, PositionMode):
 
     __slots__ = ("_pid", "_description", "_frozen", "effort_limit")
 
-    def __init__(self, joint, handle: JointHandle, limits, pid: Pid, description: JointDescription,
-                 effort_limit: float):
+    def __init__(self, joint, handle: JointHandle, limits, pid: Pid, description: JointDescription, effort_limit: float):
         super().__init__(joint, handle, limits)
         self._pid = pid
         self._description = description
@@ -170,7 +170,7 @@ class JointSim:
         self.name = state.name
         self.joint = joint
         self.state = state
-        self.modes: Dict[str, Mode] = {}        # by C++ name of the interface
+        self.modes: Dict[str, Mode] = {}  # by C++ name of the interface
 
     def add(self, interface: str, mode: Mode) -> None:
         if not self.modes:

@@ -1,4 +1,5 @@
 """The model plugin ``libgazebo_ros_control.so``."""
+
 from __future__ import annotations
 
 import contextlib
@@ -82,11 +83,19 @@ class GazeboRosControl(ModelPlugin):
         if wanted == float("inf"):
             raise PluginError("<controlPeriod> must be a number of seconds, it is infinite: nothing would ever be controlled")
         if wanted < step * (1.0 - 1e-9):
-            rospy.logerr("model '%s': <controlPeriod>%g is shorter than the time step of %g s; controllers are updated "
-                         "once per step", self._model.name, wanted, step)
+            rospy.logerr(
+                "model '%s': <controlPeriod>%g is shorter than the time step of %g s; controllers are updated once per step",
+                self._model.name,
+                wanted,
+                step,
+            )
         elif wanted > step * (1.0 + 1e-9):
-            rospy.logwarn("model '%s': <controlPeriod>%g is longer than the time step of %g s: controllers are updated "
-                          "less often than the world", self._model.name, wanted, step)
+            rospy.logwarn(
+                "model '%s': <controlPeriod>%g is longer than the time step of %g s: controllers are updated less often than the world",
+                self._model.name,
+                wanted,
+                step,
+            )
         return round(wanted * 1e9)
 
     # -- the robot description -----------------------------------------------------------------------------------------
@@ -98,9 +107,14 @@ class GazeboRosControl(ModelPlugin):
         return value if isinstance(value, str) and value else None
 
     def _wait_for_description(self) -> None:
-        rospy.logwarn("gazebo_ros_control plugin is waiting for model URDF in parameter [%s] on the ROS param server. "
-                      "(Looked for in %s and above, for model '%s'; the world goes on, controllers can be loaded once "
-                      "it is there)", self._robot_param, self._namespace, self._model.name)
+        rospy.logwarn(
+            "gazebo_ros_control plugin is waiting for model URDF in parameter [%s] on the ROS param server. "
+            "(Looked for in %s and above, for model '%s'; the world goes on, controllers can be loaded once "
+            "it is there)",
+            self._robot_param,
+            self._namespace,
+            self._model.name,
+        )
         refused = None
         while not self._gone.wait(_POLL) and not rospy.core.is_shutdown_requested():
             try:
@@ -114,8 +128,7 @@ class GazeboRosControl(ModelPlugin):
                 return
             except PluginError as error:
                 refused = urdf
-                rospy.logerr("gazebo_ros_control of model '%s': %s. Waiting for another description", self._model.name,
-                             error)
+                rospy.logerr("gazebo_ros_control of model '%s': %s. Waiting for another description", self._model.name, error)
 
     def _start(self, urdf: str) -> None:
         """Begin to control the robot, or leave nothing behind.
@@ -160,9 +173,12 @@ class GazeboRosControl(ModelPlugin):
                     self._server.step()
             if time.monotonic() > told:
                 told = float("inf")
-                rospy.logwarn("the simulation stands still until controllers of model '%s' start, as spawn_model "
-                              "-paused_until_controllers asked: start them with the controller manager in %s, or call unpause_physics",
-                              self._model.name, self._namespace)
+                rospy.logwarn(
+                    "the simulation stands still until controllers of model '%s' start, as spawn_model "
+                    "-paused_until_controllers asked: start them with the controller manager in %s, or call unpause_physics",
+                    self._model.name,
+                    self._namespace,
+                )
 
     def _make_hw(self, nh: NodeHandle, urdf: str) -> RobotHWSim:
         try:
@@ -218,8 +234,10 @@ class GazeboRosControl(ModelPlugin):
             self._nh.shutdown()
 
         threading.Thread(target=end, name="gazebo_ros_control end", daemon=True).start()
-        return PluginError(f"the robot hardware {self._label()} failed: {_reason(error)}. Its controllers are "
-                           "stopped and their controller manager is closed; delete and spawn the robot to begin again")
+        return PluginError(
+            f"the robot hardware {self._label()} failed: {_reason(error)}. Its controllers are "
+            "stopped and their controller manager is closed; delete and spawn the robot to begin again"
+        )
 
     def _label(self) -> str:
         sim = self._sim_class

@@ -1,4 +1,5 @@
 """Base class of robot hardware that lives in the simulator."""
+
 from __future__ import annotations
 
 from typing import Callable, List, Optional
@@ -17,8 +18,9 @@ class RobotHWSim(RobotHW):
 
     on_drive: Callable[..., None] = staticmethod(lambda *joints: None)
 
-    def init_sim(self, robot_namespace: str, model_nh: NodeHandle, model, urdf: Optional[str],
-                 transmissions: List[TransmissionInfo]) -> bool:
+    def init_sim(
+        self, robot_namespace: str, model_nh: NodeHandle, model, urdf: Optional[str], transmissions: List[TransmissionInfo]
+    ) -> bool:
         """Set up. May take its time: the world goes on. Must not touch the world's state.
 
         :param robot_namespace: absolute.

@@ -1,4 +1,5 @@
 """The joints of a robot, read in one call and commanded in another: ``core/wiring.hpp`` says how a command gets to its joint."""
+
 from __future__ import annotations
 
 from typing import Dict, Iterable, List, Tuple

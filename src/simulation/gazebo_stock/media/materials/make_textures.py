@@ -3,6 +3,7 @@
 
 Small pictures of our own that repeat without a seam; the same in every run. Run after a change.
 """
+
 from pathlib import Path
 
 import numpy as np
@@ -105,15 +106,24 @@ def lanes(rng, count):
 def runway(rng):
     image = lanes(rng, 1)
     size = len(image)
-    image[: size // 2, size // 2 - 4:size // 2 + 4] = WHITE
+    image[: size // 2, size // 2 - 4 : size // 2 + 4] = WHITE
     return image
 
 
-TEXTURES = {"wood": wood, "wood_floor": lambda rng: boards(rng, (0.55, 0.36, 0.20), 6, 2),
-            "wood_pallet": lambda rng: boards(rng, (0.70, 0.55, 0.36), 4, 6), "bricks": bricks,
-            "ceiling_tiled": ceiling_tiled, "painted_wall": painted_wall, "grass": grass, "road": lambda rng: lanes(rng, 2),
-            "road_1": lambda rng: lanes(rng, 1), "road_4": lambda rng: lanes(rng, 4), "road_6": lambda rng: lanes(rng, 6),
-            "runway": runway}
+TEXTURES = {
+    "wood": wood,
+    "wood_floor": lambda rng: boards(rng, (0.55, 0.36, 0.20), 6, 2),
+    "wood_pallet": lambda rng: boards(rng, (0.70, 0.55, 0.36), 4, 6),
+    "bricks": bricks,
+    "ceiling_tiled": ceiling_tiled,
+    "painted_wall": painted_wall,
+    "grass": grass,
+    "road": lambda rng: lanes(rng, 2),
+    "road_1": lambda rng: lanes(rng, 1),
+    "road_4": lambda rng: lanes(rng, 4),
+    "road_6": lambda rng: lanes(rng, 6),
+    "runway": runway,
+}
 
 if __name__ == "__main__":
     for number, (name, paint) in enumerate(TEXTURES.items()):

@@ -3,6 +3,7 @@
 Bones have the names and the order of those in Gazebo's walk.dae, so that skins, animations and plugins written for it fit; their
 lengths, and the body round them, are our own. Lengths in metres; x forward, y left, z up, the origin at the bone ``Hips``.
 """
+
 import math
 
 import numpy as np
@@ -24,16 +25,31 @@ def bones():
     """(name, parent, place seen from the parent, at rest and in the axes of the person) of each, parents first."""
     found = [("Hips", None, (0, 0, 0))]
     for side, y in (("Left", 1), ("Right", -1)):
-        found += [(f"{side[0]}HipJoint", "Hips", (0, 0, 0)), (f"{side}UpLeg", f"{side[0]}HipJoint", (0, 0.09 * y, -HIP)),
-                  (f"{side}Leg", f"{side}UpLeg", (0, 0, -THIGH)), (f"{side}Foot", f"{side}Leg", (0, 0, -SHANK)),
-                  (f"{side}ToeBase", f"{side}Foot", (TOES, 0, TOE_HEIGHT - SOLE))]
-    found += [("LowerBack", "Hips", (0, 0, 0)), ("Spine", "LowerBack", (0, 0, 0.13)), ("Spine1", "Spine", (0, 0, 0.14)),
-              ("Neck", "Spine1", (0, 0, 0)), ("Neck1", "Neck", (0.01, 0, 0.19)), ("Head", "Neck1", (0.015, 0, 0.08))]
+        found += [
+            (f"{side[0]}HipJoint", "Hips", (0, 0, 0)),
+            (f"{side}UpLeg", f"{side[0]}HipJoint", (0, 0.09 * y, -HIP)),
+            (f"{side}Leg", f"{side}UpLeg", (0, 0, -THIGH)),
+            (f"{side}Foot", f"{side}Leg", (0, 0, -SHANK)),
+            (f"{side}ToeBase", f"{side}Foot", (TOES, 0, TOE_HEIGHT - SOLE)),
+        ]
+    found += [
+        ("LowerBack", "Hips", (0, 0, 0)),
+        ("Spine", "LowerBack", (0, 0, 0.13)),
+        ("Spine1", "Spine", (0, 0, 0.14)),
+        ("Neck", "Spine1", (0, 0, 0)),
+        ("Neck1", "Neck", (0.01, 0, 0.19)),
+        ("Head", "Neck1", (0.015, 0, 0.08)),
+    ]
     for side, y in (("Left", 1), ("Right", -1)):
-        found += [(f"{side}Shoulder", "Spine1", (0, 0, 0)), (f"{side}Arm", f"{side}Shoulder", (0, 0.185 * y, 0.14)),
-                  (f"{side}ForeArm", f"{side}Arm", (0, 0, -0.29)), (f"{side}Hand", f"{side}ForeArm", (0, 0, -0.25)),
-                  (f"{side}FingerBase", f"{side}Hand", (0, 0, 0)),
-                  (f"{side}HandIndex1", f"{side}FingerBase", (0, 0, -0.09)), (f"{side[0]}Thumb", f"{side}Hand", (0, 0, 0))]
+        found += [
+            (f"{side}Shoulder", "Spine1", (0, 0, 0)),
+            (f"{side}Arm", f"{side}Shoulder", (0, 0.185 * y, 0.14)),
+            (f"{side}ForeArm", f"{side}Arm", (0, 0, -0.29)),
+            (f"{side}Hand", f"{side}ForeArm", (0, 0, -0.25)),
+            (f"{side}FingerBase", f"{side}Hand", (0, 0, 0)),
+            (f"{side}HandIndex1", f"{side}FingerBase", (0, 0, -0.09)),
+            (f"{side[0]}Thumb", f"{side}Hand", (0, 0, 0)),
+        ]
     return found
 
 
@@ -84,8 +100,13 @@ def limb(length, radius, end_radius, bulge=0.0, rings=4):
 
 def ball(x, y, z, depth, width, height, rows=7, sides=14):
     steps = np.linspace(-80, 80, rows)
-    return loft([(x, y, z + height * math.sin(math.radians(a)), depth * math.cos(math.radians(a)), width * math.cos(math.radians(a)))
-                 for a in steps], sides)
+    return loft(
+        [
+            (x, y, z + height * math.sin(math.radians(a)), depth * math.cos(math.radians(a)), width * math.cos(math.radians(a)))
+            for a in steps
+        ],
+        sides,
+    )
 
 
 def lying(body, x=0.0, z=0.0):
@@ -123,8 +144,15 @@ def _trunk():
 
 
 def _side(side, y):
-    foot = loft([(-0.004, 0, -0.055, 0.030, 0.030), (-0.008, 0, -0.04, 0.044, 0.040), (-0.008, 0, 0.04, 0.044, 0.042),
-                 (-0.012, 0, 0.10, 0.032, 0.043), (-0.018, 0, 0.155, 0.024, 0.045)])
+    foot = loft(
+        [
+            (-0.004, 0, -0.055, 0.030, 0.030),
+            (-0.008, 0, -0.04, 0.044, 0.040),
+            (-0.008, 0, 0.04, 0.044, 0.042),
+            (-0.012, 0, 0.10, 0.032, 0.043),
+            (-0.018, 0, 0.155, 0.024, 0.045),
+        ]
+    )
     toes = loft([(0, 0, -0.02, 0.024, 0.045), (0, 0, 0.03, 0.020, 0.043), (0.003, 0, 0.065, 0.014, 0.034), (0.005, 0, 0.083, 0.007, 0.018)])
     return [
         (f"{side}UpLeg", "trousers", limb(THIGH, 0.088, 0.060, 0.006)),

@@ -3,6 +3,7 @@
 Lengths and durations of the animations are those of Gazebo's files of the same names: plugins and worlds are tuned to them.
 Angles in rad about the person's axes: ``pitch`` about y, positive forward for what stands on its joint and backward for what hangs.
 """
+
 import math
 from dataclasses import dataclass, field
 
@@ -79,7 +80,7 @@ def foot(gait, phase):
     x1 += gait.landing
     ease = smooth(part)
     x = x0 + (x1 - x0) * ease
-    z = z0 + (z1 - z0) * ease + gait.lift * math.sin(math.pi * part) ** 2 + gait.knees * math.sin(math.pi * part ** 0.6) ** 2
+    z = z0 + (z1 - z0) * ease + gait.lift * math.sin(math.pi * part) ** 2 + gait.knees * math.sin(math.pi * part**0.6) ** 2
     pitch = pitch0 + (pitch1 - pitch0) * smooth(min(part * 1.25, 1.0))
     return x, z, pitch, -0.85 * max(pitch0, 0.0) * (1.0 - smooth(min(2.0 * part, 1.0)))
 
@@ -88,8 +89,8 @@ def leg(x, z, pitch, hips_height, lean=0.0):
     """(thigh, knee, foot) pitches that put the ankle at (x, z) with the foot so; the knee bends forward."""
     down, along = hips_height - HIP - z, x
     far = min(math.hypot(down, along), REACH)
-    inner = math.acos(max(-1.0, min(1.0, (THIGH ** 2 + far ** 2 - SHANK ** 2) / (2.0 * THIGH * far))))
-    bend = math.pi - math.acos(max(-1.0, min(1.0, (THIGH ** 2 + SHANK ** 2 - far ** 2) / (2.0 * THIGH * SHANK))))
+    inner = math.acos(max(-1.0, min(1.0, (THIGH**2 + far**2 - SHANK**2) / (2.0 * THIGH * far))))
+    bend = math.pi - math.acos(max(-1.0, min(1.0, (THIGH**2 + SHANK**2 - far**2) / (2.0 * THIGH * SHANK))))
     thigh = -(math.atan2(along, down) + inner)
     return thigh - lean, bend, pitch - thigh - bend
 
@@ -102,15 +103,23 @@ def stride(gait, phase, travelled):
     for side, own in (("Left", phase), ("Right", phase + 0.5)):
         x, z, pitch, toes = foot(gait, own)
         thigh, knee, ankle = leg(x, z, pitch, height)
-        turns.update({f"{side}UpLeg": (0, thigh, 0), f"{side}Leg": (0, knee, 0), f"{side}Foot": (0, ankle, 0),
-                      f"{side}ToeBase": (0, toes, 0)})
+        turns.update(
+            {f"{side}UpLeg": (0, thigh, 0), f"{side}Leg": (0, knee, 0), f"{side}Foot": (0, ankle, 0), f"{side}ToeBase": (0, toes, 0)}
+        )
         swing = gait.arms * math.cos(2.0 * math.pi * own)  # back when the leg of its side is before
         out = 0.10 if side == "Left" else -0.10
         turns[f"{side}Arm"] = (out, swing + 0.03, 0)
         turns[f"{side}ForeArm"] = (0, -gait.elbows - 0.5 * max(-swing, 0.0), 0)
     twist = 0.08 * math.cos(wave)
-    turns.update({"LowerBack": (0, gait.lean, 0), "Spine": (0, 0, twist), "Spine1": (0, 0, twist),
-                  "Neck1": (0, -0.5 * gait.lean, -twist), "Head": (0, -0.4 * gait.lean, -twist)})
+    turns.update(
+        {
+            "LowerBack": (0, gait.lean, 0),
+            "Spine": (0, 0, twist),
+            "Spine1": (0, 0, twist),
+            "Neck1": (0, -0.5 * gait.lean, -twist),
+            "Head": (0, -0.4 * gait.lean, -twist),
+        }
+    )
     return Frame((travelled, 0.012 * math.sin(wave), height), turns)
 
 
@@ -127,11 +136,13 @@ def standing(wave, weight=1.0):
     for side, sign in (("Left", 1), ("Right", -1)):
         thigh, knee, ankle = leg(0.0, SOLE, 0.0, height)
         roll = math.atan2(y, ANKLE)
-        turns.update({f"{side}UpLeg": (roll + 0.02 * sign, thigh, 0), f"{side}Leg": (0, knee, 0),
-                      f"{side}Foot": (-roll - 0.02 * sign, ankle, 0)})
+        turns.update(
+            {f"{side}UpLeg": (roll + 0.02 * sign, thigh, 0), f"{side}Leg": (0, knee, 0), f"{side}Foot": (-roll - 0.02 * sign, ankle, 0)}
+        )
     hanging_arms(turns, 0.02 * math.sin(3 * wave), 0.02 * math.sin(3 * wave + 1.0))
-    turns.update({"Spine": (0, 0.012 * math.sin(3 * wave), 0.02 * math.sin(wave)),
-                  "Head": (0, 0.02 * math.sin(2 * wave), 0.10 * math.sin(wave))})
+    turns.update(
+        {"Spine": (0, 0.012 * math.sin(3 * wave), 0.02 * math.sin(wave)), "Head": (0, 0.02 * math.sin(2 * wave), 0.10 * math.sin(wave))}
+    )
     return Frame((0.0, y, height), turns)
 
 
@@ -142,11 +153,23 @@ def seated(part, wave=0.0):
     turns = {}
     for side, sign in (("Left", 1), ("Right", -1)):
         thigh, knee, ankle = leg(-x, SOLE, 0.0, height)
-        turns.update({f"{side}UpLeg": (0.05 * sign, thigh, 0), f"{side}Leg": (0, knee, 0), f"{side}Foot": (-0.05 * sign, ankle, 0),
-                      f"{side}Arm": (0.09 * sign, 0.03 - 0.42 * part - 0.8 * lean * (1 - part), 0),
-                      f"{side}ForeArm": (0, -0.22 - 0.75 * part, 0)})
-    turns.update({"LowerBack": (0, 0.7 * lean, 0), "Spine": (0, 0.3 * lean + 0.012 * math.sin(3 * wave), 0), "Neck1": (0, -0.4 * lean, 0),
-                  "Head": (0, -0.3 * lean, 0.15 * math.sin(wave) * part)})
+        turns.update(
+            {
+                f"{side}UpLeg": (0.05 * sign, thigh, 0),
+                f"{side}Leg": (0, knee, 0),
+                f"{side}Foot": (-0.05 * sign, ankle, 0),
+                f"{side}Arm": (0.09 * sign, 0.03 - 0.42 * part - 0.8 * lean * (1 - part), 0),
+                f"{side}ForeArm": (0, -0.22 - 0.75 * part, 0),
+            }
+        )
+    turns.update(
+        {
+            "LowerBack": (0, 0.7 * lean, 0),
+            "Spine": (0, 0.3 * lean + 0.012 * math.sin(3 * wave), 0),
+            "Neck1": (0, -0.4 * lean, 0),
+            "Head": (0, -0.3 * lean, 0.15 * math.sin(wave) * part),
+        }
+    )
     return Frame((x, 0.0, height), turns)
 
 
@@ -154,9 +177,15 @@ def talking(wave, quick):
     """Stands, and moves its hands to what it says."""
     frame = standing(wave)
     a, b = math.sin(quick * wave), math.sin((quick + 2) * wave + 0.7)
-    frame.turns.update({"RightArm": (-0.25 - 0.1 * b, -0.45 - 0.15 * a, 0), "RightForeArm": (0.2 * b, -1.25 - 0.3 * a, 0),
-                        "LeftArm": (0.18 + 0.05 * a, -0.25 - 0.12 * b, 0), "LeftForeArm": (0, -0.9 - 0.3 * b, 0),
-                        "Head": (0.04 * b, 0.06 * a, 0.18 * math.sin(2 * wave))})
+    frame.turns.update(
+        {
+            "RightArm": (-0.25 - 0.1 * b, -0.45 - 0.15 * a, 0),
+            "RightForeArm": (0.2 * b, -1.25 - 0.3 * a, 0),
+            "LeftArm": (0.18 + 0.05 * a, -0.25 - 0.12 * b, 0),
+            "LeftForeArm": (0, -0.9 - 0.3 * b, 0),
+            "Head": (0.04 * b, 0.06 * a, 0.18 * math.sin(2 * wave)),
+        }
+    )
     return frame
 
 
@@ -172,8 +201,14 @@ def moonwalk(phase, travelled):
             pitch = 0.75 * math.sin(math.pi * part) ** 0.7
             x, z = -0.20 + 0.40 * part, SOLE + TOES * math.sin(pitch)
         thigh, knee, ankle = leg(x, z, pitch, height)
-        turns.update({f"{side}UpLeg": (0, thigh, 0), f"{side}Leg": (0, knee, 0), f"{side}Foot": (0, ankle, 0),
-                      f"{side}ToeBase": (0, -max(pitch, 0.0) * 0.9, 0)})
+        turns.update(
+            {
+                f"{side}UpLeg": (0, thigh, 0),
+                f"{side}Leg": (0, knee, 0),
+                f"{side}Foot": (0, ankle, 0),
+                f"{side}ToeBase": (0, -max(pitch, 0.0) * 0.9, 0),
+            }
+        )
     hanging_arms(turns, 0.25 * math.cos(2 * math.pi * phase), -0.25 * math.cos(2 * math.pi * phase))
     turns.update({"LowerBack": (0, 0.05, 0), "Head": (0, 0.1, 0)})
     return Frame((travelled, 0.0, height), turns, math.pi)
@@ -198,4 +233,3 @@ def animations():
         "talk_a": sampled(8.291667, 48, lambda p: talking(circle * p, 5)),
         "talk_b": sampled(8.291667, 48, lambda p: talking(circle * p, 7)),
     }
-

@@ -6,6 +6,7 @@
 
 Its parts are loaded when they are first asked for: programs that only show or describe worlds start without the physics.
 """
+
 from importlib import import_module
 from pkgutil import extend_path
 from typing import TYPE_CHECKING, Any
@@ -19,12 +20,29 @@ if TYPE_CHECKING:
     from ode_sim.handles import CollisionHandle, JointFeedback, JointHandle, LinkHandle, ModelHandle, Twist
     from ode_sim.world import Snapshot, World
 
-__all__ = ["Attachment", "CollisionHandle", "DescriptionError", "JointFeedback", "JointHandle", "LinkHandle", "ModelHandle", "Pose",
-           "Problem", "Snapshot", "Twist", "World", "prepare"]
+__all__ = [
+    "Attachment",
+    "CollisionHandle",
+    "DescriptionError",
+    "JointFeedback",
+    "JointHandle",
+    "LinkHandle",
+    "ModelHandle",
+    "Pose",
+    "Problem",
+    "Snapshot",
+    "Twist",
+    "World",
+    "prepare",
+]
 
-_PLACES = {"attachment": ("Attachment",), "collision_meshes": ("prepare",), "description.model": ("DescriptionError", "Pose", "Problem"),
-           "handles": ("CollisionHandle", "JointFeedback", "JointHandle", "LinkHandle", "ModelHandle", "Twist"),
-           "world": ("Snapshot", "World")}
+_PLACES = {
+    "attachment": ("Attachment",),
+    "collision_meshes": ("prepare",),
+    "description.model": ("DescriptionError", "Pose", "Problem"),
+    "handles": ("CollisionHandle", "JointFeedback", "JointHandle", "LinkHandle", "ModelHandle", "Twist"),
+    "world": ("Snapshot", "World"),
+}
 _WHERE = {name: module for module, names in _PLACES.items() for name in names}
 
 

@@ -1,4 +1,5 @@
 """Links held together without a joint."""
+
 from __future__ import annotations
 
 from typing import Optional

@@ -1,4 +1,5 @@
 """Puts a described model into the physics core."""
+
 from __future__ import annotations
 
 import math
@@ -13,10 +14,36 @@ from ode_sim.inertia import usable_inertia, usable_mass
 from ode_sim.math3 import compose, cross, dot, norm, unit
 from ode_sim.physics import BOUNDS
 
-JOINT_TYPES = {"revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic", "fixed": "fixed", "ball": "ball",
-               "universal": "universal", "revolute2": "universal", "screw": "screw", "gearbox": "gearbox"}
-SURFACE = ("mu", "mu2", "fdir1", "slip1", "slip2", "kp", "kd", "max_vel", "min_depth", "restitution", "bounce_threshold",
-           "torsional_mu", "torsional_slip", "patch_radius", "surface_radius", "use_patch_radius", "collide_without_contact")
+JOINT_TYPES = {
+    "revolute": "revolute",
+    "continuous": "revolute",
+    "prismatic": "prismatic",
+    "fixed": "fixed",
+    "ball": "ball",
+    "universal": "universal",
+    "revolute2": "universal",
+    "screw": "screw",
+    "gearbox": "gearbox",
+}
+SURFACE = (
+    "mu",
+    "mu2",
+    "fdir1",
+    "slip1",
+    "slip2",
+    "kp",
+    "kd",
+    "max_vel",
+    "min_depth",
+    "restitution",
+    "bounce_threshold",
+    "torsional_mu",
+    "torsional_slip",
+    "patch_radius",
+    "surface_radius",
+    "use_patch_radius",
+    "collide_without_contact",
+)
 AXIS = ("lower", "upper", "effort", "velocity", "damping", "friction", "spring_reference", "spring_stiffness")
 
 
@@ -182,16 +209,24 @@ class Builder:
             lower, upper = unlimited(axis.lower), unlimited(axis.upper)
             if lower == math.inf or upper == -math.inf:
                 self._problem(
-                    "warning",
-                    f"{where}: no position is between the limits {axis.lower:g} and {axis.upper:g}; it has none",
-                    joint.source,
+                    "warning", f"{where}: no position is between the limits {axis.lower:g} and {axis.upper:g}; it has none", joint.source
                 )
                 lower, upper = -math.inf, math.inf
             if lower > upper:
                 self._problem("warning", f"{where}: lower limit {lower:g} is above upper limit {upper:g}; they are swapped", joint.source)
                 lower, upper = upper, lower
-            core.set_axis(i, axis.xyz, lower, upper, axis.effort, axis.velocity, axis.damping, axis.friction, axis.spring_reference,
-                          axis.spring_stiffness)
+            core.set_axis(
+                i,
+                axis.xyz,
+                lower,
+                upper,
+                axis.effort,
+                axis.velocity,
+                axis.damping,
+                axis.friction,
+                axis.spring_reference,
+                axis.spring_stiffness,
+            )
         if joint.provide_feedback:
             core.watch()
         written = joint if tuple(axes) == joint.axes else replace(joint, axes=tuple(axes))

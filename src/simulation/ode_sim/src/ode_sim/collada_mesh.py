@@ -1,4 +1,5 @@
 """Collada files as parts. What their XML may hide is looked for before the library behind it reads them."""
+
 from __future__ import annotations
 
 import io
@@ -61,8 +62,13 @@ def _without_bones(data: bytes) -> bytes:
     if b"<library_controllers" not in data and b"<library_animations" not in data:
         return data
     root = ElementTree.fromstring(data)
-    skins = {controller.get("id"): skin for controller in root.iter() if _tag(controller) == "controller"
-             for skin in controller if _tag(skin) == "skin"}
+    skins = {
+        controller.get("id"): skin
+        for controller in root.iter()
+        if _tag(controller) == "controller"
+        for skin in controller
+        if _tag(skin) == "skin"
+    }
     for node in list(root.iter()):
         for instance in [entry for entry in node if _tag(entry) == "instance_controller"]:
             node.remove(instance)
@@ -76,7 +82,7 @@ def _without_bones(data: bytes) -> bytes:
 
 def _bound(instance: ElementTree.Element, skin: ElementTree.Element) -> ElementTree.Element:
     """A node with the shape below the skin."""
-    namespace = instance.tag[:-len("instance_controller")]
+    namespace = instance.tag[: -len("instance_controller")]
     place = ElementTree.Element(namespace + "node")
     for matrix in (entry for entry in skin if _tag(entry) == "bind_shape_matrix"):
         ElementTree.SubElement(place, namespace + "matrix").text = matrix.text
@@ -130,8 +136,12 @@ def parts_of(primitive, geometry, material, path: str, unit: float = 1.0) -> Lis
     """Its triangles as parts, each with the numbers of the shape's corners (V,) that its own are."""
     if hasattr(primitive, "triangleset"):
         primitive = primitive.triangleset()
-    if not hasattr(primitive, "vertex_index") or primitive.vertex_index is None \
-            or np.ndim(primitive.vertex_index) != 2 or primitive.vertex_index.shape[1] != 3:
+    if (
+        not hasattr(primitive, "vertex_index")
+        or primitive.vertex_index is None
+        or np.ndim(primitive.vertex_index) != 2
+        or primitive.vertex_index.shape[1] != 3
+    ):
         return []  # lines
     material = _material(material, path)
     columns = [primitive.vertex_index.ravel()]
@@ -141,8 +151,14 @@ def parts_of(primitive, geometry, material, path: str, unit: float = 1.0) -> Lis
     columns.append(primitive.texcoord_indexset[0].ravel() if has_uv else np.zeros_like(columns[0]))
     unique, inverse = np.unique(np.stack(columns, axis=1), axis=0, return_inverse=True)
     normals = primitive.normal[unique[:, 1]] if has_normals else None
-    part = MeshPart(geometry.name or geometry.id, primitive.vertex[unique[:, 0]] * unit, inverse.reshape(-1, 3), normals,
-                    primitive.texcoordset[0][unique[:, 2], :2] if has_uv else None, material)
+    part = MeshPart(
+        geometry.name or geometry.id,
+        primitive.vertex[unique[:, 0]] * unit,
+        inverse.reshape(-1, 3),
+        normals,
+        primitive.texcoordset[0][unique[:, 2], :2] if has_uv else None,
+        material,
+    )
     return [(part, unique[:, 0])]
 
 
@@ -272,9 +288,14 @@ def _material(material, path: str) -> Material:
     if diffuse is not None and alpha != 1.0:
         diffuse = diffuse[:3] + (alpha,)
     emissive = colour(effect.emission)
-    return Material(getattr(material, "name", "") or "", ambient=diffuse, diffuse=diffuse,
-                    specular=colour(effect.specular), emissive=emissive if emissive and any(emissive[:3]) else None,
-                    texture=texture)
+    return Material(
+        getattr(material, "name", "") or "",
+        ambient=diffuse,
+        diffuse=diffuse,
+        specular=colour(effect.specular),
+        emissive=emissive if emissive and any(emissive[:3]) else None,
+        texture=texture,
+    )
 
 
 def _alpha(effect) -> float:
@@ -296,8 +317,12 @@ def _texture_file(name: str, mesh_path: str) -> str:
     name = unquote(name[7:] if name.startswith("file://") else name).replace("\\", "/")
     folder = os.path.dirname(mesh_path)
     base = os.path.basename(name)
-    for candidate in (os.path.join(folder, name), os.path.join(folder, base),
-                      os.path.join(folder, "../materials/textures", base), os.path.join(folder, "textures", base)):
+    for candidate in (
+        os.path.join(folder, name),
+        os.path.join(folder, base),
+        os.path.join(folder, "../materials/textures", base),
+        os.path.join(folder, "textures", base),
+    ):
         if os.path.isfile(candidate):
             return os.path.abspath(candidate)
     return ""

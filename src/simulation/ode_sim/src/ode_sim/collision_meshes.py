@@ -3,6 +3,7 @@
 Reading a large mesh and building its tree takes longer than many steps (half a second for 300 000 triangles). It needs no
 world, so a simulation that must not stand still has :func:`prepare` called in another thread before it spawns the model.
 """
+
 from __future__ import annotations
 
 import functools

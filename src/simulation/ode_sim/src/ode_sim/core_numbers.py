@@ -1,4 +1,5 @@
 """Numbers on their way into the core and out of it."""
+
 from __future__ import annotations
 
 import math

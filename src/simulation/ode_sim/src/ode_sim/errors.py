@@ -14,6 +14,7 @@
 
 The faces (gazebo_ros, gzclient) derive theirs from these. Errors of plugins are plugin_loader's ``PluginError``.
 """
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -23,7 +24,7 @@ def one_line(text: object, most: int = 1000) -> str:
     """``text`` for a message: on one line, printable, its middle left out where it is longer than ``most`` characters."""
     text = str(text)
     if len(text) > most:
-        text = f"{text[:most - most // 3]} ... {text[-(most // 3):]}"
+        text = f"{text[: most - most // 3]} ... {text[-(most // 3) :]}"
     return "".join(c if c.isprintable() else " " if c.isspace() else "?" for c in text)
 
 

@@ -3,6 +3,7 @@
 Poses ``X_WA`` are :class:`~ode_sim.description.model.Pose`; vectors are tuples of three floats in world axes; SI units.
 A handle of a removed model raises ``RuntimeError`` when it would have to act.
 """
+
 from __future__ import annotations
 
 import math
@@ -205,8 +206,7 @@ class JointHandle:
     angles of child and parent, as its reference body sees them; nothing drives them but what drives these links.
     """
 
-    def __init__(self, model: "ModelHandle", joint: description.Joint, parent: Optional[LinkHandle], child: LinkHandle,
-                 core) -> None:
+    def __init__(self, model: "ModelHandle", joint: description.Joint, parent: Optional[LinkHandle], child: LinkHandle, core) -> None:
         self.model = model
         self.description = joint
         self.name = joint.name
@@ -345,7 +345,7 @@ class JointHandle:
         if not 0 <= axis < self.axis_count:
             raise ValueError(f"joint {self.scoped_name} has {self.axis_count} axes, there is no axis {axis}")
         numbers = list(self.core.get(axis))
-        numbers[first:first + len(values)] = values
+        numbers[first : first + len(values)] = values
         self.core.set_axis(axis, self.description.axes[axis].xyz, *numbers)
 
     def feedback(self) -> JointFeedback:
@@ -452,8 +452,11 @@ class ModelHandle:
         link = self.canonical_link
         if link:
             finite((*linear, *angular), f"twist of model {self.name}")
-            self.core.add_twist(tuple(np.subtract(linear, link.velocity_at(origin_W))),
-                                tuple(np.subtract(angular, link.angular_velocity())), tuple(origin_W))
+            self.core.add_twist(
+                tuple(np.subtract(linear, link.velocity_at(origin_W))),
+                tuple(np.subtract(angular, link.angular_velocity())),
+                tuple(origin_W),
+            )
 
     @property
     def flown_apart(self) -> bool:

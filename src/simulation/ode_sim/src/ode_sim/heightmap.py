@@ -1,4 +1,5 @@
 """Height maps: an image to heights in metres, one reader for what collides and what is drawn."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -6,7 +7,7 @@ import numpy as np
 from ode_sim.description.model import DescriptionError, Heightmap, quoted
 from ode_sim.images import read_grey
 
-MOST_HEIGHTS = 4097 ** 2  # 250 MB in the collision space
+MOST_HEIGHTS = 4097**2  # 250 MB in the collision space
 
 
 def load_heights(heightmap: Heightmap) -> np.ndarray:

@@ -1,4 +1,5 @@
 """Pictures from files that nobody has checked: textures, height maps, floor plans."""
+
 from __future__ import annotations
 
 import logging

@@ -1,4 +1,5 @@
 """Masses and inertia tensors that a rigid-body engine can take, as near as possible to those written."""
+
 from __future__ import annotations
 
 import math
@@ -25,7 +26,7 @@ def usable_mass(mass: float, where: str) -> Tuple[float, Optional[str]]:
         return LARGEST_MASS, f"{where}: mass {mass:g} kg is too large to simulate; {LARGEST_MASS:g} is used"
     if math.isfinite(mass) and mass > 0.0:
         return SMALLEST_MASS, f"{where}: mass {mass} kg is too small to simulate; {SMALLEST_MASS} is used"
-    return 1.0, f"{where}: mass {mass} is no positive number; 1 kg is used. Write <mass value=\"...\"/> in kg"
+    return 1.0, f'{where}: mass {mass} is no positive number; 1 kg is used. Write <mass value="..."/> in kg'
 
 
 def usable_inertia(inertial: Inertial, mass: float, where: str) -> Tuple[Tuple[float, ...], Optional[str]]:
@@ -35,20 +36,27 @@ def usable_inertia(inertial: Inertial, mass: float, where: str) -> Tuple[Tuple[f
     One that is not positive definite becomes :data:`UNTOLD_MOMENT` about every axis: so does ODE in Gazebo, and arms whose tensors
     were miscalculated stand there.
     """
-    tensor = np.array([[inertial.ixx, inertial.ixy, inertial.ixz],
-                       [inertial.ixy, inertial.iyy, inertial.iyz],
-                       [inertial.ixz, inertial.iyz, inertial.izz]], dtype=float)
+    tensor = np.array(
+        [
+            [inertial.ixx, inertial.ixy, inertial.ixz],
+            [inertial.ixy, inertial.iyy, inertial.iyz],
+            [inertial.ixz, inertial.iyz, inertial.izz],
+        ],
+        dtype=float,
+    )
     problem = None
     if not (np.abs(tensor) <= LARGEST_MOMENT).all():
         what = f"a moment beyond {LARGEST_MOMENT:g} kg m^2" if np.isfinite(tensor).all() else "a NaN or an infinity"
         tensor = np.eye(3) * mass * 0.01
         problem = f"{where}: inertia holds {what}; {mass * 0.01:g} kg m^2 is used"
     moments, axes = np.linalg.eigh(tensor)
-    least = max(mass * SMALLEST_GYRATION ** 2, moments[-1] * 1e-9)
+    least = max(mass * SMALLEST_GYRATION**2, moments[-1] * 1e-9)
     if moments[0] <= _SINGULAR * moments[-1]:
         tensor = np.eye(3) * UNTOLD_MOMENT
-        problem = (f"{where}: inertia is not positive definite, its moments are {moments.round(9).tolist()}; {UNTOLD_MOMENT:g} kg m^2 "
-                   "about every axis is used, as Gazebo does")
+        problem = (
+            f"{where}: inertia is not positive definite, its moments are {moments.round(9).tolist()}; {UNTOLD_MOMENT:g} kg m^2 "
+            "about every axis is used, as Gazebo does"
+        )
     elif moments[0] < least:
         tensor = axes @ np.diag(np.maximum(moments, least)) @ axes.T
     rotation = np.array(quat_to_matrix(inertial.pose.q))

@@ -4,6 +4,7 @@ Quaternions are (x, y, z, w), unit length, and turn vectors of frame B into fram
 Roll, pitch, yaw are about the fixed axes x, y, z in that order (URDF, SDF). For arrays of many poses use NumPy;
 for one at a time these are several times faster.
 """
+
 from __future__ import annotations
 
 import math
@@ -27,6 +28,7 @@ IDENTITY = Pose()
 
 
 # ---------------------------------------------------------------------------------------------- vectors
+
 
 def vec3(values: Iterable[float]) -> Vec3:
     """Three numbers of any kind, such as an array's."""
@@ -66,14 +68,17 @@ def unit(a: Vec3) -> Vec3:
 
 # ---------------------------------------------------------------------------------------------- quaternions
 
+
 def quat_multiply(a: Quat, b: Quat) -> Quat:
     """q_AC from q_AB and q_BC."""
     ax, ay, az, aw = a
     bx, by, bz, bw = b
-    return (aw * bx + ax * bw + ay * bz - az * by,
-            aw * by - ax * bz + ay * bw + az * bx,
-            aw * bz + ax * by - ay * bx + az * bw,
-            aw * bw - ax * bx - ay * by - az * bz)
+    return (
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
 
 
 def quat_inverse(q: Quat) -> Quat:
@@ -108,8 +113,7 @@ def quat_from_rpy(roll: float, pitch: float, yaw: float) -> Quat:
     cr, sr = math.cos(0.5 * roll), math.sin(0.5 * roll)
     cp, sp = math.cos(0.5 * pitch), math.sin(0.5 * pitch)
     cy, sy = math.cos(0.5 * yaw), math.sin(0.5 * yaw)
-    return (sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy,
-            cr * cp * sy - sr * sp * cy, cr * cp * cy + sr * sp * sy)
+    return (sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy, cr * cp * sy - sr * sp * cy, cr * cp * cy + sr * sp * sy)
 
 
 def quat_to_rpy(q: Quat) -> Vec3:
@@ -117,21 +121,24 @@ def quat_to_rpy(q: Quat) -> Vec3:
     x, y, z, w = q
     sin_pitch = 2.0 * (w * y - z * x)
     if abs(sin_pitch) > 1.0 - 1e-14:
-        return (0.0, math.copysign(0.5 * math.pi, sin_pitch),
-                math.atan2(2.0 * (w * z - x * y), 1.0 - 2.0 * (x * x + z * z)))
+        return (0.0, math.copysign(0.5 * math.pi, sin_pitch), math.atan2(2.0 * (w * z - x * y), 1.0 - 2.0 * (x * x + z * z)))
     # the distance from the z axis keeps the pitch accurate near +-pi/2, where asin is not
     cos_pitch = math.hypot(1.0 - 2.0 * (y * y + z * z), 2.0 * (w * z + x * y))
-    return (math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y)),
-            math.atan2(sin_pitch, cos_pitch),
-            math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z)))
+    return (
+        math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y)),
+        math.atan2(sin_pitch, cos_pitch),
+        math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z)),
+    )
 
 
 def quat_to_matrix(q: Quat) -> Mat3:
     """R_AB as three rows."""
     x, y, z, w = q
-    return ((1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)),
-            (2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)),
-            (2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)))
+    return (
+        (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)),
+        (2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)),
+        (2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)),
+    )
 
 
 def quat_from_matrix(r: Sequence[Sequence[float]]) -> Quat:
@@ -178,6 +185,7 @@ def slerp(a: Quat, b: Quat, t: float) -> Quat:
 
 # ---------------------------------------------------------------------------------------------- poses
 
+
 def compose(x_ab: Pose, x_bc: Pose) -> Pose:
     """X_AC = X_AB X_BC."""
     return Pose(add(x_ab.p, quat_rotate(x_ab.q, x_bc.p)), quat_multiply(x_ab.q, x_bc.q))
@@ -204,8 +212,7 @@ def rotate(x_ab: Pose, v_b: Vec3) -> Vec3:
     return quat_rotate(x_ab.q, v_b)
 
 
-def from_rpy(x: float = 0.0, y: float = 0.0, z: float = 0.0,
-             roll: float = 0.0, pitch: float = 0.0, yaw: float = 0.0) -> Pose:
+def from_rpy(x: float = 0.0, y: float = 0.0, z: float = 0.0, roll: float = 0.0, pitch: float = 0.0, yaw: float = 0.0) -> Pose:
     return Pose((x, y, z), quat_from_rpy(roll, pitch, yaw))
 
 
@@ -221,11 +228,11 @@ def to_matrix(pose: Pose) -> Tuple[Tuple[float, float, float, float], ...]:
 
 def from_matrix(m: Sequence[Sequence[float]]) -> Pose:
     """Of a 4x4 (or 3x4) homogeneous matrix with a proper rotation."""
-    return Pose((float(m[0][3]), float(m[1][3]), float(m[2][3])),
-                quat_from_matrix([[float(v) for v in row[:3]] for row in m[:3]]))
+    return Pose((float(m[0][3]), float(m[1][3]), float(m[2][3])), quat_from_matrix([[float(v) for v in row[:3]] for row in m[:3]]))
 
 
 # ---------------------------------------------------------------------------------------------- inertia
+
 
 def mat3(rows: Sequence[Sequence[float]]) -> Mat3:
     (a, b, c), (d, e, f), (g, h, i) = rows

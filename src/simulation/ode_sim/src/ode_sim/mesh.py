@@ -4,6 +4,7 @@ Units and axes follow Gazebo Classic: a Collada file is brought to metres by its
 ignored there and in RViz, robot files count on that, and so it is here. Other files are taken as they are; then the
 scale applies.
 """
+
 from __future__ import annotations
 
 import functools
@@ -54,6 +55,7 @@ class MassProperties:
 
 # ---------------------------------------------------------------------------------------------- public
 
+
 def load(mesh: Mesh) -> Surface:
     """The surface to collide with, scaled.
 
@@ -98,6 +100,7 @@ def mass_properties(surface: Surface) -> MassProperties:
 
 # ---------------------------------------------------------------------------------------------- caches
 
+
 def file_stamp(path: str) -> Tuple[int, int]:
     """Size and time of the file: an edited mesh is read again."""
     try:
@@ -137,6 +140,7 @@ def _visual(path: str, scale: Vec3, submesh: str, center: bool, stamp) -> Tuple[
 def _selected(path: str, submesh: str, center: bool, stamp) -> List[MeshPart]:
     if submesh.startswith(SKIN_PIECE):
         from ode_sim.actors.skin import load_piece  # which needs this module
+
         return load_piece(path, submesh)
     parts = read_parts(path, stamp, groups=bool(submesh))
     if submesh:
@@ -154,6 +158,7 @@ def _selected(path: str, submesh: str, center: bool, stamp) -> List[MeshPart]:
 
 # ---------------------------------------------------------------------------------------------- surfaces
 
+
 def _drawn(part: MeshPart, scale: np.ndarray) -> VisualPart:
     vertices, triangles, normals, uv = part.vertices, part.triangles, part.normals, part.uv
     if normals is None:
@@ -163,8 +168,13 @@ def _drawn(part: MeshPart, scale: np.ndarray) -> VisualPart:
     normals = np.divide(normals, length, out=np.zeros_like(normals), where=length > 0.0)
     if np.prod(scale) < 0.0:
         triangles = triangles[:, ::-1]
-    return VisualPart(_frozen(vertices * scale, np.float32), _frozen(triangles, np.int32),
-                      _frozen(normals, np.float32), None if uv is None else _frozen(uv, np.float32), part.material)
+    return VisualPart(
+        _frozen(vertices * scale, np.float32),
+        _frozen(triangles, np.int32),
+        _frozen(normals, np.float32),
+        None if uv is None else _frozen(uv, np.float32),
+        part.material,
+    )
 
 
 def with_normals(vertices, triangles, uv, crease: float = np.radians(40.0)):
@@ -189,8 +199,7 @@ def with_normals(vertices, triangles, uv, crease: float = np.radians(40.0)):
         other = corner_face[order[np.repeat(start[first:last], n) + within]]
         smooth = np.einsum("ij,ij->i", flat[corner_face[order[one]]], flat[other]) > np.cos(crease)
         one, other = one[smooth] - first, other[smooth]
-        normals[order[first:last]] = np.column_stack(
-            [np.bincount(one, weighted[other, k], minlength=last - first) for k in range(3)])
+        normals[order[first:last]] = np.column_stack([np.bincount(one, weighted[other, k], minlength=last - first) for k in range(3)])
         first = last
     length = np.linalg.norm(normals, axis=1, keepdims=True)
     normals = np.divide(normals, length, out=np.zeros_like(normals), where=length > 0.0)

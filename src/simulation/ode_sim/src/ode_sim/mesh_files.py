@@ -1,4 +1,5 @@
 """STL, DAE and OBJ files as parts, each with one material. :mod:`ode_sim.mesh` is the door to them."""
+
 from __future__ import annotations
 
 import functools
@@ -22,7 +23,6 @@ FARTHEST = 1e9  # of a coordinate, in the file's own unit
 LARGEST = 1e30  # of a surface, scaled or not; the products of larger ones are infinite
 
 
-
 @dataclass(frozen=True)
 class MeshPart:
     """A piece of a file with one material, unscaled."""
@@ -40,7 +40,12 @@ class MeshPart:
 def read_parts(path: str, stamp, groups: bool = False) -> List[MeshPart]:
     """:param groups: the groups of an OBJ file are pieces of their own, for who asks for one of them; fewer are drawn quicker"""
     readers: Dict[str, Callable[[str, bytes], List[MeshPart]]] = {
-        ".stl": _read_stl, ".stlb": _read_stl, ".stla": _read_stl, ".dae": _read_dae, ".obj": functools.partial(_read_obj, groups=groups)}
+        ".stl": _read_stl,
+        ".stlb": _read_stl,
+        ".stla": _read_stl,
+        ".dae": _read_dae,
+        ".obj": functools.partial(_read_obj, groups=groups),
+    }
     suffix = os.path.splitext(path)[1].lower()
     if suffix not in readers:
         raise DescriptionError(f"mesh {path}: '{suffix}' files cannot be read; use .stl, .dae or .obj")
@@ -50,8 +55,7 @@ def read_parts(path: str, stamp, groups: bool = False) -> List[MeshPart]:
     except DescriptionError:
         raise
     except ImportError as error:
-        raise DescriptionError(f"mesh {path}: needs the Python package {error.name}; "
-                               "scripts/setup installs it") from None
+        raise DescriptionError(f"mesh {path}: needs the Python package {error.name}; scripts/setup installs it") from None
     except MemoryError:
         raise DescriptionError(f"mesh {path}: there is not enough memory to read it") from None
     except Exception as error:  # a parser fed with a broken file may raise anything
@@ -125,7 +129,7 @@ def _stl_records(path: str, data: bytes) -> np.ndarray:
     """(3 T, 3) corners; what stands behind the last triangle is not read."""
     if len(data) < 84:
         raise DescriptionError(f"mesh {path}: is no STL file, or cut off ({len(data)} bytes)")
-    count, = struct.unpack_from("<I", data, 80)
+    (count,) = struct.unpack_from("<I", data, 80)
     whole = (len(data) - 84) // 50
     if count > whole:
         raise DescriptionError(f"mesh {path}: is no STL file, or cut off: it tells of {count} triangles and has {whole}")
@@ -181,18 +185,26 @@ def _read_obj(path: str, data: bytes, groups: bool) -> List[MeshPart]:
     parts = []
     for (name, group, material), used in corners.items():
         unique, inverse = np.unique(np.array(used), axis=0, return_inverse=True)
-        parts.append(MeshPart(
-            name, np.array(points, dtype=float)[unique[:, 0]], inverse.reshape(-1, 3),
-            np.array(normals, dtype=float)[unique[:, 2]] if normals and (unique[:, 2] >= 0).all() else None,
-            np.array([row[:2] for row in texture_points], dtype=float)[unique[:, 1]]
-            if texture_points and (unique[:, 1] >= 0).all() else None,
-            materials.get(material, Material(name=material)), group))
+        parts.append(
+            MeshPart(
+                name,
+                np.array(points, dtype=float)[unique[:, 0]],
+                inverse.reshape(-1, 3),
+                np.array(normals, dtype=float)[unique[:, 2]] if normals and (unique[:, 2] >= 0).all() else None,
+                np.array([row[:2] for row in texture_points], dtype=float)[unique[:, 1]]
+                if texture_points and (unique[:, 1] >= 0).all()
+                else None,
+                materials.get(material, Material(name=material)),
+                group,
+            )
+        )
     return parts
 
 
 def _obj_corner(word: str, points: int, texture_points: int, normals: int) -> Tuple[int, int, int]:
     """``v/vt/vn``, from 1 or, negative, from the end; -1 for what is not given."""
     fields = (word.split("/") + ["", ""])[:3]
+
     def place(text: str, count: int) -> int:
         return -1 if not text else int(text) - 1 if int(text) > 0 else count + int(text)
 
@@ -248,14 +260,14 @@ def _read_mtl(path: str) -> Dict[str, Material]:
         colour = {key: given[key] + alpha if key in given else None for key in ("Ka", "Kd", "Ks", "Ke")}
         texture = given.get("map_Kd", "")
         diffuse = (1.0, 1.0, 1.0) + alpha if texture else colour["Kd"]
-        return Material(name, ambient=diffuse, diffuse=diffuse, specular=colour["Ks"], emissive=colour["Ke"],
-                        texture=texture)
+        return Material(name, ambient=diffuse, diffuse=diffuse, specular=colour["Ks"], emissive=colour["Ke"], texture=texture)
 
     return {name: material(name, given) for name, given in materials.items()}
 
 
 def _read_dae(path: str, data: bytes) -> List[MeshPart]:
     from ode_sim.collada_mesh import read_dae  # which takes a moment to load
+
     return read_dae(path, data)
 
 

@@ -1,4 +1,5 @@
 """The settings of the physics, and within what bounds a world can run with them."""
+
 from __future__ import annotations
 
 import math
@@ -114,8 +115,16 @@ class PhysicsSettings:
     set, counts instead of what a world starts with. A value that no world can run with raises ``ValueError`` and changes nothing.
     """
 
-    _IN_CORE = {"max_step_size": "dt", "max_contacts": "max_contacts", "iters": "iters", "sor": "sor", "cfm": "cfm", "erp": "erp",
-                "contact_max_correcting_vel": "contact_max_vel", "contact_surface_layer": "surface_layer"}
+    _IN_CORE = {
+        "max_step_size": "dt",
+        "max_contacts": "max_contacts",
+        "iters": "iters",
+        "sor": "sor",
+        "cfm": "cfm",
+        "erp": "erp",
+        "contact_max_correcting_vel": "contact_max_vel",
+        "contact_surface_layer": "surface_layer",
+    }
     _NAMES = tuple(field.name for field in fields(Physics))
 
     def __init__(self, core, physics: Physics) -> None:

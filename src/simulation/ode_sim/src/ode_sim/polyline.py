@@ -1,4 +1,5 @@
 """Polylines: an outline extruded along z to a closed surface."""
+
 from __future__ import annotations
 
 from typing import List, Tuple
@@ -47,8 +48,10 @@ def _triangulate(points) -> List[Tuple[int, int, int]]:
             if _cross(points[a], points[b], points[c]) <= 0.0:
                 continue
             others = (points[i] for i in left if i not in (a, b, c))
-            if any(_cross(points[a], points[b], p) >= 0.0 and _cross(points[b], points[c], p) >= 0.0
-                   and _cross(points[c], points[a], p) >= 0.0 for p in others):
+            if any(
+                _cross(points[a], points[b], p) >= 0.0 and _cross(points[b], points[c], p) >= 0.0 and _cross(points[c], points[a], p) >= 0.0
+                for p in others
+            ):
                 continue
             triangles.append((a, b, c))
             left.pop(k)

@@ -1,4 +1,5 @@
 """Moments of a world that can be gone back to: snapshots in the order of sim time, kept in bounded memory."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -85,9 +86,14 @@ class Timeline:
         for moment in self._moments:
             if moment.number == number:
                 return moment
-        raise ValueError(f"moment {number} is not kept" + (
-            f"; there are {self._moments[0].number} to {self._moments[-1].number}" if self._moments else
-            ": none is since a model came or went"))
+        raise ValueError(
+            f"moment {number} is not kept"
+            + (
+                f"; there are {self._moments[0].number} to {self._moments[-1].number}"
+                if self._moments
+                else ": none is since a model came or went"
+            )
+        )
 
     def went_back(self, moment: Moment) -> None:
         """The world was restored to ``moment``: the next one is kept a period later."""

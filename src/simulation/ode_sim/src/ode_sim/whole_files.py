@@ -1,4 +1,5 @@
 """Files that somebody reads while they are saved again: a world that loads a model which an editor has open."""
+
 from __future__ import annotations
 
 import contextlib

@@ -1,4 +1,5 @@
 """A world that steps: models, joints, contacts, ray casts, snapshots. No ROS, no wall clock."""
+
 from __future__ import annotations
 
 import hashlib
@@ -9,10 +10,10 @@ from typing import TYPE_CHECKING, Callable, Dict, Iterable, List, Optional, Tupl
 import numpy as np
 
 from ode_sim import _core
+from ode_sim.attachment import Attachment
 from ode_sim.builder import Builder
 from ode_sim.core_numbers import flat, unit_pose
 from ode_sim.description import model as d
-from ode_sim.attachment import Attachment
 from ode_sim.handles import CollisionHandle, JointHandle, LinkHandle, ModelHandle
 from ode_sim.math3 import compose
 from ode_sim.physics import PhysicsSettings, check_gravity, check_physics, usable_physics
@@ -50,8 +51,7 @@ class World:
     :param finder: of ``model://`` and ``package://``, for :meth:`spawn_urdf` and :meth:`spawn_sdf`.
     """
 
-    def __init__(self, description: Optional[d.World] = None, seed: int = 0, finder=None,
-                 problems: Iterable[d.Problem] = ()) -> None:
+    def __init__(self, description: Optional[d.World] = None, seed: int = 0, finder=None, problems: Iterable[d.Problem] = ()) -> None:
         description = description or d.World()
         self.description = description
         self.name = description.name
@@ -96,6 +96,7 @@ class World:
         :raises DescriptionError: one line that says what cannot be read; smaller trouble goes to ``problems``.
         """
         from ode_sim.description import load_world
+
         description, problems = load_world(source, finder=finder)
         return cls(description, seed=seed, finder=finder, problems=problems)
 
@@ -210,11 +211,13 @@ class World:
     def spawn_urdf(self, text: str, name: Optional[str] = None, pose: Optional[d.Pose] = None) -> ModelHandle:
         """Spawn URDF text at ``pose`` composed with the model's own origin."""
         from ode_sim.description import read_urdf
+
         return self._spawn_text(read_urdf(text, name=name, finder=self.finder), pose)
 
     def spawn_sdf(self, text: str, name: Optional[str] = None, pose: Optional[d.Pose] = None) -> ModelHandle:
         """Spawn the first model of SDF text at ``pose`` composed with the model's own pose."""
         from ode_sim.description import read_sdf_model
+
         return self._spawn_text(read_sdf_model(text, name=name, finder=self.finder), pose)
 
     def _spawn_text(self, read, pose: Optional[d.Pose]) -> ModelHandle:
@@ -247,8 +250,10 @@ class World:
         :raises ValueError: neither can move, or one is not in this world.
         """
         if parent is child or (parent or child).model.static and child.model.static:
-            raise ValueError(f"{child.scoped_name} cannot be attached to {parent.scoped_name if parent else 'the world'}: "
-                             "it takes two links of which at least one can move")
+            raise ValueError(
+                f"{child.scoped_name} cannot be attached to {parent.scoped_name if parent else 'the world'}: "
+                "it takes two links of which at least one can move"
+            )
         return Attachment(self.core, parent, child)
 
     def find_entity(self, name: str) -> Optional[Entity]:
@@ -348,8 +353,7 @@ class World:
         """The whole state: continuing from it gives the same bits as going on without saving."""
         states = [(name, generator.bit_generator.state) for name, generator in sorted(self._generators.items())]
         kept = {"seed": self._seed, "streams": states, "actors": [actor.state() for actor in self.actors.values()]}
-        return Snapshot(tuple(self.models), self.core.save(), json.dumps(kept).encode(),
-                        tuple(self.core.welds()))
+        return Snapshot(tuple(self.models), self.core.save(), json.dumps(kept).encode(), tuple(self.core.welds()))
 
     def restore(self, snapshot: Snapshot) -> None:
         """Back to a saved state of a world with the same models.
@@ -357,8 +361,9 @@ class World:
         :raises ValueError: models were added or removed since, or the snapshot is damaged; nothing is changed.
         """
         if snapshot.models != tuple(self.models):
-            raise ValueError(f"the snapshot holds the models {', '.join(snapshot.models) or 'none'}; "
-                             f"the world has {', '.join(self.models) or 'none'}")
+            raise ValueError(
+                f"the snapshot holds the models {', '.join(snapshot.models) or 'none'}; the world has {', '.join(self.models) or 'none'}"
+            )
         try:
             saved = json.loads(snapshot.generators)
             seed, generators = int(saved["seed"]), {}
@@ -410,8 +415,7 @@ class World:
         """By the id that contacts and ray hits carry."""
         return self._collisions.get(int(collision_id))
 
-    def cast_rays(self, origins, directions, max_range: float, ignore: Iterable[CollisionHandle] = ()
-                  ) -> Tuple[np.ndarray, np.ndarray]:
+    def cast_rays(self, origins, directions, max_range: float, ignore: Iterable[CollisionHandle] = ()) -> Tuple[np.ndarray, np.ndarray]:
         """Cast N rays against every collision shape.
 
         :param origins: (N, 3) m, world.
@@ -429,13 +433,14 @@ class World:
     def render(self, camera, kind: str = "image") -> np.ndarray:
         """What a :class:`ode_sim.rendering.Camera` sees now, see :func:`ode_sim.rendering.render`."""
         from ode_sim.rendering import render
+
         return render(self, camera, kind)
 
     # ------------------------------------------------------------------------------------------ <state>
 
     def _apply_state(self, state: d.WorldState) -> None:
         """What a saved world says about time, poses and velocities, in the place of the models' own."""
-        if 0.0 <= state.sim_time <= _LONGEST_TIME and 0 <= state.iterations < 2 ** 63:
+        if 0.0 <= state.sim_time <= _LONGEST_TIME and 0 <= state.iterations < 2**63:
             self.core.time_ns = round(state.sim_time * 1e9)
             self.core.iterations = int(state.iterations)
         else:
@@ -465,4 +470,3 @@ class World:
 
     def _state_problem(self, message: str) -> None:
         self.problems.append(d.Problem("warning", f"<state>: {message}", self.description.source))
-

@@ -1,4 +1,5 @@
 """Pictures to Theora packets, with the libtheora inside ffmpeg (PyAV). Free of ROS."""
+
 from __future__ import annotations
 
 import math
@@ -51,6 +52,7 @@ class Encoder:
 
     def __init__(self, shape: Tuple[int, int], encoding: str, settings: Settings = Settings()):
         import av  # not before somebody wants a stream
+
         self._av = av
         av.logging.set_level(av.logging.ERROR)  # ffmpeg warns of the name yuvj420p, PyAV knows no other for full range
         self._shape, (self._format, self._channels) = shape, ENCODINGS[encoding]
@@ -105,8 +107,8 @@ def _split(extradata: bytes) -> List[bytes]:
     """ffmpeg's three header packets, each behind its length in 16 bits."""
     headers, at = [], 0
     while at < len(extradata):
-        end = at + 2 + int.from_bytes(extradata[at:at + 2], "big")
-        headers.append(extradata[at + 2:end])
+        end = at + 2 + int.from_bytes(extradata[at : at + 2], "big")
+        headers.append(extradata[at + 2 : end])
         at = end
     return headers
 

@@ -1,4 +1,5 @@
 """``<image topic>/theora`` with its dynamic_reconfigure parameters."""
+
 from __future__ import annotations
 
 from typing import Dict, Optional, Tuple
@@ -11,8 +12,15 @@ from theora_image_transport.msg import Packet
 
 _BITRATE, _QUALITY = 0, 1
 PARAMETERS = (
-    Parameter("optimize_for", int, _QUALITY, 0, 1, "Aim at a bit rate or at a quality",
-              enum={_BITRATE: "Aim at target_bitrate", _QUALITY: "Keep quality"}),
+    Parameter(
+        "optimize_for",
+        int,
+        _QUALITY,
+        0,
+        1,
+        "Aim at a bit rate or at a quality",
+        enum={_BITRATE: "Aim at target_bitrate", _QUALITY: "Keep quality"},
+    ),
     Parameter("target_bitrate", int, 800000, 0, 99200000, "Bit rate to aim at, bit/s, when optimize_for is 0"),
     Parameter("quality", int, 31, 0, 63, "Quality to keep, 63 is the best, when optimize_for is 1"),
     Parameter("keyframe_frequency", int, 64, 1, 64, "Largest distance of key frames, pictures"),
@@ -33,8 +41,7 @@ class TheoraPublisher(rospy.SubscribeListener):
         self._settings = encoder.Settings()
         self._encoder: Optional[encoder.Encoder] = None
         self._restart, self._silent, self._said = True, encoding not in encoder.ENCODINGS, False
-        self._publisher = rospy.Publisher(self._topic, Packet, queue_size=queue_size + _HEADERS,
-                                          subscriber_listener=self)
+        self._publisher = rospy.Publisher(self._topic, Packet, queue_size=queue_size + _HEADERS, subscriber_listener=self)
         self._parameters = Server(self._topic, PARAMETERS, self._configure)
 
     def wanted(self) -> bool:
@@ -63,16 +70,20 @@ class TheoraPublisher(rospy.SubscribeListener):
         self._restart = True
         if self._encoding not in encoder.ENCODINGS and not self._said:
             self._said = True
-            rospy.logwarn("%s stays empty: it is for %s images, this one is %s; use the raw image", topic_name,
-                          ", ".join(encoder.ENCODINGS), self._encoding)
+            rospy.logwarn(
+                "%s stays empty: it is for %s images, this one is %s; use the raw image",
+                topic_name,
+                ", ".join(encoder.ENCODINGS),
+                self._encoding,
+            )
 
     def _configure(self, config: Dict, _level: int) -> None:
-        self._settings = encoder.Settings(config["target_bitrate"] if config["optimize_for"] == _BITRATE else None,
-                                          config["quality"], config["keyframe_frequency"])
+        self._settings = encoder.Settings(
+            config["target_bitrate"] if config["optimize_for"] == _BITRATE else None, config["quality"], config["keyframe_frequency"]
+        )
         self._silent = self._encoding not in encoder.ENCODINGS
         self._restart = True
 
     def _send(self, header, packets) -> None:
         for packet in packets:
-            self._publisher.publish(Packet(header, packet.data, packet.b_o_s, 0, packet.granulepos,
-                                               packet.packetno))
+            self._publisher.publish(Packet(header, packet.data, packet.b_o_s, 0, packet.granulepos, packet.packetno))

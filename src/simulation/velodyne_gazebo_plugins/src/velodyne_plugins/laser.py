@@ -3,6 +3,7 @@
 The points lie as velodyne_pointcloud puts them: x, y, z, intensity, ring (0 is the lowest laser), time. All rays are cast at
 the same instant, so time is 0.
 """
+
 import numpy as np
 from gazebo_plugins.image_message import PointCloud2
 from gazebo_plugins.laser import RayFan
@@ -11,9 +12,17 @@ from gazebo_ros.plugin import SensorPlugin
 from sensor_msgs.msg import PointField
 
 _POINT = np.dtype([("xyz", "<f4", 3), ("intensity", "<f4"), ("ring", "<u2"), ("time", "<f4")])
-_FIELDS = [PointField(name, offset, kind, 1) for name, offset, kind in (
-    ("x", 0, PointField.FLOAT32), ("y", 4, PointField.FLOAT32), ("z", 8, PointField.FLOAT32),
-    ("intensity", 12, PointField.FLOAT32), ("ring", 16, PointField.UINT16), ("time", 18, PointField.FLOAT32))]
+_FIELDS = [
+    PointField(name, offset, kind, 1)
+    for name, offset, kind in (
+        ("x", 0, PointField.FLOAT32),
+        ("y", 4, PointField.FLOAT32),
+        ("z", 8, PointField.FLOAT32),
+        ("intensity", 12, PointField.FLOAT32),
+        ("ring", 16, PointField.UINT16),
+        ("time", 18, PointField.FLOAT32),
+    )
+]
 
 
 class VelodyneLaser(SensorPlugin):
@@ -50,8 +59,15 @@ class VelodyneLaser(SensorPlugin):
             # Column after column, as the device turns.
             points = points.reshape(self.shape).T[kept.reshape(self.shape).T]
             height, width = 1, len(points)
-        message = PointCloud2(height=height, width=width, fields=_FIELDS, point_step=_POINT.itemsize,
-                              row_step=width * _POINT.itemsize, data=points.tobytes(), is_dense=not self.organized)
+        message = PointCloud2(
+            height=height,
+            width=width,
+            fields=_FIELDS,
+            point_step=_POINT.itemsize,
+            row_step=width * _POINT.itemsize,
+            data=points.tobytes(),
+            is_dense=not self.organized,
+        )
         message.header.stamp, message.header.frame_id = sensor.measurement_time, self.frame
         self.publisher.publish(message)
 

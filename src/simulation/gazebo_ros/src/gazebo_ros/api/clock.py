@@ -1,4 +1,5 @@
 """/clock."""
+
 from __future__ import annotations
 
 import rosgraph

@@ -1,4 +1,5 @@
 """Wrenches on links and efforts on joints that last for a while."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -81,6 +82,7 @@ class ForceJobs:
         def act() -> None:  # on the centre of mass, world axes
             link.set_force(force)
             link.set_torque(torque)
+
         self._wrenches.append(_Job(link, *self._times(request), act))
         return ""
 

@@ -1,9 +1,11 @@
 """geometry_msgs to and from poses and vectors; frames named by entities."""
+
 from __future__ import annotations
 
 from typing import Any, Tuple
 
-from geometry_msgs.msg import Pose as PoseMsg, Quaternion, Point, Twist, Vector3
+from geometry_msgs.msg import Point, Quaternion, Twist, Vector3
+from geometry_msgs.msg import Pose as PoseMsg
 from ode_sim import CollisionHandle, ModelHandle, math3
 from ode_sim.description.model import FARTHEST, Pose, Vec3
 

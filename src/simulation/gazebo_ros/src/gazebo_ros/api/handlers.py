@@ -1,4 +1,5 @@
 """What every service of the node shares: run in the physics thread, answer with success and one line."""
+
 from __future__ import annotations
 
 import math
@@ -19,8 +20,9 @@ class Answer(Refused):
     """A refusal whose text is the whole status line."""
 
 
-def advertise(server: Server, name: str, service: Any, f: Callable[[Any, Any], Optional[str]],
-              in_physics_thread: bool = True, prefix: str = "") -> rospy.Service:
+def advertise(
+    server: Server, name: str, service: Any, f: Callable[[Any, Any], Optional[str]], in_physics_thread: bool = True, prefix: str = ""
+) -> rospy.Service:
     """Offer ``~name``. ``f(request, response)`` fills the response and returns the status line, if there is one.
 
     A :class:`Refused`, or the ``ValueError`` by which ode_sim refuses a value, becomes ``success=false``; so does what

@@ -1,4 +1,5 @@
 """Joints driven from a window: a steady force, or a position or velocity held by effort, as in Gazebo's joint panel."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -11,9 +12,13 @@ from gazebo_ros.callbacks import Occasional
 from gazebo_ros.server import Server
 from gazebo_ros.srv import CommandJoint, CommandJointRequest
 
-_MODES = {CommandJointRequest.NONE: "none", CommandJointRequest.FORCE: "force",
-          CommandJointRequest.POSITION: "position",
-          CommandJointRequest.VELOCITY: "velocity", CommandJointRequest.SET: "set"}
+_MODES = {
+    CommandJointRequest.NONE: "none",
+    CommandJointRequest.FORCE: "force",
+    CommandJointRequest.POSITION: "position",
+    CommandJointRequest.VELOCITY: "velocity",
+    CommandJointRequest.SET: "set",
+}
 
 
 @dataclass

@@ -1,4 +1,5 @@
 """Joint properties."""
+
 from __future__ import annotations
 
 from gazebo_msgs.srv import GetJointProperties, SetJointProperties
@@ -38,8 +39,7 @@ class JointServices:
             values = getattr(config, field)
             finite(field, *values)
             if len(values) > joint.axis_count:
-                raise Refused(f"{field} has {len(values)} elements, "
-                              f"but joint [{joint.name}] has {joint.axis_count} axes")
+                raise Refused(f"{field} has {len(values)} elements, but joint [{joint.name}] has {joint.axis_count} axes")
         for field in _FIELDS:
             for axis, value in enumerate(getattr(config, field)):
                 _set_parameter(joint, field, value, axis)

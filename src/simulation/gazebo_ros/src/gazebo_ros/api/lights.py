@@ -1,4 +1,5 @@
 """Lights."""
+
 from __future__ import annotations
 
 from dataclasses import replace
@@ -49,19 +50,37 @@ class LightServices:
         light = lights[name]
         response.diffuse = ColorRGBA(*light.diffuse)
         response.attenuation_constant, response.attenuation_linear, response.attenuation_quadratic = (
-            float(np.float32(factor)) for factor in (light.constant, light.linear, light.quadratic))  # as Gazebo keeps them
+            float(np.float32(factor)) for factor in (light.constant, light.linear, light.quadratic)
+        )  # as Gazebo keeps them
         return ""
 
     def _set(self, request, response) -> str:
         lights, name, link = self._find(request.light_name)
         r = request
-        finite("the request", r.diffuse.r, r.diffuse.g, r.diffuse.b, r.diffuse.a, r.specular.r, r.specular.g,
-               r.specular.b, r.specular.a, r.attenuation_constant, r.attenuation_linear, r.attenuation_quadratic)
+        finite(
+            "the request",
+            r.diffuse.r,
+            r.diffuse.g,
+            r.diffuse.b,
+            r.diffuse.a,
+            r.specular.r,
+            r.specular.g,
+            r.specular.b,
+            r.specular.a,
+            r.attenuation_constant,
+            r.attenuation_linear,
+            r.attenuation_quadratic,
+        )
         x_wn = pose_of(r.pose)
         lights[name] = replace(
-            lights[name], cast_shadows=r.cast_shadows, diffuse=(r.diffuse.r, r.diffuse.g, r.diffuse.b, r.diffuse.a),
-            specular=(r.specular.r, r.specular.g, r.specular.b, r.specular.a), constant=r.attenuation_constant,
-            linear=r.attenuation_linear, quadratic=r.attenuation_quadratic,
+            lights[name],
+            cast_shadows=r.cast_shadows,
+            diffuse=(r.diffuse.r, r.diffuse.g, r.diffuse.b, r.diffuse.a),
+            specular=(r.specular.r, r.specular.g, r.specular.b, r.specular.a),
+            constant=r.attenuation_constant,
+            linear=r.attenuation_linear,
+            quadratic=r.attenuation_quadratic,
             direction=vector_of(r.direction, "direction"),
-            pose=x_wn if link is None else math3.relative(link.pose, x_wn))
+            pose=x_wn if link is None else math3.relative(link.pose, x_wn),
+        )
         return ""

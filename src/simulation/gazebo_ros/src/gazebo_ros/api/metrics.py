@@ -1,4 +1,5 @@
 """~performance_metrics: real-time factor and sensor rates, five times a wall second while somebody listens."""
+
 from __future__ import annotations
 
 import time
@@ -63,8 +64,11 @@ class MetricsPublisher:
         message.real_time_factor = sim / wall
         for sensor in self._server.sensors:
             in_sim, in_wall = self._rates.setdefault(sensor.scoped_name, _Rate()).read(sensor.counted, self._sim_ns)
-            message.sensors.append(SensorPerformanceMetric(f"{self._server.description.name}::{sensor.scoped_name}", in_sim, in_wall,
-                                                           in_wall if sensor.type in _RENDERED else -1.0))
+            message.sensors.append(
+                SensorPerformanceMetric(
+                    f"{self._server.description.name}::{sensor.scoped_name}", in_sim, in_wall, in_wall if sensor.type in _RENDERED else -1.0
+                )
+            )
         self._publisher.publish(message)
 
     def _restart(self) -> None:

@@ -1,4 +1,5 @@
 """State and properties of models and links."""
+
 from __future__ import annotations
 
 from collections import Counter
@@ -6,10 +7,21 @@ from typing import Any, Tuple
 
 import rospy
 from gazebo_msgs.msg import LinkState, ModelState
-from gazebo_msgs.srv import (DeleteModel, GetLinkProperties, GetLinkState, GetModelProperties, GetModelState,
-                             GetModelStateResponse, GetWorldProperties, SetLinkProperties, SetLinkState,
-                             SetModelConfiguration, SetModelState)
-from geometry_msgs.msg import Point, Pose as PoseMsg, Quaternion
+from gazebo_msgs.srv import (
+    DeleteModel,
+    GetLinkProperties,
+    GetLinkState,
+    GetModelProperties,
+    GetModelState,
+    GetModelStateResponse,
+    GetWorldProperties,
+    SetLinkProperties,
+    SetLinkState,
+    SetModelConfiguration,
+    SetModelState,
+)
+from geometry_msgs.msg import Point, Quaternion
+from geometry_msgs.msg import Pose as PoseMsg
 from ode_sim import LinkHandle, math3
 from ode_sim.description.model import Inertial, Pose
 
@@ -32,21 +44,20 @@ class ModelServices:
         self._world = server.world
         self._state_calls: Counter = Counter()  # get_model_state numbers its answers per model
         for name, service, f in (
-                ("delete_model", DeleteModel, self._delete_model),
-                ("get_model_properties", GetModelProperties, self._get_model_properties),
-                ("get_model_state", _GetNumberedState, self._get_model_state),
-                ("get_world_properties", GetWorldProperties, self._get_world_properties),
-                ("get_link_properties", GetLinkProperties, self._get_link_properties),
-                ("get_link_state", GetLinkState, self._get_link_state),
-                ("set_link_properties", SetLinkProperties, self._set_link_properties),
-                ("set_model_state", SetModelState, lambda request, _: self._set_model_state(request.model_state)),
-                ("set_link_state", SetLinkState, lambda request, _: self._set_link_state(request.link_state)),
-                ("set_model_configuration", SetModelConfiguration, self._set_model_configuration)):
+            ("delete_model", DeleteModel, self._delete_model),
+            ("get_model_properties", GetModelProperties, self._get_model_properties),
+            ("get_model_state", _GetNumberedState, self._get_model_state),
+            ("get_world_properties", GetWorldProperties, self._get_world_properties),
+            ("get_link_properties", GetLinkProperties, self._get_link_properties),
+            ("get_link_state", GetLinkState, self._get_link_state),
+            ("set_link_properties", SetLinkProperties, self._set_link_properties),
+            ("set_model_state", SetModelState, lambda request, _: self._set_model_state(request.model_state)),
+            ("set_link_state", SetLinkState, lambda request, _: self._set_link_state(request.link_state)),
+            ("set_model_configuration", SetModelConfiguration, self._set_model_configuration),
+        ):
             advertise(server, name, service, f)
-        rospy.Subscriber("~set_model_state", ModelState, self._on_message, (self._set_model_state, "set_model_state"),
-                         queue_size=10)
-        rospy.Subscriber("~set_link_state", LinkState, self._on_message, (self._set_link_state, "set_link_state"),
-                         queue_size=10)
+        rospy.Subscriber("~set_model_state", ModelState, self._on_message, (self._set_model_state, "set_model_state"), queue_size=10)
+        rospy.Subscriber("~set_link_state", LinkState, self._on_message, (self._set_link_state, "set_link_state"), queue_size=10)
 
     def _on_message(self, message: Any, how: Tuple) -> None:
         f, topic = how
@@ -92,8 +103,11 @@ class ModelServices:
         response.header.seq = self._state_calls[request.model_name]
         response.header.stamp = rospy.Time.now()
         response.header.frame_id = request.relative_entity_name
-        frame = frame_entity(self._world, request.relative_entity_name, "reference relative_entity_name not found, did you "
-                             "forget to scope the body by model name?")
+        frame = frame_entity(
+            self._world,
+            request.relative_entity_name,
+            "reference relative_entity_name not found, did you forget to scope the body by model name?",
+        )
         response.pose, response.twist = _relative_state(model, frame)
         return "GetModelState: got properties"
 
@@ -113,8 +127,10 @@ class ModelServices:
     def _set_model_configuration(self, request, response) -> str:
         model = self._model(request.model_name)
         if len(request.joint_names) != len(request.joint_positions):
-            raise worded("joint name and position list have different lengths",
-                         f"{len(request.joint_names)} joint_names, {len(request.joint_positions)} joint_positions")
+            raise worded(
+                "joint name and position list have different lengths",
+                f"{len(request.joint_names)} joint_names, {len(request.joint_positions)} joint_positions",
+            )
         finite("joint_positions", *request.joint_positions)
         joints = {alias: joint for joint in model.joints.values() for alias in (joint.name, joint.scoped_name)}
         for name, position in zip(request.joint_names, request.joint_positions):
@@ -132,8 +148,9 @@ class ModelServices:
 
     def _get_link_state(self, request, response) -> str:
         link = self._link(request.link_name)
-        frame = frame_entity(self._world, request.reference_frame,
-                             "reference reference_frame not found, did you forget to scope the link by model name?")
+        frame = frame_entity(
+            self._world, request.reference_frame, "reference reference_frame not found, did you forget to scope the link by model name?"
+        )
         state = response.link_state
         state.link_name, state.reference_frame = request.link_name, request.reference_frame
         state.pose, state.twist = _relative_state(link, frame)

@@ -1,4 +1,5 @@
 """Topics that stand on the graph only while somebody wants them: `rostopic list` then shows a student those of Gazebo."""
+
 from __future__ import annotations
 
 import threading

@@ -1,11 +1,13 @@
 """Physics parameters: the services and dynamic_reconfigure."""
+
 from __future__ import annotations
 
 from dataclasses import replace
 from typing import Any, Dict, Optional
 
 import rospy
-from dynamic_parameters import Parameter, Server as ParameterServer
+from dynamic_parameters import Parameter
+from dynamic_parameters import Server as ParameterServer
 from gazebo_msgs.msg import ODEPhysics
 from gazebo_msgs.srv import GetPhysicsProperties, SetPhysicsProperties
 from ode_sim.physics import BOUNDS
@@ -15,10 +17,14 @@ from gazebo_ros.api.handlers import Refused, advertise
 from gazebo_ros.server import Server
 
 #: name in messages and parameters -> in ode_sim
-_SETTINGS = {"time_step": "max_step_size", "max_update_rate": "real_time_update_rate",
-             "sor_pgs_precon_iters": "precon_iters", "sor_pgs_iters": "iters", "sor_pgs_w": "sor",
-             **{name: name for name in ("cfm", "erp", "contact_surface_layer", "contact_max_correcting_vel",
-                                        "max_contacts")}}
+_SETTINGS = {
+    "time_step": "max_step_size",
+    "max_update_rate": "real_time_update_rate",
+    "sor_pgs_precon_iters": "precon_iters",
+    "sor_pgs_iters": "iters",
+    "sor_pgs_w": "sor",
+    **{name: name for name in ("cfm", "erp", "contact_surface_layer", "contact_max_correcting_vel", "max_contacts")},
+}
 
 PARAMETERS = (
     Parameter("time_step", float, 0.001, 0.0, 10.0, "Length of a physics step, s"),
@@ -52,15 +58,21 @@ class PhysicsServices:
 
     def start_reconfigure(self) -> None:
         """Offer the parameters through dynamic_reconfigure, which shows the live values."""
-        self._parameters = ParameterServer("~", PARAMETERS, self._on_reconfigure, initial=self._values(),
-                                           current=lambda: self._server.call(self._values))
+        self._parameters = ParameterServer(
+            "~", PARAMETERS, self._on_reconfigure, initial=self._values(), current=lambda: self._server.call(self._values)
+        )
         rospy.loginfo("Physics dynamic reconfigure ready.")
 
     def _values(self) -> Dict[str, Any]:
         gravity = self._world.gravity
-        return {**{name: getattr(self._world.physics, setting) for name, setting in _SETTINGS.items()},
-                "gravity_x": gravity[0], "gravity_y": gravity[1], "gravity_z": gravity[2],
-                "auto_disable_bodies": self._auto_disable, "sor_pgs_rms_error_tol": 0.0}
+        return {
+            **{name: getattr(self._world.physics, setting) for name, setting in _SETTINGS.items()},
+            "gravity_x": gravity[0],
+            "gravity_y": gravity[1],
+            "gravity_z": gravity[2],
+            "auto_disable_bodies": self._auto_disable,
+            "sor_pgs_rms_error_tol": 0.0,
+        }
 
     def _apply(self, values: Dict[str, Any]) -> None:
         """Take over all values, or none.
@@ -87,8 +99,7 @@ class PhysicsServices:
     def _set(self, request, response) -> str:
         x, y, z = vector_of(request.gravity, "gravity")
         values = {name: getattr(request.ode_config, name) for name in ODEPhysics.__slots__}
-        values.update(time_step=request.time_step, max_update_rate=request.max_update_rate,
-                      gravity_x=x, gravity_y=y, gravity_z=z)
+        values.update(time_step=request.time_step, max_update_rate=request.max_update_rate, gravity_x=x, gravity_y=y, gravity_z=z)
         self._server.call(lambda: self._apply(values))
         if self._parameters:
             self._parameters.refresh()

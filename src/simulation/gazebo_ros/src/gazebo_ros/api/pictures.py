@@ -1,4 +1,5 @@
 """Pictures of the world for whoever asks, without a camera in it."""
+
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Optional
@@ -26,6 +27,7 @@ class PictureServices:
 
     def _take(self, request, response) -> str:
         from ode_sim.rendering.portrait import VIEWS, Painter, Portrait
+
         width, height = request.width or _SIZE[0], request.height or _SIZE[1]
         eye = self._server.first_view if not request.view and not request.model else None
         view = request.view or "iso"

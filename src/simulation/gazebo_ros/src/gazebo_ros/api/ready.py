@@ -1,4 +1,5 @@
 """~ready: for whoever waits for the simulator."""
+
 from __future__ import annotations
 
 import threading

@@ -1,4 +1,5 @@
 """~spawn_urdf_model and ~spawn_sdf_model."""
+
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
@@ -14,9 +15,10 @@ from gazebo_ros.api.geometry import frame_entity, pose_of
 from gazebo_ros.api.handlers import Answer, Refused, advertise, worded
 from gazebo_ros.server import Server, log_problems
 
-
-_UNFIT = ("GazeboRosApiPlugin SpawnModel Failure: input model_xml not SDF or URDF, or cannot be converted to Gazebo compatible "
-          "format.")  # Gazebo's words
+_UNFIT = (
+    "GazeboRosApiPlugin SpawnModel Failure: input model_xml not SDF or URDF, or cannot be converted to Gazebo compatible "
+    "format."
+)  # Gazebo's words
 
 
 class SpawnServices:
@@ -25,10 +27,8 @@ class SpawnServices:
 
     def __init__(self, server: Server):
         self._server = server
-        advertise(server, "spawn_urdf_model", SpawnModel, self._spawn_urdf, in_physics_thread=False,
-                  prefix="SpawnModel")
-        advertise(server, "spawn_sdf_model", SpawnModel, self._spawn, in_physics_thread=False,
-                  prefix="SpawnModel")
+        advertise(server, "spawn_urdf_model", SpawnModel, self._spawn_urdf, in_physics_thread=False, prefix="SpawnModel")
+        advertise(server, "spawn_sdf_model", SpawnModel, self._spawn, in_physics_thread=False, prefix="SpawnModel")
 
     def _spawn_urdf(self, request, response) -> str:
         return self._spawn(request, response, urdf_only=True)
@@ -71,8 +71,10 @@ class SpawnServices:
         def put() -> None:
             world = server.world
             if model.name in world.models:
-                raise Refused("Failure - entity already exists. A model of that name is in the world: "
-                              f"'{model.name}'; delete it first (delete_model) or choose another name")
+                raise Refused(
+                    "Failure - entity already exists. A model of that name is in the world: "
+                    f"'{model.name}'; delete it first (delete_model) or choose another name"
+                )
             server.spawn(replace(model, pose=self._world_pose(request, x_fe, model.pose)), resolved)
 
         server.call(put)
@@ -91,8 +93,11 @@ class SpawnServices:
 
     def _world_pose(self, request, x_fe: Pose, x_em: Pose) -> Pose:
         """X_WM: reference frame F, requested pose E in it, and the pose in the text on top."""
-        frame = frame_entity(self._server.world, request.reference_frame,
-                             "reference reference_frame not found, did you forget to scope the link by model name?")
+        frame = frame_entity(
+            self._server.world,
+            request.reference_frame,
+            "reference reference_frame not found, did you forget to scope the link by model name?",
+        )
         x_we = x_fe if frame is None else math3.compose(frame.pose, x_fe)
         return math3.compose(x_we, x_em)
 

@@ -1,4 +1,5 @@
 """~link_states and ~model_states: one message per step while somebody listens."""
+
 from __future__ import annotations
 
 import struct
@@ -26,8 +27,9 @@ class _Serialized:
             linear, angular = entity_twist(entity)
             twists += (*linear, *angular)
         count = struct.pack("<I", len(names))
-        self._data = b"".join((count, *names, count, struct.pack(f"<{len(poses)}d", *poses),
-                               count, struct.pack(f"<{len(twists)}d", *twists)))
+        self._data = b"".join(
+            (count, *names, count, struct.pack(f"<{len(poses)}d", *poses), count, struct.pack(f"<{len(twists)}d", *twists))
+        )
 
     def serialize(self, buffer) -> None:
         buffer.write(self._data)
@@ -64,6 +66,5 @@ class StatePublishers:
             self._model_message.set((model.name.encode(), model) for model in models)
             self._models.publish(self._model_message)
         if self._links.get_num_connections():
-            self._link_message.set((link.scoped_name.encode(), link) for model in models
-                                   for link in model.links.values())
+            self._link_message.set((link.scoped_name.encode(), link) for model in models for link in model.links.values())
             self._links.publish(self._link_message)

@@ -1,4 +1,5 @@
 """Pause, single steps and resets."""
+
 from __future__ import annotations
 
 from typing import Any, Callable
@@ -13,9 +14,13 @@ from gazebo_ros.srv import StepWorld
 class SteppingServices:
     def __init__(self, server: Server):
         self._server = server
-        for name, f in (("pause_physics", server.pause), ("unpause_physics", server.unpause),
-                        ("reset_world", server.reset_world), ("reset_simulation", server.reset_simulation),
-                        ("reset_time", server.reset_time)):
+        for name, f in (
+            ("pause_physics", server.pause),
+            ("unpause_physics", server.unpause),
+            ("reset_world", server.reset_world),
+            ("reset_simulation", server.reset_simulation),
+            ("reset_time", server.reset_time),
+        ):
             advertise(server, name, Empty, self._calling(f))
         advertise(server, "step", StepWorld, self._step, in_physics_thread=False)
 
@@ -26,6 +31,5 @@ class SteppingServices:
     def _step(self, request, response) -> str:
         """Answers when the last step is done."""
         self._server.call(lambda: self._server.request_steps(request.steps)).result()
-        response.sim_time, response.iterations = self._server.call(
-            lambda: (self._server.now(), self._server.world.iterations))
+        response.sim_time, response.iterations = self._server.call(lambda: (self._server.now(), self._server.world.iterations))
         return f"Step: {request.steps} steps done"

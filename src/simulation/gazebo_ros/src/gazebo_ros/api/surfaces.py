@@ -1,4 +1,5 @@
 """Friction and colour of what is in the world, changed while it runs."""
+
 from __future__ import annotations
 
 from typing import List
@@ -58,8 +59,7 @@ class SurfaceServices:
         links = list(entity.links.values()) if isinstance(entity, ModelHandle) else [entity]
         painted = sum(paint(link, (c.r, c.g, c.b, c.a), visual) for link in links)
         if not painted:
-            raise Refused(f"[{request.name}] has nothing to see" if not visual else
-                          f"{links[0].scoped_name} has no visual '{visual}'")
+            raise Refused(f"[{request.name}] has nothing to see" if not visual else f"{links[0].scoped_name} has no visual '{visual}'")
         return f"SetVisual: {painted} visuals"
 
     def _set_looks(self, name: str, text: str) -> str:
@@ -71,6 +71,7 @@ class SurfaceServices:
         except ValueError as error:
             raise Refused(str(error)) from error
         if not isinstance(looks, dict) or not all(
-                isinstance(visuals, tuple) and all(isinstance(visual, d.Visual) for visual in visuals) for visuals in looks.values()):
+            isinstance(visuals, tuple) and all(isinstance(visual, d.Visual) for visual in visuals) for visuals in looks.values()
+        ):
             raise Refused("looks are {link: [visual]}, as describe_world tells of visuals")
         return f"SetVisual: {set_looks(model, looks)} visuals"

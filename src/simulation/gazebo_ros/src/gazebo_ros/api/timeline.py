@@ -1,4 +1,5 @@
 """Going back to moments that were kept."""
+
 from __future__ import annotations
 
 import rospy
@@ -18,9 +19,13 @@ class TimelineServices:
         self._server = server
         self._timeline = Timeline(server.world)
         self._recording = Occasional(server.after_step, self._timeline.after_step)
-        self._actions = {Request.LIST: lambda request: None, Request.KEEP: lambda request: self._timeline.keep(),
-                         Request.RETURN: self._return, Request.RECORD: self._record,
-                         Request.FORGET: lambda request: self._timeline.forget()}
+        self._actions = {
+            Request.LIST: lambda request: None,
+            Request.KEEP: lambda request: self._timeline.keep(),
+            Request.RETURN: self._return,
+            Request.RECORD: self._record,
+            Request.FORGET: lambda request: self._timeline.forget(),
+        }
         advertise(server, "timeline", TimelineService, self._serve)
 
     def _serve(self, request, response) -> str:

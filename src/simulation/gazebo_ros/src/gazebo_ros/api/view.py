@@ -1,4 +1,5 @@
 """What a window onto the world needs: a stream of poses while somebody looks, the description, the world as a file."""
+
 from __future__ import annotations
 
 import random
@@ -69,8 +70,16 @@ class Stream:
     :param watched: told there of the first subscriber, and of the last one's end
     """
 
-    def __init__(self, server: Server, on_demand: OnDemand, name: str, kind: type, period: float, read: Callable[[], Any],
-                 watched: Callable[[bool], None] = lambda on: None):
+    def __init__(
+        self,
+        server: Server,
+        on_demand: OnDemand,
+        name: str,
+        kind: type,
+        period: float,
+        read: Callable[[], Any],
+        watched: Callable[[bool], None] = lambda on: None,
+    ):
         self._server = server
         self._name, self._kind = name, kind
         self._period = period
@@ -121,8 +130,16 @@ class ViewServices:
         contacts = ContactWatch(server.world)
         self._streams: List[Stream] = [
             Stream(server, on_demand, "~view", WorldView, _PERIOD, self._read),
-            Stream(server, on_demand, "~view_contacts", WorldContacts, _CONTACTS_PERIOD, lambda: WorldContacts(
-                rospy.Time(0, server.world.time_ns), _bytes(contacts.read())), contacts.watch)]
+            Stream(
+                server,
+                on_demand,
+                "~view_contacts",
+                WorldContacts,
+                _CONTACTS_PERIOD,
+                lambda: WorldContacts(rospy.Time(0, server.world.time_ns), _bytes(contacts.read())),
+                contacts.watch,
+            ),
+        ]
         advertise(server, "describe_world", DescribeWorld, self._describe, in_physics_thread=False)
         advertise(server, "save_world", SaveWorld, self._save, in_physics_thread=False)
 
@@ -130,8 +147,16 @@ class ViewServices:
         self._look_for_news()
         world = self._server.world
         real_time, factor = self._clock.read()
-        return WorldView(self._revision, rospy.Time(0, world.time_ns), real_time, world.iterations, self._server.paused,
-                         factor, _bytes(world.link_poses), _bytes(world.joint_positions))
+        return WorldView(
+            self._revision,
+            rospy.Time(0, world.time_ns),
+            real_time,
+            world.iterations,
+            self._server.paused,
+            factor,
+            _bytes(world.link_poses),
+            _bytes(world.joint_positions),
+        )
 
     def _look_for_news(self) -> None:
         if self._watch.changed():

@@ -1,4 +1,5 @@
 """How bones move over time: the frames of a Collada file's animation, and the pose between two of them."""
+
 from __future__ import annotations
 
 import functools
@@ -45,8 +46,10 @@ class Animation:
             return self.positions[at], self.rotations[at]
         before = after - 1
         part = (time - self.times[before]) / (self.times[after] - self.times[before])
-        return (self.positions[before] + part * (self.positions[after] - self.positions[before]),
-                slerp(self.rotations[before], self.rotations[after], part))
+        return (
+            self.positions[before] + part * (self.positions[after] - self.positions[before]),
+            slerp(self.rotations[before], self.rotations[after], part),
+        )
 
     def time_at(self, distance: float) -> Optional[float]:
         """When the root has come so far along its x, m; beyond the last frame it begins anew. None: it does not go there."""
@@ -90,6 +93,7 @@ def animation_for(path: str, skin: Skeleton) -> Animation:
     if not path.lower().endswith(".bvh"):
         return animation
     from ode_sim.actors.bvh import fitted
+
     return told_in_one_line(path, lambda: fitted(animation, skin))
 
 
@@ -97,6 +101,7 @@ def animation_for(path: str, skin: Skeleton) -> Animation:
 def _load(path: str, _stamp) -> Animation:
     if path.lower().endswith(".bvh"):
         from ode_sim.actors.bvh import read_bvh
+
         return told_in_one_line(path, lambda: read_bvh(path))
     return told_in_one_line(path, lambda: _read(ColladaTree(path)))
 

@@ -1,4 +1,5 @@
 """BVH files: motion capture as a text. Its bones point elsewhere than those of the skin; they are turned to it as Gazebo does."""
+
 from __future__ import annotations
 
 import math
@@ -66,17 +67,17 @@ class _Reader:
             elif kind == "OFFSET" and latest is not None:
                 self.offsets[latest] = np.array(words[1:4], float)
             elif kind == "CHANNELS":
-                self.channels.append(words[2:2 + int(words[1])])
+                self.channels.append(words[2 : 2 + int(words[1])])
         raise self.fault("has no MOTION")
 
     def frames(self) -> Tuple[float, np.ndarray]:
         """Seconds between two, and (T, channels) numbers; lines that are too short are left out, as in Gazebo."""
-        head = self.lines[self.motion + 1:self.motion + 3]
+        head = self.lines[self.motion + 1 : self.motion + 3]
         if len(head) < 2 or head[0][0] != "Frames:" or head[1][:2] != ["Frame", "Time:"]:
             raise self.fault("has no Frames: and Frame Time: after MOTION")
         step = float(head[1][2])
         width = sum(map(len, self.channels))
-        rows = [row[:width] for row in self.lines[self.motion + 3:][:int(head[0][1])] if len(row) >= width]
+        rows = [row[:width] for row in self.lines[self.motion + 3 :][: int(head[0][1])] if len(row) >= width]
         if not rows or not 0.0 < step < 1e3 or len(rows) * len(self.bones) > _MOST_NUMBERS:
             raise self.fault(f"has {len(rows)} usable frames at {step:g} s; that is nothing to play")
         values = np.array(rows, float)
@@ -125,8 +126,7 @@ def fitted(animation: Animation, skin: Skeleton) -> Animation:
     positions[:, 0] = 0.0
     turns = to_matrices(animation.rotations)
     turns[:, 1:] = before[1:] @ turns[:, 1:] @ after[1:]
-    return Animation(animation.skeleton, animation.times, positions, from_matrices(turns), animation.moved,
-                     root_turn=_quat(before[0]))
+    return Animation(animation.skeleton, animation.times, positions, from_matrices(turns), animation.moved, root_turn=_quat(before[0]))
 
 
 def _quat(turn: np.ndarray) -> Quat:

@@ -1,4 +1,5 @@
 """A Collada file as XML with its ids, for what pycollada does not tell: skeletons and animations."""
+
 from __future__ import annotations
 
 from typing import Dict, Iterator, List, Optional, Tuple

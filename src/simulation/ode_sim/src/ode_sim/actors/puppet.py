@@ -1,4 +1,5 @@
 """An actor of a running world: its links are put where its script has them, thirty times a second of simulated time."""
+
 from __future__ import annotations
 
 from typing import Any, Dict, List, Optional, Tuple
@@ -226,8 +227,9 @@ class Puppet:
                 return time
         return moment.time
 
-    def _bend(self, root: Pose, found: Optional[Tuple[Animation, ActorAnimation]], time: float, seconds: float,
-              waits: bool = False) -> None:
+    def _bend(
+        self, root: Pose, found: Optional[Tuple[Animation, ActorAnimation]], time: float, seconds: float, waits: bool = False
+    ) -> None:
         """:param waits: nobody plays it yet, and it stands as its skin was bound; those who play turn the whole of it."""
         poses = self._fixed.copy()
         if self._rig is not None:

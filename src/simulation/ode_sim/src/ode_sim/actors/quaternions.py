@@ -1,4 +1,5 @@
 """Rotations by the thousand: arrays (..., 4) of x y z w."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -33,11 +34,15 @@ def from_matrices(m: np.ndarray) -> np.ndarray:
     largest = np.argmax(squares, axis=-1)
     yz, zx, xy = m[..., 2, 1], m[..., 0, 2], m[..., 1, 0]
     zy, xz, yx = m[..., 1, 2], m[..., 2, 0], m[..., 0, 1]
-    rows = np.stack([
-        np.stack([squares[..., 0], xy + yx, zx + xz, yz - zy], axis=-1),
-        np.stack([xy + yx, squares[..., 1], yz + zy, zx - xz], axis=-1),
-        np.stack([zx + xz, yz + zy, squares[..., 2], xy - yx], axis=-1),
-        np.stack([yz - zy, zx - xz, xy - yx, squares[..., 3]], axis=-1)], axis=-2)
+    rows = np.stack(
+        [
+            np.stack([squares[..., 0], xy + yx, zx + xz, yz - zy], axis=-1),
+            np.stack([xy + yx, squares[..., 1], yz + zy, zx - xz], axis=-1),
+            np.stack([zx + xz, yz + zy, squares[..., 2], xy - yx], axis=-1),
+            np.stack([yz - zy, zx - xz, xy - yx, squares[..., 3]], axis=-1),
+        ],
+        axis=-2,
+    )
     chosen = np.take_along_axis(rows, largest[..., None, None], axis=-2)[..., 0, :]
     return normalized(chosen)
 
@@ -45,7 +50,9 @@ def from_matrices(m: np.ndarray) -> np.ndarray:
 def to_matrices(q: np.ndarray) -> np.ndarray:
     """(..., 3, 3)."""
     x, y, z, w = np.moveaxis(q, -1, 0)
-    rows = [[1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)],
-            [2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)],
-            [2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)]]
+    rows = [
+        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)],
+        [2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)],
+        [2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)],
+    ]
     return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)

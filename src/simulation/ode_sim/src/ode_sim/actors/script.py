@@ -1,4 +1,5 @@
 """Where an actor is, as a function of the time since it began to play. No state: a script can be asked in any order."""
+
 from __future__ import annotations
 
 import bisect
@@ -150,4 +151,3 @@ def frame_of(time_ns: int) -> int:
 def frame_time(frame: int) -> int:
     """When a frame is due, ns; rounded up, so that it is due then."""
     return -(-frame * _NANO // FRAME_RATE)
-

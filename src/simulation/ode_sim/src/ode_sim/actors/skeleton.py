@@ -1,4 +1,5 @@
 """The bones of a Collada file that has a skin: their tree, how they rest, and where the skin was bound to them."""
+
 from __future__ import annotations
 
 import functools
@@ -101,8 +102,7 @@ def read_skeleton(tree: ColladaTree) -> Skeleton:
         _gather(tree, node, 0 if len(nodes) > 1 else -1, bones)
     if not bones:
         raise tree.fault("its skin has no skeleton")
-    skeleton = Skeleton(tree.path, tuple(bones), np.array([matrix_of(bone.transforms) for bone in bones]),
-                        {})
+    skeleton = Skeleton(tree.path, tuple(bones), np.array([matrix_of(bone.transforms) for bone in bones]), {})
     inverse_bind = _inverse_bind(tree, child(controller, "skin"), skeleton)
     bound = Skeleton(tree.path, skeleton.bones, _at_bind(skeleton, inverse_bind, tree.unit), inverse_bind)
     if not (np.abs(bound.rest) <= FARTHEST_BONE).all() or not (np.abs(bound.model_frames()) <= FARTHEST_BONE).all():

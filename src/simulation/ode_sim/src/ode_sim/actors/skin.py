@@ -4,6 +4,7 @@ A triangle belongs to the bone that has most of its weight, and to every other o
 no gap opens where a joint bends. Skins are bound to people with their arms stretched out: cut as they are, they would show horns at
 the shoulders of all who let them hang. So the skin is first bent, smoothly, as an animation has the bones in the mean.
 """
+
 from __future__ import annotations
 
 import functools
@@ -42,7 +43,7 @@ def load_pieces(path: str, animation: str = "") -> Dict[str, List[MeshPart]]:
 
 def load_piece(path: str, submesh: str) -> List[MeshPart]:
     """The piece that :func:`piece_name` names."""
-    bone, _, animation = submesh[len(SKIN_PIECE):].partition(_BENT_BY)
+    bone, _, animation = submesh[len(SKIN_PIECE) :].partition(_BENT_BY)
     pieces = load_pieces(path, animation)
     if bone not in pieces:
         raise DescriptionError(f"mesh {path}: has no skin on a bone '{bone}'")
@@ -149,8 +150,12 @@ def _cut(part: MeshPart, weights: np.ndarray) -> Dict[int, MeshPart]:
         if len(triangles) and (main == bone).any():
             used, inverse = np.unique(triangles, return_inverse=True)
             pieces[int(bone)] = replace(
-                part, vertices=part.vertices[used], triangles=inverse.reshape(-1, 3),
-                normals=None if part.normals is None else part.normals[used], uv=None if part.uv is None else part.uv[used])
+                part,
+                vertices=part.vertices[used],
+                triangles=inverse.reshape(-1, 3),
+                normals=None if part.normals is None else part.normals[used],
+                uv=None if part.uv is None else part.uv[used],
+            )
     return pieces
 
 

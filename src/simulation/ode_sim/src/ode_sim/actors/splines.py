@@ -2,6 +2,7 @@
 
 Between two points the parameter runs from 0 to 1; how long it takes changes nothing of the curve.
 """
+
 from __future__ import annotations
 
 import math
@@ -39,8 +40,7 @@ class PositionSpline:
         p, q = self._points[index], self._points[index + 1]
         u, v = self._tangents[index], self._tangents[index + 1]
         t2, t3 = t * t, t * t * t
-        return add(add(scale(p, 2 * t3 - 3 * t2 + 1), scale(u, t3 - 2 * t2 + t)),
-                   add(scale(q, 3 * t2 - 2 * t3), scale(v, t3 - t2)))
+        return add(add(scale(p, 2 * t3 - 3 * t2 + 1), scale(u, t3 - 2 * t2 + t)), add(scale(q, 3 * t2 - 2 * t3), scale(v, t3 - t2)))
 
 
 class RotationSpline:

@@ -10,9 +10,20 @@
 ``xmlsource``           XML elements that know their line
 ======================  =================================================================
 """
+
 from ode_sim.description.finder import ResourceFinder
 from ode_sim.description.load import Entity, load_world, read_light, read_model, read_sdf_model, read_urdf, root_kind
 from ode_sim.description.model import DescriptionError, Problem
 
-__all__ = ["DescriptionError", "Entity", "Problem", "ResourceFinder", "load_world", "read_light", "read_model", "read_sdf_model",
-           "read_urdf", "root_kind"]
+__all__ = [
+    "DescriptionError",
+    "Entity",
+    "Problem",
+    "ResourceFinder",
+    "load_world",
+    "read_light",
+    "read_model",
+    "read_sdf_model",
+    "read_urdf",
+    "root_kind",
+]

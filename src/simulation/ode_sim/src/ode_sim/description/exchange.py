@@ -3,6 +3,7 @@
 A record is an object with its class under ``_`` and only the fields that differ from their defaults; XML elements keep
 their text. Where something was written (:class:`~ode_sim.description.model.Source`) is left out.
 """
+
 from __future__ import annotations
 
 import json
@@ -16,8 +17,10 @@ from ode_sim.math3 import Pose
 _CLASS = "_"
 _XML = "xml"
 _RECORDS: Dict[str, type] = {
-    cls.__name__: cls for cls in vars(model).values()
-    if isinstance(cls, type) and is_dataclass(cls) and cls not in (model.Source, model.Problem)}
+    cls.__name__: cls
+    for cls in vars(model).values()
+    if isinstance(cls, type) and is_dataclass(cls) and cls not in (model.Source, model.Problem)
+}
 _RECORDS["Pose"] = Pose
 
 
@@ -85,6 +88,6 @@ def _defaults(cls: type) -> Tuple:
     """((field, its default or MISSING), ...) without ``source``."""
     if cls not in _default_cache:
         _default_cache[cls] = tuple(
-            (f.name, f.default_factory() if f.default_factory is not MISSING else f.default)
-            for f in fields(cls) if f.name != "source")
+            (f.name, f.default_factory() if f.default_factory is not MISSING else f.default) for f in fields(cls) if f.name != "source"
+        )
     return _default_cache[cls]

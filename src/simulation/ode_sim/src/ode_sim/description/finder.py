@@ -1,4 +1,5 @@
 """Finds the files that worlds and robots name, in Gazebo Classic's search order. Never uses the network."""
+
 from __future__ import annotations
 
 import os
@@ -58,9 +59,14 @@ class ResourceFinder:
         prefix, and what the window's editors saved.
     """
 
-    def __init__(self, model_paths: Optional[Iterable[str]] = None, resource_paths: Optional[Iterable[str]] = None,
-                 package_path: Optional[Callable[[str], Optional[str]]] = None, stock: Optional[str] = None,
-                 environment: bool = True):
+    def __init__(
+        self,
+        model_paths: Optional[Iterable[str]] = None,
+        resource_paths: Optional[Iterable[str]] = None,
+        package_path: Optional[Callable[[str], Optional[str]]] = None,
+        stock: Optional[str] = None,
+        environment: bool = True,
+    ):
         self._package_path = package_path or find_ros_package
         if stock is None:
             stock = os.environ.get(STOCK_VARIABLE) or self._package_path("gazebo_stock") or ""
@@ -119,8 +125,12 @@ class ResourceFinder:
             folder = self._package_path(package)
             return f"searched {folder}" if folder else f"there is no ROS package '{quoted(package)}'"
         if scheme in ("http", "https", "model") and rest:
-            return ("" if scheme == "model" else "the network is never used; ") + "searched " + \
-                (":".join(self.model_paths) or "nothing, GAZEBO_MODEL_PATH is empty") + self._package_for_model(scheme, rest)
+            return (
+                ("" if scheme == "model" else "the network is never used; ")
+                + "searched "
+                + (":".join(self.model_paths) or "nothing, GAZEBO_MODEL_PATH is empty")
+                + self._package_for_model(scheme, rest)
+            )
         if os.path.isabs(rest or uri):
             elsewhere = self._package_uri(unquote(rest) if rest else uri)
             return "no such file" + (f"; {elsewhere} is one, on any machine that has the package" if elsewhere else "")
@@ -130,7 +140,7 @@ class ResourceFinder:
         """A ``package://`` for the end of an absolute path of another machine, if a package here has that file; else ''."""
         parts = path.strip("/").split("/")
         for at, package in enumerate(parts[:-1]):
-            inside = "/".join(parts[at + 1:])
+            inside = "/".join(parts[at + 1 :])
             folder = self._package_path(package) if package not in ("", ".", "..") else None
             if folder and self._first(_below(folder, inside)):
                 return f"package://{package}/{quote(inside)}"
@@ -141,8 +151,10 @@ class ResourceFinder:
         folder = self._package_path(package) if scheme == "model" and inside and package not in ("", ".", "..") else None
         if not folder or not self._first(_below(folder, inside)):
             return ""
-        return (f"; the ROS package '{quoted(package)}' has it: name its parent in GAZEBO_MODEL_PATH, "
-                f"export GAZEBO_MODEL_PATH=$GAZEBO_MODEL_PATH:{os.path.dirname(folder)}")
+        return (
+            f"; the ROS package '{quoted(package)}' has it: name its parent in GAZEBO_MODEL_PATH, "
+            f"export GAZEBO_MODEL_PATH=$GAZEBO_MODEL_PATH:{os.path.dirname(folder)}"
+        )
 
     def find_world(self, name: str) -> Optional[str]:
         """A world file by path, URI, or name relative to the resource paths (``worlds/empty.world``)."""

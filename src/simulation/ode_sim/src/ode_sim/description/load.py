@@ -1,4 +1,5 @@
 """Text or files to worlds, models and lights: the front door of the readers."""
+
 from __future__ import annotations
 
 import os
@@ -28,8 +29,10 @@ def load_world(path_or_text: str, finder: Optional[ResourceFinder] = None) -> Tu
         file = finder.find_world(path_or_text) or ""
         if not file:
             known = ", ".join(finder.stock_worlds())
-            raise DescriptionError(f"cannot find world '{quoted(path_or_text, 200)}' ({finder.explain(path_or_text)})"
-                                   + (f"; worlds that come with the simulator: {known}" if known else ""))
+            raise DescriptionError(
+                f"cannot find world '{quoted(path_or_text, 200)}' ({finder.explain(path_or_text)})"
+                + (f"; worlds that come with the simulator: {known}" if known else "")
+            )
         text = read_bytes(file)
     root = parse_sdf(text, file)
     world = root.find("world")
@@ -87,8 +90,9 @@ def root_kind(text: str, finder: Optional[ResourceFinder] = None) -> str:
     return Entity(text, finder).kind
 
 
-def read_model(text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None,
-               file: str = "") -> Tuple[Model, List[Problem]]:
+def read_model(
+    text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None, file: str = ""
+) -> Tuple[Model, List[Problem]]:
     """A model from URDF or SDF text, whichever it is.
 
     :param name: takes the place of the one in the text.
@@ -97,8 +101,9 @@ def read_model(text: str, *, name: Optional[str] = None, finder: Optional[Resour
     return Entity(text, finder, file).model(name)
 
 
-def read_urdf(text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None,
-              file: str = "") -> Tuple[Model, List[Problem]]:
+def read_urdf(
+    text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None, file: str = ""
+) -> Tuple[Model, List[Problem]]:
     """A model from URDF text, by Gazebo's conversion rules."""
     reader = SdfReader(finder, os.path.dirname(file))
     root = parse_xml(text, file)
@@ -107,8 +112,9 @@ def read_urdf(text: str, *, name: Optional[str] = None, finder: Optional[Resourc
     return (replace(model, name=name) if name else model), reader.problems
 
 
-def read_sdf_model(text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None,
-                   file: str = "") -> Tuple[Model, List[Problem]]:
+def read_sdf_model(
+    text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None, file: str = ""
+) -> Tuple[Model, List[Problem]]:
     """The first model of SDF text: ``<sdf><model>``, or in a ``<world>``, there also by ``<include>``."""
     entity = Entity(text, finder, file)
     if entity.kind == "urdf":
@@ -116,8 +122,9 @@ def read_sdf_model(text: str, *, name: Optional[str] = None, finder: Optional[Re
     return entity.model(name)
 
 
-def read_light(text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None,
-               file: str = "") -> Tuple[Light, List[Problem]]:
+def read_light(
+    text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None, file: str = ""
+) -> Tuple[Light, List[Problem]]:
     """The first light of SDF text."""
     return Entity(text, finder, file).light(name)
 

@@ -1,4 +1,5 @@
 """Looks: Gazebo's own material names, and OGRE ``.material`` scripts that a model brings along."""
+
 from __future__ import annotations
 
 import functools
@@ -26,8 +27,13 @@ class _Look:
 
 
 _BASE: Dict[str, Rgb] = {
-    "White": (1, 1, 1), "Red": (1, 0, 0), "Green": (0, 1, 0), "Blue": (0, 0, 1), "Yellow": (1, 1, 0),
-    "Purple": (1, 0, 1), "Turquoise": (0, 1, 1),
+    "White": (1, 1, 1),
+    "Red": (1, 0, 0),
+    "Green": (0, 1, 0),
+    "Blue": (0, 0, 1),
+    "Yellow": (1, 1, 0),
+    "Purple": (1, 0, 1),
+    "Turquoise": (0, 1, 1),
 }
 
 _LOOKS: Dict[str, _Look] = {
@@ -67,9 +73,17 @@ _LOOKS: Dict[str, _Look] = {
     "PioneerBody": _Look((0.68, 0.05, 0.05)),
     "CloudySky": _Look((0.55, 0.70, 0.90)),
     "GreyGradientSky": _Look((0.60, 0.62, 0.65)),
-    **{name: _Look((0.28, 0.28, 0.29), texture=f"{picture}.png") for picture, names in {
-        "road": ("Road", "Residential", "Tertiary", "Secondary", "Lanes_2"), "road_1": ("Lane_1",),
-        "road_4": ("Primary", "Lanes_4"), "road_6": ("Motorway", "Trunk", "Lanes_6"), "runway": ("Runway",)}.items() for name in names},
+    **{
+        name: _Look((0.28, 0.28, 0.29), texture=f"{picture}.png")
+        for picture, names in {
+            "road": ("Road", "Residential", "Tertiary", "Secondary", "Lanes_2"),
+            "road_1": ("Lane_1",),
+            "road_4": ("Primary", "Lanes_4"),
+            "road_6": ("Motorway", "Trunk", "Lanes_6"),
+            "runway": ("Runway",),
+        }.items()
+        for name in names
+    },
     **{name: _Look((0.60, 0.60, 0.58)) for name in ("Pedestrian", "Footway")},
 }
 _LOOKS["Gray"], _LOOKS["DarkGray"] = _LOOKS["Grey"], _LOOKS["DarkGrey"]
@@ -88,8 +102,14 @@ def gazebo_material(name: str, finder: Optional[ResourceFinder] = None) -> Optio
         return (float(rgb[0]), float(rgb[1]), float(rgb[2]), look.alpha)
 
     diffuse = (1.0, 1.0, 1.0) if texture else look.diffuse
-    return Material(name, ambient=rgba(look.ambient or diffuse), diffuse=rgba(diffuse), specular=rgba(look.specular),
-                    emissive=rgba(look.diffuse) if look.glows else None, texture=texture or "")
+    return Material(
+        name,
+        ambient=rgba(look.ambient or diffuse),
+        diffuse=rgba(diffuse),
+        specular=rgba(look.specular),
+        emissive=rgba(look.diffuse) if look.glows else None,
+        texture=texture or "",
+    )
 
 
 # ---------------------------------------------------------------------------------------------- OGRE scripts
@@ -180,7 +200,7 @@ def _without_comments(text: str) -> str:
         if end < 0 and not line:
             unclosed = True
             continue
-        pieces.append(text[at:match.start()])
+        pieces.append(text[at : match.start()])
         at = len(text) if end < 0 else end if line else end + 2
     return "".join(pieces) + text[at:]
 
@@ -194,7 +214,7 @@ def _statements(text: str, name: str) -> Optional[Tuple[List[List[str]], str]]:
     for piece in _PIECE.findall(_without_comments(text)):
         if piece == "{":
             if depth == 0 and found is None and _begins(header, name):
-                found, parent = [], " ".join(header[1:])[len(name):].lstrip(" :")
+                found, parent = [], " ".join(header[1:])[len(name) :].lstrip(" :")
             depth, header = depth + 1, []
         elif piece == "}":
             depth = max(0, depth - 1)
@@ -213,7 +233,7 @@ def _statements(text: str, name: str) -> Optional[Tuple[List[List[str]], str]]:
 def _begins(header: List[str], name: str) -> bool:
     """Whether this is ``material <name>``, which may be followed by ``: <parent>``."""
     rest = " ".join(header[1:])
-    return header[:1] == ["material"] and rest.startswith(name) and rest[len(name):].lstrip()[:1] in ("", ":")
+    return header[:1] == ["material"] and rest.startswith(name) and rest[len(name) :].lstrip()[:1] in ("", ":")
 
 
 def _material_of(name: str, statements: List[List[str]], folders: List[str], parent: Optional[Material]) -> Material:

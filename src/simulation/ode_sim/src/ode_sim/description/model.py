@@ -5,6 +5,7 @@ expressed in A; ``p`` is ``p_AB`` in metres, ``q`` the unit quaternion of ``R_AB
 All records are frozen; they remember where they were written (:class:`Source`) so that a message can name file,
 line and element. Defaults are those of sdformat 1.7 and Gazebo Classic's ODE engine.
 """
+
 from __future__ import annotations
 
 import math
@@ -14,7 +15,6 @@ from typing import Optional, Tuple, Union
 
 from ode_sim.errors import DescriptionError, Source, one_line, quoted  # noqa: F401  (part of the description)
 from ode_sim.math3 import Pose, Quat, Vec3  # noqa: F401  (part of the description)
-
 
 #: m. Nothing may lie farther from what it is placed in, or be larger: single precision is at its end there, and far
 #: beyond so is the collision space of ODE.
@@ -37,6 +37,7 @@ class Problem:
 
 
 # ---------------------------------------------------------------------------------------------- geometry
+
 
 @dataclass(frozen=True)
 class Box:
@@ -141,6 +142,7 @@ class Visual:
 
 
 # ---------------------------------------------------------------------------------------------- physics
+
 
 @dataclass(frozen=True)
 class Surface:

@@ -1,4 +1,5 @@
 """``<population>``: many copies of one model spread over a region."""
+
 from __future__ import annotations
 
 import math

@@ -3,9 +3,11 @@
 Gazebo saves such a model with the sizes it had before, and how it was stretched in ``<state>``. Shapes are stretched
 about their own frames; poses and masses stay.
 """
+
 from __future__ import annotations
 
 from dataclasses import replace
+
 from ode_sim.description.model import Box, Capsule, Cylinder, Geometry, Mesh, Model, Plane, Sphere, Vec3
 
 
@@ -31,18 +33,25 @@ def scaled_geometry(shape: Geometry, scale: Vec3) -> Geometry:
 
 def largest_size(model: Model) -> float:
     """Of all its shapes, m; a mesh counts by its scale."""
+
     def sizes(shape: Geometry):
         for name in ("size", "radius", "length", "scale"):
             value = getattr(shape, name, 0.0)
             yield from map(abs, value) if isinstance(value, tuple) else (value,)
-    return max((size for link in model.links for part in link.collisions + link.visuals for size in sizes(part.geometry)),
-               default=0.0)
+
+    return max((size for link in model.links for part in link.collisions + link.visuals for size in sizes(part.geometry)), default=0.0)
 
 
 def scaled_model(model: Model, scale: Vec3) -> Model:
     """``model`` with everything that is drawn or collides stretched by ``scale`` (x, y, z)."""
+
     def stretch(part):
         return replace(part, geometry=scaled_geometry(part.geometry, scale))
-    return replace(model, links=tuple(
-        replace(link, collisions=tuple(map(stretch, link.collisions)), visuals=tuple(map(stretch, link.visuals)))
-        for link in model.links))
+
+    return replace(
+        model,
+        links=tuple(
+            replace(link, collisions=tuple(map(stretch, link.collisions)), visuals=tuple(map(stretch, link.visuals)))
+            for link in model.links
+        ),
+    )

@@ -3,6 +3,7 @@
 What Gazebo Classic reads with a warning is read here with a :class:`Problem`; what it would crash on, or what leaves no
 sensible meaning, raises :class:`DescriptionError`. One bad model of a world is left out, the rest of the world loads.
 """
+
 from __future__ import annotations
 
 import math
@@ -12,8 +13,21 @@ from typing import Any, Dict, Iterator, List, Mapping, Optional, Set
 
 from ode_sim import math3
 from ode_sim.description.model import (
-    FARTHEST, DescriptionError, Light, LinkState, Model, ModelState, Physics, Pose, Scene, Vec3, Visual, World,
-    WorldState, quoted)
+    FARTHEST,
+    DescriptionError,
+    Light,
+    LinkState,
+    Model,
+    ModelState,
+    Physics,
+    Pose,
+    Scene,
+    Vec3,
+    Visual,
+    World,
+    WorldState,
+    quoted,
+)
 from ode_sim.description.population import population
 from ode_sim.description.scaling import largest_size, scaled_model
 from ode_sim.description.sdf_actor import SdfActors
@@ -83,7 +97,6 @@ class _Contents:
         except DescriptionError as error:
             self._reader.warn(error.source, f"{error.message}; light '{quoted(source.get('name'))}' is left out", "error")
 
-
     def _add_road(self, source: ET.Element) -> None:
         try:
             self.roads.append(self._reader.road(source))
@@ -110,13 +123,20 @@ class SdfReader(SdfActors):
             name=element.get("name") or "default",
             gravity=self._gravity(element, default.gravity),
             magnetic_field=self.vector(element, "magnetic_field", default.magnetic_field, most=_STRONGEST_FIELD),
-            physics=self._physics(element), scene=replace(self._scene(element.find("scene")), roads=tuple(contents.roads)),
-            models=tuple(models), lights=tuple(contents.lights), plugins=tuple(plugins), state=state,
-            spherical_coordinates=(self.number(coordinates, "latitude_deg", 0.0),
-                                   self.number(coordinates, "longitude_deg", 0.0),
-                                   self.number(coordinates, "elevation", 0.0),
-                                   self.number(coordinates, "heading_deg", 0.0)),
-            source=source_of(element))
+            physics=self._physics(element),
+            scene=replace(self._scene(element.find("scene")), roads=tuple(contents.roads)),
+            models=tuple(models),
+            lights=tuple(contents.lights),
+            plugins=tuple(plugins),
+            state=state,
+            spherical_coordinates=(
+                self.number(coordinates, "latitude_deg", 0.0),
+                self.number(coordinates, "longitude_deg", 0.0),
+                self.number(coordinates, "elevation", 0.0),
+                self.number(coordinates, "heading_deg", 0.0),
+            ),
+            source=source_of(element),
+        )
 
     def _gravity(self, world: ET.Element, default: Vec3) -> Vec3:
         from ode_sim.physics import STRONGEST_GRAVITY
@@ -159,7 +179,8 @@ class SdfReader(SdfActors):
         ode = block.find("ode")
         values: Dict[str, Any] = {  # counts as written: usable_physics makes them whole
             "max_step_size": self.number(block, "max_step_size", self.number(block, "dt", default.max_step_size)),
-            "max_contacts": self.number(block, "max_contacts", default.max_contacts)}
+            "max_contacts": self.number(block, "max_contacts", default.max_contacts),
+        }
         for name, value in values.items():
             if value <= 0.0:
                 values[name] = getattr(default, name)
@@ -168,17 +189,17 @@ class SdfReader(SdfActors):
         written = Physics(
             **values,
             # below 0, as ArduPilot's worlds have it: as fast as possible
-            real_time_update_rate=max(self.number(block, "real_time_update_rate",
-                                                  self.number(block, "update_rate", default.real_time_update_rate)), 0.0),
+            real_time_update_rate=max(
+                self.number(block, "real_time_update_rate", self.number(block, "update_rate", default.real_time_update_rate)), 0.0
+            ),
             real_time_factor=self.number(block, "real_time_factor", default.real_time_factor),
             solver=text_of(ode.find("solver/type")) or default.solver if ode is not None else default.solver,
             sor=self.number(ode, "solver/sor", default.sor),
             cfm=self.number(ode, "constraints/cfm", default.cfm),
             erp=self.number(ode, "constraints/erp", default.erp),
-            contact_max_correcting_vel=self.number(ode, "constraints/contact_max_correcting_vel",
-                                                   default.contact_max_correcting_vel),
-            contact_surface_layer=self.number(ode, "constraints/contact_surface_layer",
-                                              default.contact_surface_layer))
+            contact_max_correcting_vel=self.number(ode, "constraints/contact_max_correcting_vel", default.contact_max_correcting_vel),
+            contact_surface_layer=self.number(ode, "constraints/contact_surface_layer", default.contact_surface_layer),
+        )
         physics, changes = usable_physics(written)
         for change in changes:
             self.warn(block, change)
@@ -188,10 +209,13 @@ class SdfReader(SdfActors):
         if element is None:
             return Scene()
         default = Scene()
-        return Scene(ambient=self.rgba(element, "ambient", default.ambient),
-                     background=self.rgba(element, "background", default.background),
-                     shadows=self.boolean(element, "shadows", True), grid=self.boolean(element, "grid", True),
-                     sky=element.find("sky") is not None)
+        return Scene(
+            ambient=self.rgba(element, "ambient", default.ambient),
+            background=self.rgba(element, "background", default.background),
+            shadows=self.boolean(element, "shadows", True),
+            grid=self.boolean(element, "grid", True),
+            sky=element.find("sky") is not None,
+        )
 
     def _state(self, element: Optional[ET.Element]) -> Optional[WorldState]:
         if element is None:
@@ -214,16 +238,26 @@ class SdfReader(SdfActors):
                 lost.append(model.get("name") or "")
                 self.warn(error.source, f"{error.message}: it has fallen out of this world; model '{quoted(lost[-1])}' is left out")
         return WorldState(
-            sim_time=sim_time, iterations=self.whole(element, "iterations", 0, 0, 2 ** 62), models=tuple(models),
-            light_poses=tuple((light.get("name") or "", self.pose(light.find("pose")))
-                              for light in element.findall("light") if light.find("pose") is not None),
-            deletions=(*(text_of(name) for name in element.findall("deletions/name")), *lost))
+            sim_time=sim_time,
+            iterations=self.whole(element, "iterations", 0, 0, 2**62),
+            models=tuple(models),
+            light_poses=tuple(
+                (light.get("name") or "", self.pose(light.find("pose")))
+                for light in element.findall("light")
+                if light.find("pose") is not None
+            ),
+            deletions=(*(text_of(name) for name in element.findall("deletions/name")), *lost),
+        )
 
     def _model_state(self, model: ET.Element) -> ModelState:
         """:raises DescriptionError: it is farther away than anything can be"""
         pose = model.find("pose")
-        return ModelState(model.get("name") or "", self.pose(pose) if pose is not None else None,
-                          self.vector(model, "scale", (1.0, 1.0, 1.0)), tuple(self._link_states(model, "")))
+        return ModelState(
+            model.get("name") or "",
+            self.pose(pose) if pose is not None else None,
+            self.vector(model, "scale", (1.0, 1.0, 1.0)),
+            tuple(self._link_states(model, "")),
+        )
 
     def _link_states(self, model: ET.Element, scope: str) -> Iterator[LinkState]:
         for link in model.findall("link"):

@@ -1,4 +1,5 @@
 """``<actor>`` of SDF: a model whose links are the bones of a skin, moved by a script."""
+
 from __future__ import annotations
 
 import os
@@ -10,8 +11,23 @@ import numpy as np
 
 from ode_sim import math3
 from ode_sim.description.model import (
-    Actor, ActorAnimation, ActorScript, Box, Collision, DescriptionError, Inertial, Link, Mesh, Model, Pose, Surface, Trajectory,
-    Visual, Waypoint, quoted)
+    Actor,
+    ActorAnimation,
+    ActorScript,
+    Box,
+    Collision,
+    DescriptionError,
+    Inertial,
+    Link,
+    Mesh,
+    Model,
+    Pose,
+    Surface,
+    Trajectory,
+    Visual,
+    Waypoint,
+    quoted,
+)
 from ode_sim.description.sdf_model import SdfModels
 from ode_sim.description.xmlsource import source_of, text_of
 
@@ -19,7 +35,7 @@ _LONGEST_SCRIPT = 1e6  # s
 _MOST_WAYPOINTS = 100_000
 _LARGEST_SCALE = 1e6
 _THICK = 0.02  # m, of the boxes that a plugin may let collide
-_MOMENT = 2.0 * 1.0 * 0.01 ** 2 / 5.0  # kg m^2, of the ball that is a bone to physics
+_MOMENT = 2.0 * 1.0 * 0.01**2 / 5.0  # kg m^2, of the ball that is a bone to physics
 _BONE = Inertial(1.0, Pose(), ixx=_MOMENT, iyy=_MOMENT, izz=_MOMENT)
 _TOUCHES_NOTHING = Surface(collide_bitmask=0)
 
@@ -43,11 +59,24 @@ class SdfActors(SdfModels):
             bent_by = next((one.path for one in animations if one.name == played), animations[0].path if animations else "")
             links += self._bones(element, skin, scale, bent_by)
         taken = {link.name for link in links}
-        links += [replace(link, gravity=False, collisions=tuple(
-            replace(shape, surface=replace(shape.surface, collide_bitmask=0)) for shape in link.collisions))
-            for link in parts.links if link.name not in taken]
-        return Model(name=name, pose=parts.pose, links=tuple(links), plugins=tuple(parts.plugins), static=True,
-                     actor=Actor(skin, scale, animations, script, element), source=source_of(element))
+        links += [
+            replace(
+                link,
+                gravity=False,
+                collisions=tuple(replace(shape, surface=replace(shape.surface, collide_bitmask=0)) for shape in link.collisions),
+            )
+            for link in parts.links
+            if link.name not in taken
+        ]
+        return Model(
+            name=name,
+            pose=parts.pose,
+            links=tuple(links),
+            plugins=tuple(parts.plugins),
+            static=True,
+            actor=Actor(skin, scale, animations, script, element),
+            source=source_of(element),
+        )
 
     # ------------------------------------------------------------------ skin
 
@@ -112,10 +141,12 @@ class SdfActors(SdfModels):
                 visuals = (Visual(f"{bone.name}_skin", Pose(), mesh, source=source),)
                 shapes.append(Collision(f"{bone.name}_skin", Pose(), mesh, _TOUCHES_NOTHING, source=source))
             for child in skeleton.children(index):
-                shapes += _bone_box(bone.name, skeleton.bones[child].name, frames[index], frames[child], turned[index],
-                                    skeleton.rest[child, :3, 3] * scale)
-            links.append(Link(bone.name, Pose(math3.scale(pose.p, scale), pose.q), _BONE, tuple(shapes), visuals, gravity=False,
-                              source=source))
+                shapes += _bone_box(
+                    bone.name, skeleton.bones[child].name, frames[index], frames[child], turned[index], skeleton.rest[child, :3, 3] * scale
+                )
+            links.append(
+                Link(bone.name, Pose(math3.scale(pose.p, scale), pose.q), _BONE, tuple(shapes), visuals, gravity=False, source=source)
+            )
         return links
 
     # ------------------------------------------------------------------ animations and script
@@ -132,9 +163,16 @@ class SdfActors(SdfModels):
             name_of_it = (kind.get("type") or "__default__") if kind is not None else "__default__"
             wanted = [(element.find("skin"), name_of_it, skin, 1.0, False)]
         else:
-            wanted = [(entry, entry.get("name") or "__default__",
-                       self._actor_file(entry, f"actor '{quoted(name)}' has no animation '{quoted(entry.get('name'))}'"),
-                       self._scale(entry), self.boolean(entry, "interpolate_x", False)) for entry in written]
+            wanted = [
+                (
+                    entry,
+                    entry.get("name") or "__default__",
+                    self._actor_file(entry, f"actor '{quoted(name)}' has no animation '{quoted(entry.get('name'))}'"),
+                    self._scale(entry),
+                    self.boolean(entry, "interpolate_x", False),
+                )
+                for entry in written
+            ]
         found: Dict[str, ActorAnimation] = {}
         skeleton = load_skeleton(skin)
         for entry, called, path, scale, along in wanted:
@@ -156,7 +194,8 @@ class SdfActors(SdfModels):
             loop=self.boolean(script, "loop", True),
             delay_start=self.between(script, "delay_start", 0.0, 0.0, _LONGEST_SCRIPT),
             auto_start=self.boolean(script, "auto_start", True),
-            trajectories=tuple(self._trajectory(entry) for entry in script.findall("trajectory")))
+            trajectories=tuple(self._trajectory(entry) for entry in script.findall("trajectory")),
+        )
 
     def _trajectory(self, entry: ET.Element) -> Trajectory:
         try:
@@ -172,13 +211,20 @@ class SdfActors(SdfModels):
         points = entry.findall("waypoint")
         if len(points) > _MOST_WAYPOINTS:
             self.warn(entry, f"has {len(points)} waypoints; the first {_MOST_WAYPOINTS} are used")
-        return Trajectory(number, entry.get("type") or "__default__", tuple(
-            Waypoint(self.between(point, "time", 0.0, 0.0, _LONGEST_SCRIPT), self.pose(point.find("pose")))
-            for point in points[:_MOST_WAYPOINTS]), 0.0 if np.isnan(tension) else tension)
+        return Trajectory(
+            number,
+            entry.get("type") or "__default__",
+            tuple(
+                Waypoint(self.between(point, "time", 0.0, 0.0, _LONGEST_SCRIPT), self.pose(point.find("pose")))
+                for point in points[:_MOST_WAYPOINTS]
+            ),
+            0.0 if np.isnan(tension) else tension,
+        )
 
 
-def _bone_box(bone: str, child: str, frame: np.ndarray, child_frame: np.ndarray, turned: math3.Quat,
-              between: np.ndarray) -> List[Collision]:
+def _bone_box(
+    bone: str, child: str, frame: np.ndarray, child_frame: np.ndarray, turned: math3.Quat, between: np.ndarray
+) -> List[Collision]:
     """Between two bones, as upstream has it: how it is turned about its own length shows when a plugin makes it thicker."""
     way = child_frame[:3, 3] - frame[:3, 3]
     length = float(np.linalg.norm(way))

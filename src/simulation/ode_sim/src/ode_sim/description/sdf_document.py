@@ -1,4 +1,5 @@
 """SDF text to its root element, in the form of SDF 1.7 where older versions mean something else."""
+
 from __future__ import annotations
 
 from typing import Tuple, Union, cast
@@ -49,8 +50,7 @@ def _version(root: Element) -> Tuple[int, ...]:
     try:
         return tuple(int(part) for part in root.get("version", "1.6").split("."))
     except ValueError:
-        raise fault(root, f"'{quoted(root.get('version'))}' is no SDF version; "
-                               "use 1.4 to 1.7") from None
+        raise fault(root, f"'{quoted(root.get('version'))}' is no SDF version; use 1.4 to 1.7") from None
 
 
 def first_entity(root: Element) -> Element:

@@ -1,4 +1,5 @@
 """Poses of SDF that refer to named frames (``frame`` up to SDF 1.6, ``relative_to`` in 1.7)."""
+
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
@@ -62,8 +63,10 @@ class _Solver:
         while (reference := self._entries[name][1]) in self._entries and reference not in self._solved:
             if reference in path:
                 element = self._entries[name][2]
-                raise DescriptionError(f"the pose refers to itself ({quoted(' > '.join([*path, reference]), 200)})",
-                                       source_of(element) if element is not None else Source(quoted(name)))
+                raise DescriptionError(
+                    f"the pose refers to itself ({quoted(' > '.join([*path, reference]), 200)})",
+                    source_of(element) if element is not None else Source(quoted(name)),
+                )
             path[reference] = None
             name = reference
         for name in reversed(path):

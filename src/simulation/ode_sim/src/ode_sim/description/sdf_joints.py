@@ -1,4 +1,5 @@
 """Joints of SDF models."""
+
 from __future__ import annotations
 
 import math
@@ -13,8 +14,7 @@ from ode_sim.description.sdf_shapes import SdfShapes
 from ode_sim.description.sdf_values import LONGEST
 from ode_sim.description.xmlsource import is_true, joint_end, source_of, text_of
 
-_JOINT_AXES = {"revolute": 1, "prismatic": 1, "fixed": 0, "ball": 0, "universal": 2, "revolute2": 2, "screw": 1,
-                "gearbox": 2, "piston": 1}
+_JOINT_AXES = {"revolute": 1, "prismatic": 1, "fixed": 0, "ball": 0, "universal": 2, "revolute2": 2, "screw": 1, "gearbox": 2, "piston": 1}
 _NOT_SIMULATED = ("piston",)  # the builder says so
 _OLD_JOINT_TYPES = {"hinge": "revolute", "slider": "prismatic", "hinge2": "revolute2", "continuous": "revolute"}
 
@@ -69,14 +69,16 @@ class SdfJoints(SdfShapes):
         kind = _OLD_JOINT_TYPES.get(kind, kind)
         if kind not in _JOINT_AXES:
             simulated = [known for known in _JOINT_AXES if known not in _NOT_SIMULATED]
-            self.warn(element, f"unknown joint type '{quoted(kind)}'; use one of continuous, {', '.join(simulated)}; "
-                               "the joint is left out", "error")
+            self.warn(
+                element,
+                f"unknown joint type '{quoted(kind)}'; use one of continuous, {', '.join(simulated)}; the joint is left out",
+                "error",
+            )
             return []
         parent, child = (self._link_of(joint_end(element, tag), parts, known) for tag in ("parent", "child"))
         for role, link in (("parent", parent), ("child", child)):
             if link not in known and link != "world":
-                self.warn(element, f"{role} link '{quoted(link)}' is not in model '{quoted(parts.name)}'; the joint is left out",
-                          "error")
+                self.warn(element, f"{role} link '{quoted(link)}' is not in model '{quoted(parts.name)}'; the joint is left out", "error")
                 return []
         if parent == child:
             self.warn(element, f"cannot join '{quoted(parent)}' to '{quoted(child)}'; the joint is left out", "error")
@@ -90,20 +92,32 @@ class SdfJoints(SdfShapes):
             for sensor in element.findall("sensor"):
                 _turn_round(sensor)
             axes = tuple(replace(axis, xyz=math3.scale(axis.xyz, -1.0)) for axis in reversed(axes))
-        sensors = tuple(self._unique(element, "sensor", lambda e: self._sensor(
-            e, self._pose_in(element, x_mj, e, parts.frames), of_joint=True)))
-        return [Joint(
-            name=name, type=kind, parent=parent, child=child, pose=math3.relative(parts.frames[child], x_mj), axes=axes,
-            limit_erp=self.number(element, "physics/ode/limit/erp", 0.2),
-            limit_cfm=self.number(element, "physics/ode/limit/cfm", 0.0),
-            provide_feedback=bool(sensors) or self.boolean(element, "physics/provide_feedback",
-                                                           self.boolean(element, "physics/ode/provide_feedback", False)),
-            implicit_spring_damper=self.boolean(element, "physics/ode/implicit_spring_damper",
-                                                self.boolean(element, "physics/ode/cfm_damping", False)),
-            fudge_factor=self.number(element, "physics/ode/fudge_factor", 1.0), thread_pitch=self._thread_pitch(element, kind),
-            gearbox_ratio=self.number(element, "gearbox_ratio", 1.0),
-            gearbox_reference_body=self._link_of(text_of(element.find("gearbox_reference_body")), parts, known),
-            sensors=sensors, source=source_of(element))]
+        sensors = tuple(
+            self._unique(element, "sensor", lambda e: self._sensor(e, self._pose_in(element, x_mj, e, parts.frames), of_joint=True))
+        )
+        return [
+            Joint(
+                name=name,
+                type=kind,
+                parent=parent,
+                child=child,
+                pose=math3.relative(parts.frames[child], x_mj),
+                axes=axes,
+                limit_erp=self.number(element, "physics/ode/limit/erp", 0.2),
+                limit_cfm=self.number(element, "physics/ode/limit/cfm", 0.0),
+                provide_feedback=bool(sensors)
+                or self.boolean(element, "physics/provide_feedback", self.boolean(element, "physics/ode/provide_feedback", False)),
+                implicit_spring_damper=self.boolean(
+                    element, "physics/ode/implicit_spring_damper", self.boolean(element, "physics/ode/cfm_damping", False)
+                ),
+                fudge_factor=self.number(element, "physics/ode/fudge_factor", 1.0),
+                thread_pitch=self._thread_pitch(element, kind),
+                gearbox_ratio=self.number(element, "gearbox_ratio", 1.0),
+                gearbox_reference_body=self._link_of(text_of(element.find("gearbox_reference_body")), parts, known),
+                sensors=sensors,
+                source=source_of(element),
+            )
+        ]
 
     def _thread_pitch(self, element: ET.Element, kind: str) -> float:
         """rad/m, as ``<thread_pitch>`` has it; ``<screw_thread_pitch>`` of SDF 1.10 is in metres a turn, positive of a right-handed
@@ -148,7 +162,7 @@ class SdfJoints(SdfShapes):
         return link if link in known else name
 
     def _axes(self, element: ET.Element, kind: str, frames: Dict[str, Pose], x_mj: Pose) -> Iterator[Axis]:
-        tags = ("axis", "axis2")[:_JOINT_AXES[kind]]
+        tags = ("axis", "axis2")[: _JOINT_AXES[kind]]
         if kind == "revolute2" and element.find("axis2") is None:
             self.warn(element, "a revolute2 joint needs an <axis2>; using the z axis")
         if kind == "gearbox" and element.find("axis2") is None:
@@ -176,17 +190,24 @@ class SdfJoints(SdfShapes):
             if lower > upper:
                 self.warn(axis, f"lower limit {lower:g} is above upper limit {upper:g}; switching the two")
                 lower, upper = upper, lower
-            yield Axis(xyz=math3.unit(xyz), lower=max(lower, -1e16), upper=min(upper, 1e16),
-                       effort=self.number(axis, "limit/effort", -1.0),
-                       velocity=self.number(axis, "limit/velocity", -1.0),
-                       damping=self.number(axis, "dynamics/damping", 0.0),
-                       friction=self.number(axis, "dynamics/friction", 0.0),
-                       spring_reference=self.number(axis, "dynamics/spring_reference", 0.0),
-                       spring_stiffness=self.number(axis, "dynamics/spring_stiffness", 0.0))
+            yield Axis(
+                xyz=math3.unit(xyz),
+                lower=max(lower, -1e16),
+                upper=min(upper, 1e16),
+                effort=self.number(axis, "limit/effort", -1.0),
+                velocity=self.number(axis, "limit/velocity", -1.0),
+                damping=self.number(axis, "dynamics/damping", 0.0),
+                friction=self.number(axis, "dynamics/friction", 0.0),
+                spring_reference=self.number(axis, "dynamics/spring_reference", 0.0),
+                spring_stiffness=self.number(axis, "dynamics/spring_stiffness", 0.0),
+            )
 
     def _warn_of_old_frame(self, axis: ET.Element, xyz: Vec3, x_mj: Pose) -> None:
         """What SDF 1.7 and URDF do not have any more, where it would make a difference; ``sdf_root`` has read that of older files."""
         flag = axis.find("use_parent_model_frame")
         if is_true(text_of(flag)) and math.dist(math3.quat_rotate(x_mj.q, xyz), xyz) > 1e-6 * math3.norm(xyz):
-            self.warn(flag, "has no effect in a URDF, nor in SDF from 1.7 on: the axis is in the joint's frame, as in Noetic; "
-                            "write <xyz expressed_in='__model__'> for the model's")
+            self.warn(
+                flag,
+                "has no effect in a URDF, nor in SDF from 1.7 on: the axis is in the joint's frame, as in Noetic; "
+                "write <xyz expressed_in='__model__'> for the model's",
+            )

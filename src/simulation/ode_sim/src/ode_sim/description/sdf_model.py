@@ -1,4 +1,5 @@
 """Models of SDF: links, joints, sensors, nested and included models."""
+
 from __future__ import annotations
 
 import math
@@ -10,8 +11,21 @@ from typing import Dict, Iterator, List, Optional, Set, Tuple
 
 from ode_sim import math3
 from ode_sim.description.model import (
-    FARTHEST, FORCE_TORQUE, Collision, DescriptionError, Inertial, Joint, Link, Model, Plugin, Pose, Sensor, Surface, Visual,
-    quoted)
+    FARTHEST,
+    FORCE_TORQUE,
+    Collision,
+    DescriptionError,
+    Inertial,
+    Joint,
+    Link,
+    Model,
+    Plugin,
+    Pose,
+    Sensor,
+    Surface,
+    Visual,
+    quoted,
+)
 from ode_sim.description.sdf_document import first_entity, parse_sdf
 from ode_sim.description.sdf_frames import model_frames, relative_to
 from ode_sim.description.sdf_joints import Parts, SdfJoints
@@ -70,12 +84,22 @@ class SdfModels(SdfJoints):
         for i, link in enumerate(parts.links):
             parts.links[i] = self._with_checked_inertial(link, static or link.name in parts.still)
         if not static:  # what of it never moves hangs from the world
-            parts.joints += [Joint(f"{link.name}::static", "fixed", "world", link.name, source=link.source)
-                             for link in parts.links if link.name in parts.still]
-        return Model(name=parts.name, pose=parts.pose, links=tuple(parts.links), joints=tuple(parts.joints),
-                     plugins=tuple(parts.plugins), static=static,
-                     self_collide=self.boolean(element, "self_collide", False),
-                     allow_auto_disable=self.boolean(element, "allow_auto_disable", True), source=source_of(element))
+            parts.joints += [
+                Joint(f"{link.name}::static", "fixed", "world", link.name, source=link.source)
+                for link in parts.links
+                if link.name in parts.still
+            ]
+        return Model(
+            name=parts.name,
+            pose=parts.pose,
+            links=tuple(parts.links),
+            joints=tuple(parts.joints),
+            plugins=tuple(parts.plugins),
+            static=static,
+            self_collide=self.boolean(element, "self_collide", False),
+            allow_auto_disable=self.boolean(element, "allow_auto_disable", True),
+            source=source_of(element),
+        )
 
     def _with_checked_inertial(self, link: Link, static: bool) -> Link:
         """What never moves may have any mass, as saved worlds do; what moves needs one that ODE can use."""
@@ -88,9 +112,13 @@ class SdfModels(SdfJoints):
         if static:
             return replace(link, inertial=Inertial())
         raise DescriptionError(
-            "mass and inertia must be finite numbers" if not finite else
-            f"a mass or inertia of {largest:g}; what is heavier than {_HEAVIEST:g} would spoil the motion of all it touches"
-            if largest > _HEAVIEST else f"mass {i.mass:g} kg; a link of a model that moves needs a positive mass", link.source)
+            "mass and inertia must be finite numbers"
+            if not finite
+            else f"a mass or inertia of {largest:g}; what is heavier than {_HEAVIEST:g} would spoil the motion of all it touches"
+            if largest > _HEAVIEST
+            else f"mass {i.mass:g} kg; a link of a model that moves needs a positive mass",
+            link.source,
+        )
 
     def _parts(self, element: ET.Element) -> Parts:
         name = element.get("name") or "__default__"
@@ -140,14 +168,22 @@ class SdfModels(SdfJoints):
             parts.links.append(replace(link, name=scoped(link.name), pose=math3.compose(x_ms, link.pose)))
         parts.still |= {scoped(name) for name in sub.still}
         for joint in sub.joints:
-            parts.joints.append(replace(joint, name=scoped(joint.name), parent=scoped(joint.parent),
-                                        child=scoped(joint.child),
-                                        gearbox_reference_body=scoped(joint.gearbox_reference_body)))
+            parts.joints.append(
+                replace(
+                    joint,
+                    name=scoped(joint.name),
+                    parent=scoped(joint.parent),
+                    child=scoped(joint.child),
+                    gearbox_reference_body=scoped(joint.gearbox_reference_body),
+                )
+            )
         parts.plugins += sub.plugins
 
     def plugins(self, parent: ET.Element) -> List[Plugin]:
-        return [Plugin(name=(p.get("name") or "").strip(), filename=(p.get("filename") or "").strip(), element=p,
-                       source=source_of(p)) for p in parent.findall("plugin")]
+        return [
+            Plugin(name=(p.get("name") or "").strip(), filename=(p.get("filename") or "").strip(), element=p, source=source_of(p))
+            for p in parent.findall("plugin")
+        ]
 
     # ------------------------------------------------------------------ links
 
@@ -159,11 +195,16 @@ class SdfModels(SdfJoints):
             return self._pose_in(element, x_ml, child, frames)
 
         for plugin in self.plugins(element):
-            self.warn(plugin.element, f"{quoted(plugin.filename)}: a plugin inside a link is never started; write it into the "
-                                      "model, or into a sensor (in a URDF: <gazebo> without reference)")
+            self.warn(
+                plugin.element,
+                f"{quoted(plugin.filename)}: a plugin inside a link is never started; write it into the "
+                "model, or into a sensor (in a URDF: <gazebo> without reference)",
+            )
         collide = element.find("self_collide")
         return Link(
-            name=name, pose=x_ml, inertial=self._inertial(element.find("inertial"), in_link),
+            name=name,
+            pose=x_ml,
+            inertial=self._inertial(element.find("inertial"), in_link),
             collisions=tuple(self._unique(element, "collision", lambda e: self._collision(e, in_link(e)))),
             visuals=tuple(self._unique(element, "visual", lambda e: self._visual(e, in_link(e)))),
             sensors=tuple(self._unique(element, "sensor", lambda e: self._sensor(e, in_link(e), of_joint=False))),
@@ -173,7 +214,8 @@ class SdfModels(SdfJoints):
             kinematic=self.boolean(element, "kinematic", False),
             linear_decay=self.number(element, "velocity_decay/linear", 0.0, most=_STIFFEST),
             angular_decay=self.number(element, "velocity_decay/angular", 0.0, most=_STIFFEST),
-            source=source_of(element))
+            source=source_of(element),
+        )
 
     def _pose_in(self, owner: ET.Element, x_mo: Pose, child: ET.Element, frames: Dict[str, Pose]) -> Pose:
         """X_OC of what a link or joint O has, which may be written relative to another frame."""
@@ -194,8 +236,10 @@ class SdfModels(SdfJoints):
             try:
                 items.append((element, read(element)))
             except DescriptionError as error:  # the link is there without it, as in Gazebo
-                self.warn(error.source, f"{error.message}; {tag} '{quoted(element.get('name'))}' of {parent.tag} "
-                                        f"'{quoted(parent.get('name'))}' is left out")
+                self.warn(
+                    error.source,
+                    f"{error.message}; {tag} '{quoted(element.get('name'))}' of {parent.tag} '{quoted(parent.get('name'))}' is left out",
+                )
         given = {item.name for _, item in items}
         seen: Dict[str, int] = {}
         for element, item in items:
@@ -210,8 +254,10 @@ class SdfModels(SdfJoints):
     def _inertial(self, element: Optional[ET.Element], in_link) -> Inertial:
         if element is None:
             return Inertial()
-        values = {key: self.number(element, "inertia/" + key, default, nan=True) for key, default in (
-            ("ixx", 1.0), ("ixy", 0.0), ("ixz", 0.0), ("iyy", 1.0), ("iyz", 0.0), ("izz", 1.0))}
+        values = {
+            key: self.number(element, "inertia/" + key, default, nan=True)
+            for key, default in (("ixx", 1.0), ("ixy", 0.0), ("ixz", 0.0), ("iyy", 1.0), ("iyz", 0.0), ("izz", 1.0))
+        }
         try:
             pose = in_link(element)
         except DescriptionError as error:
@@ -222,35 +268,57 @@ class SdfModels(SdfJoints):
         return Inertial(mass=self.number(element, "mass", 1.0, nan=True), pose=pose, **values)
 
     def _collision(self, element: ET.Element, pose: Pose) -> Collision:
-        return Collision(name=element.get("name") or "", pose=pose, geometry=self.geometry(element),
-                         surface=self._surface(element.find("surface")),
-                         max_contacts=self.whole(element, "max_contacts", 10, 0, _MOST_CONTACTS),
-                         laser_retro=self.number(element, "laser_retro", 0.0, most=1e30), source=source_of(element))
+        return Collision(
+            name=element.get("name") or "",
+            pose=pose,
+            geometry=self.geometry(element),
+            surface=self._surface(element.find("surface")),
+            max_contacts=self.whole(element, "max_contacts", 10, 0, _MOST_CONTACTS),
+            laser_retro=self.number(element, "laser_retro", 0.0, most=1e30),
+            source=source_of(element),
+        )
 
     def _visual(self, element: ET.Element, pose: Pose) -> Visual:
         for plugin in self.plugins(element):
             self.warn(plugin.element, f"{quoted(plugin.filename)}: plugins of a visual have no effect; it is drawn without")
-        return Visual(name=element.get("name") or "", pose=pose, geometry=self.geometry(element),
-                      material=self.material(element.find("material")),
-                      transparency=self.number(element, "transparency", 0.0, most=FARTHEST),
-                      cast_shadows=self.boolean(element, "cast_shadows", True),
-                      laser_retro=self.number(element, "laser_retro", 0.0, most=1e30), source=source_of(element))
+        return Visual(
+            name=element.get("name") or "",
+            pose=pose,
+            geometry=self.geometry(element),
+            material=self.material(element.find("material")),
+            transparency=self.number(element, "transparency", 0.0, most=FARTHEST),
+            cast_shadows=self.boolean(element, "cast_shadows", True),
+            laser_retro=self.number(element, "laser_retro", 0.0, most=1e30),
+            source=source_of(element),
+        )
 
     def _sensor(self, element: ET.Element, pose: Pose, of_joint: bool) -> Sensor:
         kind = (element.get("type") or "").strip()
         if (kind == FORCE_TORQUE) != of_joint:
-            raise fault(element, f"a sensor of type {quoted(kind) or '(none)'} belongs into a "
-                                 + (f"<link>; a joint takes {FORCE_TORQUE} alone" if of_joint else
-                                    "<joint> (in a URDF: <gazebo reference=\"the joint's name\">)"))
+            raise fault(
+                element,
+                f"a sensor of type {quoted(kind) or '(none)'} belongs into a "
+                + (
+                    f"<link>; a joint takes {FORCE_TORQUE} alone"
+                    if of_joint
+                    else '<joint> (in a URDF: <gazebo reference="the joint\'s name">)'
+                ),
+            )
         for path, words in (("frame", ("child", "parent", "sensor")), ("measure_direction", ("child_to_parent", "parent_to_child"))):
             said = element.find(f"{FORCE_TORQUE}/{path}")
             if said is not None and text_of(said) not in words:
                 self.warn(said, f"'{quoted(text_of(said))}' is none of {', '.join(words)}; {words[0]} is taken")
                 said.text = words[0]
-        return Sensor(name=element.get("name") or "", type=kind, pose=pose,
-                      element=element, update_rate=self.number(element, "update_rate", 0.0),
-                      always_on=self.boolean(element, "always_on", False), plugins=tuple(self.plugins(element)),
-                      source=source_of(element))
+        return Sensor(
+            name=element.get("name") or "",
+            type=kind,
+            pose=pose,
+            element=element,
+            update_rate=self.number(element, "update_rate", 0.0),
+            always_on=self.boolean(element, "always_on", False),
+            plugins=tuple(self.plugins(element)),
+            source=source_of(element),
+        )
 
     def _surface(self, element: Optional[ET.Element]) -> Surface:
         if element is None:
@@ -266,21 +334,25 @@ class SdfModels(SdfJoints):
             self.warn(element.find("contact/collide_bitmask"), f"'{quoted(bitmask)}' is no integer; using 65535")
             collide_bitmask = default.collide_bitmask
         return Surface(
-            mu=self.number(ode, "mu", default.mu), mu2=self.number(ode, "mu2", default.mu2),
+            mu=self.number(ode, "mu", default.mu),
+            mu2=self.number(ode, "mu2", default.mu2),
             fdir1=self.vector(ode, "fdir1", default.fdir1, most=LONGEST),
-            slip1=self.number(ode, "slip1", 0.0), slip2=self.number(ode, "slip2", 0.0),
+            slip1=self.number(ode, "slip1", 0.0),
+            slip2=self.number(ode, "slip2", 0.0),
             torsional_mu=self.number(torsion, "coefficient", default.torsional_mu),
             torsional_slip=self.number(torsion, "ode/slip", 0.0),
             use_patch_radius=self.boolean(torsion, "use_patch_radius", True) if torsion is not None else True,
             patch_radius=self.number(torsion, "patch_radius", 0.0),
             surface_radius=self.number(torsion, "surface_radius", 0.0) if torsion is not None else default.surface_radius,
-            kp=self.number(contact, "kp", default.kp), kd=self.number(contact, "kd", default.kd),
+            kp=self.number(contact, "kp", default.kp),
+            kd=self.number(contact, "kd", default.kd),
             max_vel=self.number(contact, "max_vel", default.max_vel),
             min_depth=self.number(contact, "min_depth", default.min_depth),
             restitution=self.number(element, "bounce/restitution_coefficient", default.restitution),
             bounce_threshold=self.number(element, "bounce/threshold", default.bounce_threshold),
             collide_bitmask=collide_bitmask,
-            collide_without_contact=self.boolean(element, "contact/collide_without_contact", False))
+            collide_without_contact=self.boolean(element, "contact/collide_without_contact", False),
+        )
 
     # ------------------------------------------------------------------ joints
 
@@ -308,8 +380,7 @@ class SdfModels(SdfJoints):
             self.warn(include, f"{error}; '{quoted(uri)}' is left out", "error")
             return None
         if not self.room_for(sum(1 for _ in element.iter())):
-            self.warn(include, f"the models included here have more than {self.MOST_COPIED} elements; '{quoted(uri)}' is left "
-                               "out", "error")
+            self.warn(include, f"the models included here have more than {self.MOST_COPIED} elements; '{quoted(uri)}' is left out", "error")
             return None
         if include.find("placement_frame") is not None or is_true(include.get("merge") or ""):
             what = "placement_frame is of SDF 1.8" if include.find("placement_frame") is not None else "merge is of SDF 1.9"

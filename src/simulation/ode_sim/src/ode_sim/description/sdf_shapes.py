@@ -1,4 +1,5 @@
 """Shapes, looks and lights of SDF."""
+
 from __future__ import annotations
 
 import math
@@ -10,8 +11,23 @@ from typing import Optional
 from ode_sim import math3
 from ode_sim.description import materials
 from ode_sim.description.model import (
-    FARTHEST, Box, Capsule, Cylinder, Geometry, Heightmap, Light, Material, Mesh, Plane, Polyline, Pose,
-    Ribbon, Sphere, Visual, quoted)
+    FARTHEST,
+    Box,
+    Capsule,
+    Cylinder,
+    Geometry,
+    Heightmap,
+    Light,
+    Material,
+    Mesh,
+    Plane,
+    Polyline,
+    Pose,
+    Ribbon,
+    Sphere,
+    Visual,
+    quoted,
+)
 from ode_sim.description.sdf_values import LONGEST, Numbers, SdfValues
 from ode_sim.description.xmlsource import fault, source_of, text_of
 
@@ -38,15 +54,18 @@ class SdfShapes(SdfValues):
             return kind(*self._sizes(shape, (self.number(shape, "radius", 1.0), self.number(shape, "length", 1.0))))
         if shape.tag == "plane":
             normal = math3.unit(self.vector(shape, "normal", (0.0, 0.0, 1.0), most=LONGEST))
-            return Plane(normal if any(normal) else (0.0, 0.0, 1.0),
-                         self.vector(shape, "size", (1.0, 1.0), most=FARTHEST))
+            return Plane(normal if any(normal) else (0.0, 0.0, 1.0), self.vector(shape, "size", (1.0, 1.0), most=FARTHEST))
         if shape.tag == "mesh":
             return self._mesh(shape)
         if shape.tag == "heightmap":
             uri = text_of(shape.find("uri"))
-            return Heightmap(self._file(shape, uri), uri, self._sizes(shape, self.vector(shape, "size", (1.0, 1.0, 1.0))),
-                             self.vector(shape, "pos", (0.0, 0.0, 0.0), most=FARTHEST),
-                             self.whole(shape, "sampling", 2, 0, 1000))
+            return Heightmap(
+                self._file(shape, uri),
+                uri,
+                self._sizes(shape, self.vector(shape, "size", (1.0, 1.0, 1.0))),
+                self.vector(shape, "pos", (0.0, 0.0, 0.0), most=FARTHEST),
+                self.whole(shape, "sampling", 2, 0, 1000),
+            )
         if shape.tag == "polyline":
             return self._polyline(shape)
         self.warn(shape, "this kind of geometry is not known here; left out")
@@ -59,8 +78,7 @@ class SdfShapes(SdfValues):
         :raises DescriptionError: negative, or larger than :data:`FARTHEST`.
         """
         if not all(0.0 <= size <= FARTHEST for size in sizes):
-            raise fault(shape, f"size {' '.join(f'{s:g}' for s in sizes)}; "
-                                   f"sizes must be positive and finite, and at most {FARTHEST:g} m")
+            raise fault(shape, f"size {' '.join(f'{s:g}' for s in sizes)}; sizes must be positive and finite, and at most {FARTHEST:g} m")
         return sizes
 
     def _polyline(self, shape: ET.Element) -> Geometry:
@@ -68,14 +86,21 @@ class SdfShapes(SdfValues):
         if len(corners) > _MOST_CORNERS:
             self.warn(shape, f"an outline of {len(corners)} points; it may have {_MOST_CORNERS}, this shape is left out")
             return None
-        return Polyline(tuple(self.numbers(corner, (0.0, 0.0), most=FARTHEST) for corner in corners),
-                        *self._sizes(shape, (self.number(shape, "height", 1.0),)))
+        return Polyline(
+            tuple(self.numbers(corner, (0.0, 0.0), most=FARTHEST) for corner in corners),
+            *self._sizes(shape, (self.number(shape, "height", 1.0),)),
+        )
 
     def _mesh(self, shape: ET.Element) -> Mesh:
         uri = text_of(shape.find("uri")) or text_of(shape.find("filename"))
         scale = self.vector(shape, "scale", (1.0, 1.0, 1.0), most=FARTHEST)
-        return Mesh(path=self._file(shape, uri), uri=uri, scale=scale,
-                    submesh=text_of(shape.find("submesh/name")), center=self.boolean(shape, "submesh/center", False))
+        return Mesh(
+            path=self._file(shape, uri),
+            uri=uri,
+            scale=scale,
+            submesh=text_of(shape.find("submesh/name")),
+            center=self.boolean(shape, "submesh/center", False),
+        )
 
     def _file(self, element: ET.Element, uri: str) -> str:
         """Absolute path of a mesh or image, '' with a warning if it is not there."""
@@ -95,12 +120,13 @@ class SdfShapes(SdfValues):
         if name and known is None:
             uris = [text_of(uri) for uri in element.findall("script/uri")]
             places = [self.finder.find(uri, self.base) for uri in uris]
-            known = (materials.script_material(name, [place for place in places if place])
-                     or materials.resource_material(name, self.finder))
+            known = materials.script_material(name, [place for place in places if place]) or materials.resource_material(name, self.finder)
             if known is None and name not in self._missing:
                 self._missing.add(name)
-                self.warn(element, f"there is no material '{quoted(name)}'"
-                          + (f" in {quoted(', '.join(uris), 200)}" if uris else "") + "; using white")
+                self.warn(
+                    element,
+                    f"there is no material '{quoted(name)}'" + (f" in {quoted(', '.join(uris), 200)}" if uris else "") + "; using white",
+                )
         colours = {tag: self.rgba(element, tag) for tag in ("ambient", "diffuse", "specular", "emissive")}
         given = {tag: colour for tag, colour in colours.items() if colour is not None}
         if known is None and not given:
@@ -119,10 +145,16 @@ class SdfShapes(SdfValues):
         way = tuple(place for place, before in zip(places, [None, *places]) if before is None or place[:2] != before[:2])
         if len(way) < 2:
             raise fault(element, "a road needs two points that are not the same")
-        width, = self._sizes(element, (self.number(element, "width", 1.0),))
+        (width,) = self._sizes(element, (self.number(element, "width", 1.0),))
         material = self.material(element.find("material")) if element.find("material") is not None else self._road_look()
-        return Visual(element.get("name") or "road", Pose((0.0, 0.0, _ABOVE_GROUND)), Ribbon(way, width), material,
-                      cast_shadows=False, source=source_of(element))
+        return Visual(
+            element.get("name") or "road",
+            Pose((0.0, 0.0, _ABOVE_GROUND)),
+            Ribbon(way, width),
+            material,
+            cast_shadows=False,
+            source=source_of(element),
+        )
 
     def _road_look(self) -> Optional[Material]:
         return materials.gazebo_material("Gazebo/Road", self.finder)
@@ -134,12 +166,17 @@ class SdfShapes(SdfValues):
             return self.number(element, path, usual, most=_FAR_LIGHT)
 
         return Light(
-            name=element.get("name") or "", type=(element.get("type") or "point").strip(),
-            pose=self.pose(element.find("pose")), diffuse=self.rgba(element, "diffuse", default.diffuse),
+            name=element.get("name") or "",
+            type=(element.get("type") or "point").strip(),
+            pose=self.pose(element.find("pose")),
+            diffuse=self.rgba(element, "diffuse", default.diffuse),
             specular=self.rgba(element, "specular", default.specular),
             direction=self.vector(element, "direction", default.direction, most=_FAR_LIGHT),
-            range=value("attenuation/range", default.range), constant=value("attenuation/constant", default.constant),
+            range=value("attenuation/range", default.range),
+            constant=value("attenuation/constant", default.constant),
             linear=value("attenuation/linear", default.linear),
             quadratic=value("attenuation/quadratic", default.quadratic),
             spot=(value("spot/inner_angle", 0.0), value("spot/outer_angle", 0.0), value("spot/falloff", 0.0)),
-            cast_shadows=self.boolean(element, "cast_shadows", False), source=source_of(element))
+            cast_shadows=self.boolean(element, "cast_shadows", False),
+            source=source_of(element),
+        )

@@ -1,4 +1,5 @@
 """Numbers, vectors, colours and poses of SDF, with defaults and warnings."""
+
 from __future__ import annotations
 
 import math
@@ -47,8 +48,7 @@ class SdfValues:
             self._missing.add(uri)
             self.warn(element, f"cannot find '{quoted(uri, 200)}' ({self.finder.explain(uri)}); {consequence}")
 
-    def numbers(self, element: Optional[ET.Element], default: Numbers, nan: bool = False,
-                most: float = math.inf) -> Numbers:
+    def numbers(self, element: Optional[ET.Element], default: Numbers, nan: bool = False, most: float = math.inf) -> Numbers:
         """As many numbers as ``default`` has. As in Gazebo, numbers that stand first count, whatever follows them; those
         that are missing, or are a NaN, are taken from the default, with a warning.
 
@@ -65,22 +65,22 @@ class SdfValues:
             problem, values = f"is beyond {most:g}", default
         elif len(values) < len(default):
             problem = f"is not {len(default)} number{'s' * (len(default) > 1)}"
-            values += default[len(values):]
+            values += default[len(values) :]
         else:
             return cast(Numbers, values)
         self.warn(element, f"'{quoted(text)}' {problem}; using {' '.join(f'{v:g}' for v in values)}")
         return cast(Numbers, values)
 
-    def number(self, parent: Optional[ET.Element], path: str, default: float, nan: bool = False,
-               most: float = math.inf) -> float:
+    def number(self, parent: Optional[ET.Element], path: str, default: float, nan: bool = False, most: float = math.inf) -> float:
         return self.numbers(parent.find(path), (default,), nan, most)[0] if parent is not None else default
 
     def between(self, parent: Optional[ET.Element], path: str, default: float, lowest: float, highest: float) -> float:
         """A number of that range; outside of it the default, with a warning."""
         value = self.number(parent, path, default)
         if not lowest <= value <= highest:
-            self.warn(parent.find(path) if parent is not None else None,
-                      f"{value:g} is not between {lowest:g} and {highest:g}; using {default:g}")
+            self.warn(
+                parent.find(path) if parent is not None else None, f"{value:g} is not between {lowest:g} and {highest:g}; using {default:g}"
+            )
             return default
         return value
 

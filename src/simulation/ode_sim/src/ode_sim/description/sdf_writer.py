@@ -1,4 +1,5 @@
 """Descriptions as SDF 1.6 text that Gazebo Classic opens: saved worlds, copied models."""
+
 from __future__ import annotations
 
 import math
@@ -42,8 +43,7 @@ def world_text(world: d.World) -> str:
     if any(world.spherical_coordinates):
         place = ET.SubElement(top, "spherical_coordinates")
         _leaf(place, "surface_model", "EARTH_WGS84")
-        for tag, value in zip(("latitude_deg", "longitude_deg", "elevation",
-                              "heading_deg"), world.spherical_coordinates):
+        for tag, value in zip(("latitude_deg", "longitude_deg", "elevation", "heading_deg"), world.spherical_coordinates):
             _leaf(place, tag, value)
     for light in world.lights:
         _light(top, light)
@@ -64,13 +64,14 @@ def element_text(element: ET.Element) -> str:
 
 # ---------------------------------------------------------------------------------------------- elements
 
+
 def _root() -> ET.Element:
     return ET.Element("sdf", version=_VERSION)
 
 
 def _text(root: ET.Element) -> str:
     ET.indent(root)
-    return "<?xml version=\"1.0\"?>\n" + ET.tostring(root, "unicode") + "\n"
+    return '<?xml version="1.0"?>\n' + ET.tostring(root, "unicode") + "\n"
 
 
 def _value(value: Any) -> str:
@@ -189,15 +190,28 @@ def _collision(parent: ET.Element, collision: d.Collision) -> None:
     if surface == usual:
         return
     made = ET.SubElement(element, "surface")
-    for path, name in (("friction/ode/", "mu"), ("friction/ode/", "mu2"), ("friction/ode/", "fdir1"),
-                       ("friction/ode/", "slip1"), ("friction/ode/", "slip2"), ("contact/ode/", "kp"),
-                       ("contact/ode/", "kd"),
-                       ("contact/ode/", "max_vel"), ("contact/ode/", "min_depth"), ("contact/", "collide_bitmask"),
-                       ("contact/", "collide_without_contact")):
+    for path, name in (
+        ("friction/ode/", "mu"),
+        ("friction/ode/", "mu2"),
+        ("friction/ode/", "fdir1"),
+        ("friction/ode/", "slip1"),
+        ("friction/ode/", "slip2"),
+        ("contact/ode/", "kp"),
+        ("contact/ode/", "kd"),
+        ("contact/ode/", "max_vel"),
+        ("contact/ode/", "min_depth"),
+        ("contact/", "collide_bitmask"),
+        ("contact/", "collide_without_contact"),
+    ):
         _leaf(made, path + name, getattr(surface, name), getattr(usual, name))
     if math.isfinite(surface.surface_radius):  # there was a <torsional>
-        for path, name in (("coefficient", "torsional_mu"), ("use_patch_radius", "use_patch_radius"), ("patch_radius", "patch_radius"),
-                           ("surface_radius", "surface_radius"), ("ode/slip", "torsional_slip")):
+        for path, name in (
+            ("coefficient", "torsional_mu"),
+            ("use_patch_radius", "use_patch_radius"),
+            ("patch_radius", "patch_radius"),
+            ("surface_radius", "surface_radius"),
+            ("ode/slip", "torsional_slip"),
+        ):
             _leaf(made, "friction/torsional/" + path, getattr(surface, name))
     _leaf(made, "bounce/restitution_coefficient", surface.restitution, usual.restitution)
     _leaf(made, "bounce/threshold", surface.bounce_threshold, usual.bounce_threshold)
@@ -291,15 +305,25 @@ def _joint(parent: ET.Element, joint: d.Joint) -> None:
     for tag, axis in zip(("axis",) if joint.type == "screw" else ("axis", "axis2"), joint.axes):
         made = ET.SubElement(element, tag)
         _leaf(made, "xyz", axis.xyz)
-        for name, path in (("lower", "limit/"), ("upper", "limit/"), ("effort", "limit/"), ("velocity", "limit/"),
-                           ("damping", "dynamics/"), ("friction", "dynamics/"), ("spring_reference", "dynamics/"),
-                           ("spring_stiffness", "dynamics/")):
+        for name, path in (
+            ("lower", "limit/"),
+            ("upper", "limit/"),
+            ("effort", "limit/"),
+            ("velocity", "limit/"),
+            ("damping", "dynamics/"),
+            ("friction", "dynamics/"),
+            ("spring_reference", "dynamics/"),
+            ("spring_stiffness", "dynamics/"),
+        ):
             _leaf(made, path + name, getattr(axis, name), getattr(d.Axis(), name))
     usual = d.Joint("", "", "", "")
-    for path, name in (("physics/ode/limit/erp", "limit_erp"), ("physics/ode/limit/cfm", "limit_cfm"),
-                       ("physics/ode/provide_feedback", "provide_feedback"),
-                       ("physics/ode/implicit_spring_damper", "implicit_spring_damper"),
-                       ("physics/ode/fudge_factor", "fudge_factor")):
+    for path, name in (
+        ("physics/ode/limit/erp", "limit_erp"),
+        ("physics/ode/limit/cfm", "limit_cfm"),
+        ("physics/ode/provide_feedback", "provide_feedback"),
+        ("physics/ode/implicit_spring_damper", "implicit_spring_damper"),
+        ("physics/ode/fudge_factor", "fudge_factor"),
+    ):
         _leaf(element, path, getattr(joint, name), getattr(usual, name))
     for name in {"screw": ("thread_pitch",), "gearbox": ("gearbox_ratio", "gearbox_reference_body")}.get(joint.type, ()):
         _leaf(element, name, getattr(joint, name))

@@ -4,6 +4,7 @@ The rules that matter to a robot: a fixed joint is removed and its child lumped 
 otherwise); a link without mass takes its sub-tree with it; ``<gazebo reference>`` extensions are applied on top.
 Children are taken in the order of their joints' names, as urdfdom keeps them.
 """
+
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
@@ -117,13 +118,17 @@ class _Conversion:
             _write_pose(sdf, parts.origin(self.robot))
         if sdf.find("link") is None:
             if root.fault is not None:
-                raise DescriptionError(f"{root.fault.message}, so robot '{quoted(name)}' has no link with a mass that could be simulated",
-                                       root.fault.source)
+                raise DescriptionError(
+                    f"{root.fault.message}, so robot '{quoted(name)}' has no link with a mass that could be simulated", root.fault.source
+                )
             mass = root.element.find("inertial/mass")
             raise fault(
-                root.element, f"robot '{quoted(name)}' has no link with a mass that could be simulated; give the "
-                "root link " + ("an <inertial>" if mass is None else f"a positive mass, not {quoted(mass.get('value'))} kg")
-                + ", or join one that has it by a fixed joint")
+                root.element,
+                f"robot '{quoted(name)}' has no link with a mass that could be simulated; give the "
+                "root link "
+                + ("an <inertial>" if mass is None else f"a positive mass, not {quoted(mass.get('value'))} kg")
+                + ", or join one that has it by a fixed joint",
+            )
         model = self.reader.model(sdf)
         return replace(model, joints=tuple(self._with_urdf_facts(joint) for joint in model.joints))
 
@@ -146,21 +151,28 @@ class _Conversion:
             self.joints[joint.name] = joint
         for _, joint in sorted(self.joints.items()):
             if joint.child.parent_joint is not None:
-                raise fault(joint.element, f"link '{quoted(joint.child.name)}' is the child of joint "
-                                       f"'{quoted(joint.child.parent_joint.name)}' already; a robot must be a tree")
+                raise fault(
+                    joint.element,
+                    f"link '{quoted(joint.child.name)}' is the child of joint "
+                    f"'{quoted(joint.child.parent_joint.name)}' already; a robot must be a tree",
+                )
             joint.child.parent_joint = joint
             joint.parent.child_joints.append(joint)
             joint.parent.joints.append(joint)
         roots = [link for link in self.links.values() if link.parent_joint is None]
         if len(roots) != 1:
-            what = "no root link, its joints form a circle" if not roots else \
-                "several root links (" + quoted(", ".join(link.name for link in roots), 200) + "), join them"
+            what = (
+                "no root link, its joints form a circle"
+                if not roots
+                else "several root links (" + quoted(", ".join(link.name for link in roots), 200) + "), join them"
+            )
             raise fault(self.robot, f"{what}; a robot must be a tree")
         reached = {link.name for link in _tree_of(roots[0])}
         astray = next((link for link in self.links.values() if link.name not in reached), None)
         if astray is not None:
-            raise fault(astray.element, f"its joints form a circle, apart from the root "
-                                   f"link '{quoted(roots[0].name)}'; a robot must be a tree")
+            raise fault(
+                astray.element, f"its joints form a circle, apart from the root link '{quoted(roots[0].name)}'; a robot must be a tree"
+            )
         return roots[0]
 
     def _link(self, name: str, element: ET.Element) -> _UrdfLink:
@@ -227,8 +239,7 @@ class _Conversion:
     # ------------------------------------------------------------------ lumping
 
     def _lumps(self, joint: _UrdfJoint) -> bool:
-        return (joint.type == "fixed" and joint.parent.name != "world"
-                and not self.extensions.keeps_fixed_joint(joint.name))
+        return joint.type == "fixed" and joint.parent.name != "world" and not self.extensions.keeps_fixed_joint(joint.name)
 
     def _reduce(self, root: _UrdfLink) -> None:
         """Lump what hangs on fixed joints into its parent, from the ends of the tree to its root."""
@@ -237,14 +248,16 @@ class _Conversion:
             if joint is None or not self._lumps(joint):
                 continue
             for sensor in self.extensions.sensors_of(joint.name):
-                self.reader.warn(sensor, f"sensor '{quoted(sensor.get('name'))}' is left out: its joint '{quoted(joint.name)}' is fixed, "
-                                         "and Gazebo makes one link of such a joint's two; to keep the joint, write <gazebo reference="
-                                         f"\"{quoted(joint.name)}\"><preserveFixedJoint>true</preserveFixedJoint></gazebo>")
+                self.reader.warn(
+                    sensor,
+                    f"sensor '{quoted(sensor.get('name'))}' is left out: its joint '{quoted(joint.name)}' is fixed, "
+                    "and Gazebo makes one link of such a joint's two; to keep the joint, write <gazebo reference="
+                    f'"{quoted(joint.name)}"><preserveFixedJoint>true</preserveFixedJoint></gazebo>',
+                )
             self._lump(link, joint.parent, joint.pose)
             joint.parent.fixed_below = max(joint.parent.fixed_below, link.fixed_below + 1)
             if link.fixed_below > _MOST_FIXED:
-                raise fault(joint.element, f"more than {_MOST_FIXED} fixed joints hang one behind "
-                                       "the other")
+                raise fault(joint.element, f"more than {_MOST_FIXED} fixed joints hang one behind the other")
 
     def _lump(self, link: _UrdfLink, parent: _UrdfLink, x_pl: Pose) -> None:
         link.lumped_into = parent
@@ -286,12 +299,14 @@ class _Conversion:
         others = [other.name for other in _tree_of(link)][1:]
         joint = link.parent_joint
         why = f" ({link.fault.message})" if link.fault is not None else ""
-        self.reader.warn(link.element if link.fault is None else link.fault.source,
-                         f"link '{quoted(link.name)}' has no mass{why}, so it is left out"
-                         + (f" and with it {quoted(', '.join(others), 500)}" if others else "")
-                         + (f" (joint '{quoted(joint.name)}' too)" if joint is not None else "")
-                         + f"; to keep {'them' if others else 'it'}, give '{quoted(link.name)}' an <inertial> with a mass"
-                         + ("" if joint is None else " or make the joint fixed"))
+        self.reader.warn(
+            link.element if link.fault is None else link.fault.source,
+            f"link '{quoted(link.name)}' has no mass{why}, so it is left out"
+            + (f" and with it {quoted(', '.join(others), 500)}" if others else "")
+            + (f" (joint '{quoted(joint.name)}' too)" if joint is not None else "")
+            + f"; to keep {'them' if others else 'it'}, give '{quoted(link.name)}' an <inertial> with a mass"
+            + ("" if joint is None else " or make the joint fixed"),
+        )
 
     def _write_link(self, sdf: Element, link: _UrdfLink, x_ml: Pose) -> None:
         element = child(sdf, "link", attrib={"name": link.name}, like=link.element)
@@ -305,8 +320,7 @@ class _Conversion:
             values = {key: repr(value) for key, value in zip(parts.TENSOR, tensor)}
         else:
             pose, (a, b, c) = Pose(link.inertial.com), link.inertial.inertia
-            values = {"ixx": repr(a[0]), "ixy": repr(a[1]), "ixz": repr(a[2]), "iyy": repr(b[1]), "iyz": repr(b[2]),
-                      "izz": repr(c[2])}
+            values = {"ixx": repr(a[0]), "ixy": repr(a[1]), "ixz": repr(a[2]), "iyy": repr(b[1]), "iyz": repr(b[2]), "izz": repr(c[2])}
         _write_pose(inertial, pose)
         child(inertial, "mass", repr(link.inertial.mass))
         inertia = child(inertial, "inertia")
@@ -346,8 +360,7 @@ class _Conversion:
             return
         kind = "revolute" if joint.type == "continuous" else joint.type
         as_revolute = kind == "fixed" and self.extensions.fixed_as_revolute(joint.name)
-        element = child(sdf, "joint", attrib={"name": joint.name, "type": "revolute" if as_revolute else kind},
-                        like=joint.element)
+        element = child(sdf, "joint", attrib={"name": joint.name, "type": "revolute" if as_revolute else kind}, like=joint.element)
         child(element, "parent", joint.parent.name)
         child(element, "child", joint.child.name)
         if kind != "fixed" or as_revolute:
@@ -371,8 +384,10 @@ class _Conversion:
         if joint.type != "continuous":
             lower, upper = limits.lower, limits.upper
             if lower > upper:
-                self.reader.warn(joint.element.find("limit"), f"joint '{quoted(joint.name)}': lower limit {lower:g} is above upper limit "
-                                                              f"{upper:g}; switching the two")
+                self.reader.warn(
+                    joint.element.find("limit"),
+                    f"joint '{quoted(joint.name)}': lower limit {lower:g} is above upper limit {upper:g}; switching the two",
+                )
                 lower, upper = upper, lower
             child(limit, "lower", repr(lower))
             child(limit, "upper", repr(upper))

@@ -1,4 +1,5 @@
 """``<gazebo>`` extensions of a URDF: what they say about links and joints, and where it goes in the SDF."""
+
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
@@ -14,19 +15,38 @@ _MATERIAL_SCRIPT = "file://media/materials/scripts/gazebo.material"
 
 # tag -> path below the element it is inserted in
 _COLLISION_TAGS = {
-    "mu1": "surface/friction/ode/mu", "mu2": "surface/friction/ode/mu2", "fdir1": "surface/friction/ode/fdir1",
-    "kp": "surface/contact/ode/kp", "kd": "surface/contact/ode/kd", "maxVel": "surface/contact/ode/max_vel",
-    "minDepth": "surface/contact/ode/min_depth", "maxContacts": "max_contacts", "laserRetro": "laser_retro",
+    "mu1": "surface/friction/ode/mu",
+    "mu2": "surface/friction/ode/mu2",
+    "fdir1": "surface/friction/ode/fdir1",
+    "kp": "surface/contact/ode/kp",
+    "kd": "surface/contact/ode/kd",
+    "maxVel": "surface/contact/ode/max_vel",
+    "minDepth": "surface/contact/ode/min_depth",
+    "maxContacts": "max_contacts",
+    "laserRetro": "laser_retro",
 }
 _JOINT_TAGS = {
-    "stopCfm": "physics/ode/limit/cfm", "stopErp": "physics/ode/limit/erp", "fudgeFactor": "physics/ode/fudge_factor",
+    "stopCfm": "physics/ode/limit/cfm",
+    "stopErp": "physics/ode/limit/erp",
+    "fudgeFactor": "physics/ode/fudge_factor",
     "provideFeedback": "physics/provide_feedback",
-    "implicitSpringDamper": "physics/ode/implicit_spring_damper", "cfmDamping": "physics/ode/implicit_spring_damper",
-    "springReference": "axis/dynamics/spring_reference", "springStiffness": "axis/dynamics/spring_stiffness",
+    "implicitSpringDamper": "physics/ode/implicit_spring_damper",
+    "cfmDamping": "physics/ode/implicit_spring_damper",
+    "springReference": "axis/dynamics/spring_reference",
+    "springStiffness": "axis/dynamics/spring_stiffness",
 }
 _LINK_TAGS = {"selfCollide": "self_collide"}
-_OWN_MEANING = ("material", "visual", "collision", "turnGravityOff", "dampingFactor", "static", "canonicalBody",
-                "preserveFixedJoint", "disableFixedJointLumping")
+_OWN_MEANING = (
+    "material",
+    "visual",
+    "collision",
+    "turnGravityOff",
+    "dampingFactor",
+    "static",
+    "canonicalBody",
+    "preserveFixedJoint",
+    "disableFixedJointLumping",
+)
 _NAMING = {"plugin": ("bodyName", "frameName"), "joint": ("parent", "child"), "gripper": ("gripper_link", "palm_link")}
 _MOVED_WITH_POSE = ("sensor", "light", "projector")
 
@@ -215,7 +235,11 @@ class Extensions:
         old = element.find(tags[-1])
         if old is not None:
             if text_of(old) != text:
-                self._reader.warn(like, f"<{like.tag if like is not None else tags[-1]}> is given twice; "
-                                        f"'{quoted(text)}' takes the place of '{quoted(text_of(old))}'", "note")
+                self._reader.warn(
+                    like,
+                    f"<{like.tag if like is not None else tags[-1]}> is given twice; "
+                    f"'{quoted(text)}' takes the place of '{quoted(text_of(old))}'",
+                    "note",
+                )
             element.remove(old)
         child(element, tags[-1], text, like=like)

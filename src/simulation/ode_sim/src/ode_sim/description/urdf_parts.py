@@ -3,6 +3,7 @@
 urdfdom reports a fault of an ``<inertial>``, a ``<visual>`` or a ``<collision>`` and keeps the link; so does this reader: one warning, and
 the part counts as 0 or is left out. A fault of a ``<joint>``, or of what holds the robot together, is the end of the robot there and here.
 """
+
 from __future__ import annotations
 
 import math
@@ -45,6 +46,7 @@ class JointParts:
 
 
 # ------------------------------------------------------------------------------------------------ attributes
+
 
 def name_of(element: ET.Element, key: str = "name") -> str:
     """:raises DescriptionError: not there, or empty."""
@@ -116,8 +118,10 @@ def _hint(text: str) -> str:
 
 # ------------------------------------------------------------------------------------------------ links
 
+
 def inertial(element: ET.Element, problems: Callable[[DescriptionError], None]) -> Tuple[float, Pose, Tuple[float, ...]]:
     """Mass (kg), pose and tensor (kg m^2) of an ``<inertial>``; what is at fault is 0, and goes to ``problems``."""
+
     def read(value: Callable[[], Read], otherwise: Read) -> Read:
         try:
             return value()
@@ -182,6 +186,7 @@ def mesh_scale(mesh: ET.Element) -> Tuple[float, ...]:
 
 # ------------------------------------------------------------------------------------------------ joints
 
+
 def joint(element: ET.Element, name: str, problems: Callable[[ET.Element, str], None]) -> JointParts:
     """:param problems: takes what is odd and does no harm.
     :raises DescriptionError: whatever ends the robot in urdfdom.
@@ -192,13 +197,20 @@ def joint(element: ET.Element, name: str, problems: Callable[[ET.Element, str], 
         raise fault(element, f"unknown type '{quoted(kind)}'{also}; use one of {', '.join(JOINT_TYPES)}")
     limits, axis = element.find("limit"), element.find("axis")
     if kind in ("revolute", "prismatic") and limits is None:
-        raise fault(element, f"a {kind} joint needs <limit lower upper effort velocity/>"
-                             + ("; or make it continuous" if kind == "revolute" else ""))
+        raise fault(
+            element,
+            f"a {kind} joint needs <limit lower upper effort velocity/>" + ("; or make it continuous" if kind == "revolute" else ""),
+        )
     xyz = (1.0, 0.0, 0.0)
     if axis is not None and kind not in ("floating", "fixed"):
         xyz = floats(axis, "xyz", (0.0, 0.0, 0.0))
-    limit = None if limits is None else Limit(*(number(limits, key, default) for key, default in (
-        ("lower", 0.0), ("upper", 0.0), ("effort", None), ("velocity", None))))
+    limit = (
+        None
+        if limits is None
+        else Limit(
+            *(number(limits, key, default) for key, default in (("lower", 0.0), ("upper", 0.0), ("effort", None), ("velocity", None)))
+        )
+    )
     _check_what_is_not_simulated(element)
     return JointParts(kind, origin(element), xyz, limit, _mimic(element, name, problems), _losses(element))
 
@@ -238,6 +250,7 @@ def _check_what_is_not_simulated(element: ET.Element) -> None:
 
 
 # ------------------------------------------------------------------------------------------------ robot
+
 
 def check_robot(robot: ET.Element) -> None:
     """:raises DescriptionError: another version of URDF than 1.0, or two materials of a name."""

@@ -1,4 +1,5 @@
 """XML text to elements that know their line, with the tolerance of Gazebo's own parser."""
+
 from __future__ import annotations
 
 import re
@@ -56,8 +57,9 @@ def parse_xml(text: Union[str, bytes], file: str = "") -> Element:
         source = Source(file, line)
         if not body:
             raise DescriptionError("the text is empty; expected XML with <sdf> or <robot>", source) from None
-        raise DescriptionError(f"not well-formed XML, {expat.ErrorString(error.code)}" + (f", at: {words}" if words else ""),
-                               source) from None
+        raise DescriptionError(
+            f"not well-formed XML, {expat.ErrorString(error.code)}" + (f", at: {words}" if words else ""), source
+        ) from None
 
 
 def _decoded(text: Union[str, bytes]) -> str:
@@ -160,8 +162,9 @@ class _Reader(_Builder):
         return self._parser.CurrentLineNumber + self.skipped
 
     def _entity(self, name: str, *_declaration) -> None:
-        raise DescriptionError(f"declares the entity '{quoted(name)}'; entities are not read, write out what it stands for",
-                               Source(self.file, self._line()))
+        raise DescriptionError(
+            f"declares the entity '{quoted(name)}'; entities are not read, write out what it stands for", Source(self.file, self._line())
+        )
 
 
 def read_bytes(file: str) -> bytes:
@@ -188,8 +191,7 @@ def clone(element: ET.Element) -> Element:
     return copy
 
 
-def child(parent: ET.Element, tag: str, text: str = "", attrib: Optional[dict] = None,
-          like: Optional[ET.Element] = None) -> Element:
+def child(parent: ET.Element, tag: str, text: str = "", attrib: Optional[dict] = None, like: Optional[ET.Element] = None) -> Element:
     """Append a new element to ``parent``; it takes the line of ``like``, or of ``parent``."""
     element = Element(tag, attrib or {})
     element.text = text

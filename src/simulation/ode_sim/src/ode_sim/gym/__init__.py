@@ -6,11 +6,14 @@
 
 The same seed and the same actions give the same bits. Needs Gymnasium: ``scripts/setup --teaching``.
 """
+
 try:
     import gymnasium  # noqa: F401
 except ImportError:
-    raise ImportError("ode_sim.gym needs Gymnasium, which is not there: run scripts/setup --teaching and source devel/setup.bash again, "
-                      "or pip install gymnasium==1.4.0") from None
+    raise ImportError(
+        "ode_sim.gym needs Gymnasium, which is not there: run scripts/setup --teaching and source devel/setup.bash again, "
+        "or pip install gymnasium==1.4.0"
+    ) from None
 
 from ode_sim.gym.env import RobotEnv, RobotVectorEnv
 from ode_sim.gym.episodes import Command, Episodes

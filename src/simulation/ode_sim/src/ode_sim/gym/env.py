@@ -1,4 +1,5 @@
 """The Gymnasium environment over :class:`Episodes`, and several in one process."""
+
 from __future__ import annotations
 
 from typing import Any, Callable, Dict, Optional, Tuple
@@ -23,8 +24,15 @@ class RobotEnv(gymnasium.Env):
     ``gymnasium.wrappers.RescaleAction`` brings them to -1 ... 1.
     """
 
-    def __init__(self, reward: Judge, terminated: Optional[Judge] = None, limit: int = 1000, camera=None,
-                 render_mode: Optional[str] = None, **episodes):
+    def __init__(
+        self,
+        reward: Judge,
+        terminated: Optional[Judge] = None,
+        limit: int = 1000,
+        camera=None,
+        render_mode: Optional[str] = None,
+        **episodes,
+    ):
         self.episodes = Episodes(**episodes)
         self._reward, self._terminated = reward, terminated
         self.limit = limit
@@ -43,7 +51,7 @@ class RobotEnv(gymnasium.Env):
     def reset(self, *, seed: Optional[int] = None, options: Optional[Dict[str, Any]] = None) -> Tuple[np.ndarray, Dict[str, Any]]:
         """With a seed: the same episodes as the last time that this seed was given. Without: the next of the same row."""
         super().reset(seed=seed)
-        self.episodes.begin(int(self.np_random.integers(2 ** 63)))
+        self.episodes.begin(int(self.np_random.integers(2**63)))
         self._done = 0
         return self._observe(), self._information()
 

@@ -1,4 +1,5 @@
 """One world that is played again and again from the same snapshot: what is commanded, what is seen."""
+
 from __future__ import annotations
 
 import math
@@ -45,9 +46,17 @@ class Episodes:
     :raises ode_sim.DescriptionError: the world or the robot cannot be read.
     """
 
-    def __init__(self, world: str = "", robot: str = "", commands: Sequence[Command] = (), joints: Optional[Sequence[str]] = None,
-                 links: Sequence[str] = (), period: float = 0.02,
-                 start: Optional[Callable[["Episodes", np.random.Generator], None]] = None, finder=None):
+    def __init__(
+        self,
+        world: str = "",
+        robot: str = "",
+        commands: Sequence[Command] = (),
+        joints: Optional[Sequence[str]] = None,
+        links: Sequence[str] = (),
+        period: float = 0.02,
+        start: Optional[Callable[["Episodes", np.random.Generator], None]] = None,
+        finder=None,
+    ):
         self.world = World.load(world, finder=finder) if world else World(finder=finder)
         if robot:
             self.world.spawn_urdf(_text(robot))

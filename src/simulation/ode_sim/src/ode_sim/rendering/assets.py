@@ -1,4 +1,5 @@
 """From a visual of the description to what is drawn: meshes, textures, colours. Everything is loaded once."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
@@ -56,7 +57,8 @@ def look_of(material: Optional[d.Material], own: Optional[d.Material], transpare
 
 def _says_something(material: d.Material) -> bool:
     return bool(material.texture) or any(
-        colour is not None for colour in (material.ambient, material.diffuse, material.specular, material.emissive))
+        colour is not None for colour in (material.ambient, material.diffuse, material.specular, material.emissive)
+    )
 
 
 class Assets:
@@ -68,13 +70,13 @@ class Assets:
     def __init__(self, load_mesh: Optional[Callable] = None):
         if load_mesh is None:
             from ode_sim.mesh import load_visual
+
             load_mesh = load_visual
         self._load_mesh: Callable = load_mesh
         self.meshes: Dict[Hashable, TriMesh] = {}
         self.problems: List[str] = []
         self._files: Dict[Hashable, List[Tuple[Hashable, Optional[d.Material]]]] = {}
-        self._shapes = {"box": geometry.box, "sphere": geometry.sphere, "cylinder": geometry.cylinder,
-                        "plane": geometry.plane}
+        self._shapes = {"box": geometry.box, "sphere": geometry.sphere, "cylinder": geometry.cylinder, "plane": geometry.plane}
 
     def note(self, name: str, trouble: str) -> None:
         """A problem of the visual of that scoped name."""
@@ -135,7 +137,8 @@ class Assets:
         if shape not in self._files:
             pieces: List[Tuple[Hashable, Optional[d.Material]]] = []
             for number, (vertices, triangles, normals, uv, material) in enumerate(
-                    self._load_mesh(shape.path, shape.scale, shape.submesh, shape.center)):
+                self._load_mesh(shape.path, shape.scale, shape.submesh, shape.center)
+            ):
                 key = (shape, number)
                 self.meshes[key] = TriMesh(vertices, normals, triangles, uv)
                 pieces.append((key, material))

@@ -1,4 +1,5 @@
 """What a camera is: a frozen record, read from the ``<camera>`` element of a sensor or written by hand."""
+
 from __future__ import annotations
 
 import math
@@ -19,14 +20,30 @@ _NOISIEST = 1e3  # noise is in fractions of full scale
 _BENT = 1e6  # of lens coefficients
 
 LENS_FUNCTIONS: Dict[str, Callable[[float], float]] = {"sin": math.sin, "tan": math.tan, "id": float}
-_LENSES = {"gnomonical": (1.0, 1.0, "tan"), "stereographic": (2.0, 2.0, "tan"), "equidistant": (1.0, 1.0, "id"),
-           "equisolid_angle": (2.0, 2.0, "sin"), "orthographic": (1.0, 1.0, "sin")}  # c1, c2, fun
+_LENSES = {
+    "gnomonical": (1.0, 1.0, "tan"),
+    "stereographic": (2.0, 2.0, "tan"),
+    "equidistant": (1.0, 1.0, "id"),
+    "equisolid_angle": (2.0, 2.0, "sin"),
+    "orthographic": (1.0, 1.0, "sin"),
+}  # c1, c2, fun
 _TEXTURES = (16, 2048)  # pixels
 
 ENCODINGS = {
-    "L8": "mono8", "L_INT8": "mono8", "L16": "mono16", "L_INT16": "mono16", "R8G8B8": "rgb8", "RGB_INT8": "rgb8",
-    "B8G8R8": "bgr8", "BGR_INT8": "bgr8", "R16G16B16": "rgb16", "RGB_INT16": "rgb16", "BAYER_RGGB8": "bayer_rggb8",
-    "BAYER_BGGR8": "bayer_bggr8", "BAYER_GBRG8": "bayer_gbrg8", "BAYER_GRBG8": "bayer_grbg8",
+    "L8": "mono8",
+    "L_INT8": "mono8",
+    "L16": "mono16",
+    "L_INT16": "mono16",
+    "R8G8B8": "rgb8",
+    "RGB_INT8": "rgb8",
+    "B8G8R8": "bgr8",
+    "BGR_INT8": "bgr8",
+    "R16G16B16": "rgb16",
+    "RGB_INT16": "rgb16",
+    "BAYER_RGGB8": "bayer_rggb8",
+    "BAYER_BGGR8": "bayer_bggr8",
+    "BAYER_GBRG8": "bayer_gbrg8",
+    "BAYER_GRBG8": "bayer_grbg8",
 }
 
 
@@ -67,8 +84,10 @@ class WideLens:
         if self.fun not in LENS_FUNCTIONS:
             raise CameraError(f"<fun> of the lens is '{quoted(self.fun)}'; use one of {', '.join(LENS_FUNCTIONS)}")
         if not all(abs(value) <= _BENT for value in (self.c1, self.c2, self.c3, self.f)) or not self.c1 * self.c2 * self.f:
-            raise CameraError(f"lens of c1 {self.c1:g}, c2 {self.c2:g}, c3 {self.c3:g}, f {self.f:g}; each must be finite and at most "
-                              f"{_BENT:g}, and all but c3 other than 0")
+            raise CameraError(
+                f"lens of c1 {self.c1:g}, c2 {self.c2:g}, c3 {self.c3:g}, f {self.f:g}; each must be finite and at most "
+                f"{_BENT:g}, and all but c3 other than 0"
+            )
         if not 0 <= self.cutoff <= _BENT:
             raise CameraError(f"<cutoff_angle> of the lens is {self.cutoff:g} rad; it must not be negative")
 
@@ -99,8 +118,10 @@ class Camera:
 
     def __post_init__(self):
         if not (1 <= self.width <= MAX_SIZE and 1 <= self.height <= MAX_SIZE) or self.width * self.height > _MAX_PIXELS:
-            raise CameraError(f"image of {self.width}x{self.height} pixels; width and height must be 1 to {MAX_SIZE}, "
-                              f"together at most {_MAX_PIXELS // 1_000_000} million pixels")
+            raise CameraError(
+                f"image of {self.width}x{self.height} pixels; width and height must be 1 to {MAX_SIZE}, "
+                f"together at most {_MAX_PIXELS // 1_000_000} million pixels"
+            )
         if self.lens is None and not 1e-3 <= self.hfov <= math.radians(175):
             raise CameraError(f"horizontal_fov {self.hfov:g} rad; it must be between 0.001 and 3.05")
         if self.lens is not None and not 0.01 <= self.hfov <= 2 * math.pi:
@@ -110,12 +131,16 @@ class Camera:
         if self.format not in ENCODINGS:
             raise CameraError(f"unknown image format '{quoted(self.format)}'; use one of {', '.join(ENCODINGS)}")
         if not (0 <= self.noise_stddev <= _NOISIEST and abs(self.noise_mean) <= _NOISIEST):
-            raise CameraError(f"noise mean {self.noise_mean:g}, stddev {self.noise_stddev:g}; stddev must not be negative, "
-                              f"neither may be above {_NOISIEST:g} of full scale")
+            raise CameraError(
+                f"noise mean {self.noise_mean:g}, stddev {self.noise_stddev:g}; stddev must not be negative, "
+                f"neither may be above {_NOISIEST:g} of full scale"
+            )
         lens = self.distortion
         if not all(abs(value) <= _BENT for value in (lens.k1, lens.k2, lens.k3, lens.p1, lens.p2, *lens.center)):
-            raise CameraError(f"distortion of {lens.k1:g} {lens.k2:g} {lens.k3:g} {lens.p1:g} {lens.p2:g} about "
-                              f"{lens.center[0]:g} {lens.center[1]:g}; each must be finite and at most {_BENT:g}")
+            raise CameraError(
+                f"distortion of {lens.k1:g} {lens.k2:g} {lens.k3:g} {lens.p1:g} {lens.p2:g} about "
+                f"{lens.center[0]:g} {lens.center[1]:g}; each must be finite and at most {_BENT:g}"
+            )
 
     @property
     def focal_length(self) -> float:
@@ -131,8 +156,7 @@ class Camera:
         """Pixel coordinates (N,2) (column, row; whole numbers at pixel centres) of points (N,3) in the camera frame."""
         p_C = np.atleast_2d(np.asarray(p_C, float))
         f = self.focal_length
-        return np.stack([(self.width - 1) / 2 - f * p_C[:, 1] / p_C[:, 0],
-                         (self.height - 1) / 2 - f * p_C[:, 2] / p_C[:, 0]], axis=1)
+        return np.stack([(self.width - 1) / 2 - f * p_C[:, 1] / p_C[:, 0], (self.height - 1) / 2 - f * p_C[:, 2] / p_C[:, 0]], axis=1)
 
 
 def _number(element: Optional[ET.Element], path: str, default: float) -> float:
@@ -164,7 +188,7 @@ def read_distortion(element: Optional[ET.Element]) -> Distortion:
     """From a ``<distortion>`` element (None: no distortion)."""
     text = (element.findtext("center") if element is not None else None) or "0.5 0.5"
     center = leading_numbers(text, 2)
-    center += (0.5, 0.5)[len(center):]
+    center += (0.5, 0.5)[len(center) :]
     k1, k2, k3, p1, p2 = (_number(element, key, 0.0) for key in ("k1", "k2", "k3", "p1", "p2"))
     return Distortion(k1, k2, k3, p1, p2, center=(center[0], center[1]))
 
@@ -193,8 +217,9 @@ def read_lens(element: Optional[ET.Element], hfov: float) -> WideLens:
     return lens
 
 
-def read_camera(element: ET.Element, sensor_pose: Pose = Pose(), link: str = "", name: str = "",
-                image_format: str = "", wide: bool = False) -> Camera:
+def read_camera(
+    element: ET.Element, sensor_pose: Pose = Pose(), link: str = "", name: str = "", image_format: str = "", wide: bool = False
+) -> Camera:
     """A camera from the ``<camera>`` element of a sensor.
 
     :param sensor_pose: X_LS of the sensor in its link. :param link: scoped link name.
@@ -207,14 +232,19 @@ def read_camera(element: ET.Element, sensor_pose: Pose = Pose(), link: str = "",
     noisy = noise is not None and (noise.findtext("type") or noise.get("type") or "gaussian").strip() != "none"
     return Camera(
         name=name or element.get("name") or "camera",
-        width=_pixels(element, "image/width", 320), height=_pixels(element, "image/height", 240),
+        width=_pixels(element, "image/width", 320),
+        height=_pixels(element, "image/height", 240),
         hfov=hfov,
-        near=_number(element, "clip/near", 0.1), far=_number(element, "clip/far", 100.0),
+        near=_number(element, "clip/near", 0.1),
+        far=_number(element, "clip/far", 100.0),
         format=image_format or (element.findtext("image/format") or "R8G8B8").strip(),
         noise_mean=_number(noise, "mean", 0.0) if noisy else 0.0,
         noise_stddev=_number(noise, "stddev", 0.0) if noisy else 0.0,
-        distortion=read_distortion(element.find("distortion")), pose=pose, link=link,
-        lens=read_lens(element.find("lens"), hfov) if wide else None)
+        distortion=read_distortion(element.find("distortion")),
+        pose=pose,
+        link=link,
+        lens=read_lens(element.find("lens"), hfov) if wide else None,
+    )
 
 
 def look_at(eye: Vec3, target: Vec3) -> Pose:

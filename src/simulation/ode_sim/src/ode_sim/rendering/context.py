@@ -2,6 +2,7 @@
 
 Both give a :class:`moderngl.Context` of OpenGL 3.3 core, so the renderer has one code path.
 """
+
 from __future__ import annotations
 
 import ctypes
@@ -63,6 +64,7 @@ class _OsmesaContext:
 def _create_osmesa(moderngl):
     """moderngl finds providers by name in glcontext; OSMesa is lent to that look-up for the length of one call."""
     import glcontext
+
     original = glcontext.get_backend_by_name
     glcontext.get_backend_by_name = lambda name: _OsmesaContext if name == "osmesa" else original(name)
     try:
@@ -107,8 +109,7 @@ def create_context(backend: str = "auto", trouble: Optional[List[str]] = None):
     if backend == "auto":
         backend = os.environ.get("ODE_SIM_GL", "") or "auto"
     if backend not in BACKENDS:
-        raise RenderingUnavailable(
-            f"unknown OpenGL back-end '{backend}' (ODE_SIM_GL); use one of {', '.join(BACKENDS)}")
+        raise RenderingUnavailable(f"unknown OpenGL back-end '{backend}' (ODE_SIM_GL); use one of {', '.join(BACKENDS)}")
     try:
         import moderngl
     except ImportError as error:

@@ -1,4 +1,5 @@
 """What EGL can draw on in this machine: graphics cards and Mesa's software."""
+
 from __future__ import annotations
 
 import ctypes
@@ -33,7 +34,7 @@ def devices() -> List[str]:
     if not list_of(_MOST, found, ctypes.byref(count)):
         return []
     names = []
-    for device in found[:count.value]:
+    for device in found[: count.value]:
         extensions = (text_of(device, _EXTENSIONS) or b"").split()
         file = text_of(device, _DRM_FILE) if b"EGL_EXT_device_drm" in extensions else None
         names.append(SOFTWARE if b"EGL_MESA_device_software" in extensions else _pci_address(file) or UNNAMED)

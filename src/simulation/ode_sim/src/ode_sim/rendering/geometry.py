@@ -1,4 +1,5 @@
 """Triangle meshes for drawing: primitives, extrusions, height maps. Outward faces are counter-clockwise."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -47,9 +48,12 @@ def _grid(points: np.ndarray, normals: np.ndarray, uv: np.ndarray) -> TriMesh:
 
 def _join(*meshes: TriMesh) -> TriMesh:
     offsets = np.cumsum([0] + [len(m.vertices) for m in meshes[:-1]]).astype(np.uint32)
-    return TriMesh(np.concatenate([m.vertices for m in meshes]), np.concatenate([m.normals for m in meshes]),
-                   np.concatenate([m.triangles + o for m, o in zip(meshes, offsets)]),
-                   np.concatenate([m.uv for m in meshes]))
+    return TriMesh(
+        np.concatenate([m.vertices for m in meshes]),
+        np.concatenate([m.normals for m in meshes]),
+        np.concatenate([m.triangles + o for m, o in zip(meshes, offsets)]),
+        np.concatenate([m.uv for m in meshes]),
+    )
 
 
 def box() -> TriMesh:
@@ -148,10 +152,8 @@ def extrusion(points: np.ndarray, height: float) -> TriMesh:
     quads = np.arange(4 * count, dtype=np.uint32).reshape(-1, 4)
     caps = _ear_clip(ring)
     vertices = np.concatenate([walls, at(ring, height), at(ring, 0)])
-    normals = np.concatenate([np.repeat(wall_normal, 4, axis=0), np.tile([0.0, 0, 1], (count, 1)),
-                              np.tile([0.0, 0, -1], (count, 1))])
-    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]], caps + 4 * count,
-                                caps[:, ::-1] + 5 * count]).astype(np.uint32)
+    normals = np.concatenate([np.repeat(wall_normal, 4, axis=0), np.tile([0.0, 0, 1], (count, 1)), np.tile([0.0, 0, -1], (count, 1))])
+    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]], caps + 4 * count, caps[:, ::-1] + 5 * count]).astype(np.uint32)
     return TriMesh(vertices, normals, triangles, vertices[:, :2].copy())
 
 
@@ -169,8 +171,9 @@ def _ear_clip(ring: np.ndarray) -> np.ndarray:
             a, b, c = ring[i], ring[j], ring[k]
             if cross(a, b, c) <= 0:
                 continue
-            inside = any(cross(a, b, ring[m]) >= 0 and cross(b, c, ring[m]) >= 0 and cross(c, a, ring[m]) >= 0
-                         for m in left if m not in (i, j, k))
+            inside = any(
+                cross(a, b, ring[m]) >= 0 and cross(b, c, ring[m]) >= 0 and cross(c, a, ring[m]) >= 0 for m in left if m not in (i, j, k)
+            )
             if not inside:
                 break
         else:

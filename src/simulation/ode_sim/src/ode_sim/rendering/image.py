@@ -1,4 +1,5 @@
 """From the ideal picture to what a sensor delivers: noise, pixel formats, compression, point clouds."""
+
 from __future__ import annotations
 
 import functools

@@ -1,4 +1,5 @@
 """Lens distortion: a pinhole picture, drawn wide enough, resampled to what the distorting lens would have seen."""
+
 from __future__ import annotations
 
 import cv2
@@ -68,5 +69,4 @@ class Lens:
         if kind == "color":
             return cv2.remap(picture, *self._fast, cv2.INTER_LINEAR)
         border = np.inf if kind == "depth" else -1
-        return cv2.remap(picture, *self._exact, cv2.INTER_NEAREST,
-                               borderMode=cv2.BORDER_CONSTANT, borderValue=border)
+        return cv2.remap(picture, *self._exact, cv2.INTER_NEAREST, borderMode=cv2.BORDER_CONSTANT, borderValue=border)

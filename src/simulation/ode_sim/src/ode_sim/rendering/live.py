@@ -1,4 +1,5 @@
 """Pictures of a world that runs, drawn in its own process."""
+
 from __future__ import annotations
 
 import weakref

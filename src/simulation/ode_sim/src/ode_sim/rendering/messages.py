@@ -1,4 +1,5 @@
 """What the simulator and the render process say to each other (pickled over a socket)."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass

@@ -2,6 +2,7 @@
 
 :class:`Painter` draws them in a process of its own, so that nothing of OpenGL comes into a simulator that is asked for one.
 """
+
 from __future__ import annotations
 
 import itertools
@@ -30,8 +31,13 @@ if TYPE_CHECKING:
 
 #: Azimuth and elevation in rad of the eye, seen from what it looks at.
 VIEWS: Dict[str, Tuple[float, float]] = {
-    "iso": (math.pi / 5, 0.45), "front": (0.0, 0.08), "back": (math.pi, 0.08), "left": (math.pi / 2, 0.08),
-    "right": (-math.pi / 2, 0.08), "top": (math.pi / 2, math.pi / 2 - 0.01)}
+    "iso": (math.pi / 5, 0.45),
+    "front": (0.0, 0.08),
+    "back": (math.pi, 0.08),
+    "left": (math.pi / 2, 0.08),
+    "right": (-math.pi / 2, 0.08),
+    "top": (math.pi / 2, math.pi / 2 - 0.01),
+}
 _HFOV = 0.9
 _WINDOW_HFOV = 1.0472
 _FILLED = 0.88  # of the frame, along the side that is filled first
@@ -69,16 +75,21 @@ def extent(portrait: Portrait, assets: Optional[Assets] = None) -> np.ndarray:
             points = assets.meshes[part.key].vertices
             low, high = points.min(axis=0), points.max(axis=0)
             box = np.array(list(itertools.product(*zip(low, high))))
-            corners.append(_moved(_moved(box * part.scale, part.pose.p, part.pose.q),
-                                  portrait.poses[seen.link, :3], portrait.poses[seen.link, 3:]))
+            corners.append(
+                _moved(_moved(box * part.scale, part.pose.p, part.pose.q), portrait.poses[seen.link, :3], portrait.poses[seen.link, 3:])
+            )
     return np.concatenate(corners) if corners else np.zeros((0, 3))
 
 
 def _moved(points: np.ndarray, p, q) -> np.ndarray:
     x, y, z, w = q
-    rotation = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                         [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                         [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+    rotation = np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
     return points @ rotation.T + np.asarray(p)
 
 
@@ -98,8 +109,15 @@ def camera_for(corners: np.ndarray, view: str, width: int, height: int) -> Camer
     middle = [_balanced(across[:, side], depth + distance) for side in (0, 1)]
     eye = axes.T @ np.array([-distance, *middle])
     nearest = float(depth.min()) + distance
-    return Camera("portrait", width, height, _HFOV, near=max(0.005, 0.2 * nearest), far=float(depth.max()) + distance + 500.0,
-                  pose=look_at(tuple(eye), tuple(eye + towards)))
+    return Camera(
+        "portrait",
+        width,
+        height,
+        _HFOV,
+        near=max(0.005, 0.2 * nearest),
+        far=float(depth.max()) + distance + 500.0,
+        pose=look_at(tuple(eye), tuple(eye + towards)),
+    )
 
 
 def camera_at(eye: Pose, corners: np.ndarray, width: int, height: int) -> Camera:
@@ -140,6 +158,7 @@ class Studio:
         import cv2
 
         from ode_sim.rendering.renderer import Renderer
+
         if portrait.scene is not self._scene:
             self.close()
             self._scene, self._assets = portrait.scene, Assets()
@@ -151,8 +170,11 @@ class Studio:
         if self._renderer is None:
             self._renderer = Renderer(antialiasing="msaa", shadows="on", assets=self._assets)
             self._renderer.set_scene(portrait.scene)
-        camera = camera_for(corners, portrait.view, portrait.width, portrait.height) if portrait.eye is None else camera_at(
-            portrait.eye, corners, portrait.width, portrait.height)
+        camera = (
+            camera_for(corners, portrait.view, portrait.width, portrait.height)
+            if portrait.eye is None
+            else camera_at(portrait.eye, corners, portrait.width, portrait.height)
+        )
         if portrait.model:
             bare = without_foreground(camera, corners)
             if self._pixels(camera, portrait) < _SHOWN * self._pixels(bare, portrait):
@@ -218,8 +240,7 @@ class Painter:
         if self._process is not None:
             self._process.kill()
             self._process.communicate()
-        command = [sys.executable, "-c",
-                   f"import sys; sys.path[:] = {sys.path!r}; from ode_sim.rendering.portrait import main; main()"]
+        command = [sys.executable, "-c", f"import sys; sys.path[:] = {sys.path!r}; from ode_sim.rendering.portrait import main; main()"]
         self._words.truncate(0)
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._words)
 

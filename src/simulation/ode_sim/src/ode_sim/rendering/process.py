@@ -9,6 +9,7 @@
 The process starts with the first picture asked for and ends with :meth:`RenderProcess.close`, or with the simulator,
 however that ends: it lives on a socket to it. Link poses go out over the socket, images come back in shared memory.
 """
+
 from __future__ import annotations
 
 import mmap
@@ -33,7 +34,7 @@ OUTPUTS = ("image", "jpeg", "png", "depth", "depth16", "cloud")
 _SLOTS = 8  # frames of one camera under way at once: a quarter of a second at 30 Hz, on a machine that is busy
 _BYTES_PER_PIXEL = 6 + 8 + 8 + 4 + 2 + 32  # of all outputs together; untouched pages cost nothing
 _RESTARTS = 3
-_START = ("import sys; sys.path[:] = {path!r}; from ode_sim.rendering.worker import main; main({socket}, {memory})")
+_START = "import sys; sys.path[:] = {path!r}; from ode_sim.rendering.worker import main; main({socket}, {memory})"
 
 
 @dataclass(frozen=True)
@@ -121,8 +122,7 @@ class RenderProcess:
         if not busy:  # else its place is still written to, and is simply not used again
             self._spare.setdefault(entry.room, []).append(entry.offset)
 
-    def draw(self, key: int, outputs: Tuple[str, ...], deliver: Callable[[Frame], None], wait: bool = False,
-             most: int = _SLOTS) -> bool:
+    def draw(self, key: int, outputs: Tuple[str, ...], deliver: Callable[[Frame], None], wait: bool = False, most: int = _SLOTS) -> bool:
         """Take the picture of this moment.
 
         :param outputs: of :data:`OUTPUTS`. :param deliver: called once with the :class:`Frame`, from another thread.
@@ -145,8 +145,7 @@ class RenderProcess:
             self._next_frame += 1
             pending = self._pending[number] = _Pending(entry, slot, self._world.time_ns, deliver, threading.Event())
         poses = np.ascontiguousarray(self._world.link_poses).tobytes()
-        self._send(connection, Draw(number, key, tuple(outputs), pending.time_ns, poses,
-                                    entry.offset + slot * entry.room, entry.room))
+        self._send(connection, Draw(number, key, tuple(outputs), pending.time_ns, poses, entry.offset + slot * entry.room, entry.room))
         if wait:
             pending.finished.wait()
         return True
@@ -175,15 +174,15 @@ class RenderProcess:
         code = _START.format(path=sys.path, socket=theirs.fileno(), memory=self._memory_fd)
         # Mesa warns on every start that there is no graphics card
         environment = {"EGL_LOG_LEVEL": "fatal", **os.environ}
-        self._process = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.DEVNULL, env=environment,
-                                         pass_fds=(theirs.fileno(), self._memory_fd))
+        self._process = subprocess.Popen(
+            [sys.executable, "-c", code], stdin=subprocess.DEVNULL, env=environment, pass_fds=(theirs.fileno(), self._memory_fd)
+        )
         theirs.close()
         connection = self._connection = ours
         for entry in self._cameras.values():
             self._send(connection, entry.message)
         self._watch.mark()
-        self._thread = threading.Thread(target=self._receive, args=(connection, self._process), name="pictures",
-                                        daemon=True)
+        self._thread = threading.Thread(target=self._receive, args=(connection, self._process), name="pictures", daemon=True)
         self._thread.start()
         return connection
 
@@ -216,8 +215,10 @@ class RenderProcess:
                 continue
             if isinstance(answer, Done):
                 memory = self._mapped(pending.camera)
-                self._finish(pending, Frame(pending.time_ns, {name: memory[offset:offset + length] for
-                                                              name, (offset, length) in answer.stored.items()}))
+                self._finish(
+                    pending,
+                    Frame(pending.time_ns, {name: memory[offset : offset + length] for name, (offset, length) in answer.stored.items()}),
+                )
             elif isinstance(answer, Failed):
                 self._finish(pending, Frame(pending.time_ns, {}, answer.reason))
         self._lost(connection, process)
@@ -250,7 +251,9 @@ class RenderProcess:
         if not self._closed:
             self._failures += 1
             how = f"{'signal' if code < 0 else 'exit code'} {abs(code)}"
-            self._report(f"the render process ended unexpectedly ({how}); "
-                         + ("it is started again" if self._failures <= _RESTARTS else "cameras stay off"))
+            self._report(
+                f"the render process ended unexpectedly ({how}); "
+                + ("it is started again" if self._failures <= _RESTARTS else "cameras stay off")
+            )
         for pending in left:
             self._release(pending)

@@ -1,4 +1,5 @@
 """Draws a scene: colour, depth and segmentation images of any number of cameras, off screen."""
+
 from __future__ import annotations
 
 import os
@@ -27,10 +28,26 @@ _WIDEST_TEXTURE = 4096  # pixels along a side
 _VISIBLE = 1.0 / 512.0  # a highlight darker than half a grey level is not computed
 
 # one record per drawn part in the instance buffer; the order is that of the attributes in shaders.py
-_INSTANCE = np.dtype([("clip", "f4", (4, 4)), ("world", "f4", (3, 4)), ("shrink", "f4", 3), ("base", "f4", 4),
-                      ("diffuse", "f4", 3), ("specular", "f4", 4), ("ident", "i4")])
-_INSTANCE_LAYOUT = (("clip0 clip1 clip2 clip3", "4f 4f 4f 4f"), ("world0 world1 world2", "4f 4f 4f"),
-                    ("shrink", "3f"), ("base", "4f"), ("diffuse", "3f"), ("specular", "4f"), ("ident", "1i"))
+_INSTANCE = np.dtype(
+    [
+        ("clip", "f4", (4, 4)),
+        ("world", "f4", (3, 4)),
+        ("shrink", "f4", 3),
+        ("base", "f4", 4),
+        ("diffuse", "f4", 3),
+        ("specular", "f4", 4),
+        ("ident", "i4"),
+    ]
+)
+_INSTANCE_LAYOUT = (
+    ("clip0 clip1 clip2 clip3", "4f 4f 4f 4f"),
+    ("world0 world1 world2", "4f 4f 4f"),
+    ("shrink", "3f"),
+    ("base", "4f"),
+    ("diffuse", "3f"),
+    ("specular", "4f"),
+    ("ident", "1i"),
+)
 
 
 def pose_matrices(poses: np.ndarray) -> np.ndarray:
@@ -125,13 +142,21 @@ class Renderer:
             self._scene = scene
             parts: List[Tuple[int, int, str, Part]] = []  # (link row, number of the visual, its name, part)
             for number, seen in enumerate(scene.visuals):
-                parts += [(seen.link, number, seen.name, part) for part in self._assets.parts(seen.visual, seen.name)
-                          if self._takes(part, seen.name)]
+                parts += [
+                    (seen.link, number, seen.name, part)
+                    for part in self._assets.parts(seen.visual, seen.name)
+                    if self._takes(part, seen.name)
+                ]
             self._names = tuple(seen.name for seen in scene.visuals)
             self._set_parts(parts)
             # a flat floor shades nothing, and would stretch the shadow map over all of its size
-            self._casts = np.array([scene.visuals[number].visual.cast_shadows and part.look.alpha == 1.0
-                                    and part.key != "plane" for _, number, _, part in parts], bool)
+            self._casts = np.array(
+                [
+                    scene.visuals[number].visual.cast_shadows and part.look.alpha == 1.0 and part.key != "plane"
+                    for _, number, _, part in parts
+                ],
+                bool,
+            )
             self._set_batches(parts)
             self._set_lights(scene)
             self._ctx.gc()
@@ -188,8 +213,9 @@ class Renderer:
             # transparent parts are drawn one by one, far to near
             groups.setdefault((part.key, texture, row if transparent else -1), []).append(row)
         self._batches = [
-            _Batch(key, texture, np.array(rows), self._ctx.buffer(reserve=_INSTANCE.itemsize * len(rows), dynamic=True),
-                   {}, single >= 0) for (key, texture, single), rows in groups.items()]
+            _Batch(key, texture, np.array(rows), self._ctx.buffer(reserve=_INSTANCE.itemsize * len(rows), dynamic=True), {}, single >= 0)
+            for (key, texture, single), rows in groups.items()
+        ]
 
     def _make_texture(self, image: Optional[np.ndarray]):
         if image is None:
@@ -204,16 +230,17 @@ class Renderer:
         if len(lights) > MAX_LIGHTS:
             self._assets.problems.append(
                 f"{len(lights)} lights in the scene; pictures show the first {MAX_LIGHTS} only "
-                f"(the first left out is '{lights[MAX_LIGHTS].light.name}')")
+                f"(the first left out is '{lights[MAX_LIGHTS].light.name}')"
+            )
             lights = lights[:MAX_LIGHTS]
         self._lights = lights
-        self._light_kinds = tuple(entry.light.type if entry.light.type in ("point", "spot") else "directional"
-                                  for entry in lights)
+        self._light_kinds = tuple(entry.light.type if entry.light.type in ("point", "spot") else "directional" for entry in lights)
         wants = scene.scene.shadows and self._shadows != "off" and self._casts.any()
         if self._shadows == "auto" and self._software:
             wants = False
-        self._sun = next((i for i, entry in enumerate(lights) if wants and entry.light.cast_shadows
-                          and self._light_kinds[i] == "directional"), -1)
+        self._sun = next(
+            (i for i, entry in enumerate(lights) if wants and entry.light.cast_shadows and self._light_kinds[i] == "directional"), -1
+        )
         brightest = max([max(entry.light.specular[:3]) for entry in lights], default=0.0)
         glossy = float(self._fixed["specular"][:, :3].max(initial=0.0)) * brightest > _VISIBLE
         flags = {"color"}
@@ -296,8 +323,7 @@ class Renderer:
             try:
                 X_WC = matrices[self._scene.links.index(camera.link)] @ X_WC
             except ValueError:
-                raise ValueError(
-                    f"camera '{camera.name}' is on link '{camera.link}', which is not in the scene") from None
+                raise ValueError(f"camera '{camera.name}' is on link '{camera.link}', which is not in the scene") from None
         X_CW = np.linalg.inv(X_WC)
         clip = self._projection(camera, width, height) @ X_CW
         world = np.concatenate([matrices, np.eye(4)[None]])[self._links] @ self._local  # row -1: the world itself
@@ -366,7 +392,7 @@ class Renderer:
         program = self._program(flags)
         if uniforms is not None and "lights" in program:
             lights = program["lights"]  # a compiler leaves out the end of the array if the shader does not read it
-            lights.write(uniforms.reshape(-1, 4)[:lights.array_length].tobytes())
+            lights.write(uniforms.reshape(-1, 4)[: lights.array_length].tobytes())
         if "eye" in program:
             program["eye"].value = tuple(eye)
         if "shadow_map" in program and self._shadow is not None:
@@ -378,8 +404,14 @@ class Renderer:
     def _projection(camera: Camera, width: int, height: int) -> np.ndarray:
         """Clip coordinates from the camera frame (x forward, y left, z up), rows of the image downwards."""
         f, near, far = camera.focal_length, camera.near, camera.far
-        return np.array([[0, -2 * f / width, 0, 0], [0, 0, -2 * f / height, 0],
-                         [(far + near) / (far - near), 0, 0, -2 * far * near / (far - near)], [1, 0, 0, 0]])
+        return np.array(
+            [
+                [0, -2 * f / width, 0, 0],
+                [0, 0, -2 * f / height, 0],
+                [(far + near) / (far - near), 0, 0, -2 * far * near / (far - near)],
+                [1, 0, 0, 0],
+            ]
+        )
 
     def _in_view(self, camera: Camera, width: int, height: int, X_CW: np.ndarray, world: np.ndarray) -> np.ndarray:
         """(P,) bool: parts whose bounding sphere touches the view pyramid."""
@@ -387,9 +419,12 @@ class Renderer:
         x, y, z = (centre @ X_CW[:3, :3].T + X_CW[:3, 3]).T
         radius, f = self._radii, camera.focal_length
         half_width, half_height = width / 2 / f, height / 2 / f
-        return ((x + radius > camera.near) & (x - radius < camera.far)
-                & (np.abs(y) - x * half_width < radius * np.hypot(1, half_width))
-                & (np.abs(z) - x * half_height < radius * np.hypot(1, half_height)))
+        return (
+            (x + radius > camera.near)
+            & (x - radius < camera.far)
+            & (np.abs(y) - x * half_width < radius * np.hypot(1, half_width))
+            & (np.abs(z) - x * half_height < radius * np.hypot(1, half_height))
+        )
 
     # ------------------------------------------------------------------------------------------ OpenGL objects
 
@@ -398,16 +433,20 @@ class Renderer:
         sun = self._sun if "color" in flags else -1
         key = (flags, lights, sun)
         if key not in self._programs:
-            self._programs[key] = self._ctx.program(vertex_shader=shaders.vertex_shader(flags, lights),
-                                                    fragment_shader=shaders.fragment_shader(flags, lights, sun))
+            self._programs[key] = self._ctx.program(
+                vertex_shader=shaders.vertex_shader(flags, lights), fragment_shader=shaders.fragment_shader(flags, lights, sun)
+            )
         return self._programs[key]
 
     def _vertex_array(self, batch: _Batch, flags: frozenset, program):
         key = (flags, program.glo)
         if key not in batch.arrays:
             vertices, triangles, has_uv = self._mesh_buffer(batch.mesh)
-            content = [self._attributes(program, vertices, "3f 3f 2f" if has_uv else "3f 3f",
-                                        ("vertex", "normal", "uv") if has_uv else ("vertex", "normal"))]
+            content = [
+                self._attributes(
+                    program, vertices, "3f 3f 2f" if has_uv else "3f 3f", ("vertex", "normal", "uv") if has_uv else ("vertex", "normal")
+                )
+            ]
             layout = " ".join(formats for _, formats in _INSTANCE_LAYOUT)
             names = tuple(" ".join(names for names, _ in _INSTANCE_LAYOUT).split())
             content.append(self._attributes(program, batch.instances, layout, names, per_instance=True))
@@ -431,8 +470,11 @@ class Renderer:
             mesh = self._assets.meshes[key]
             columns = [mesh.vertices, mesh.normals] + ([mesh.uv] if mesh.uv is not None else [])
             vertices = np.concatenate(columns, axis=1).astype("f4")
-            self._mesh_buffers[key] = (self._ctx.buffer(vertices.tobytes()),
-                                       self._ctx.buffer(mesh.triangles.astype("u4").tobytes()), mesh.uv is not None)
+            self._mesh_buffers[key] = (
+                self._ctx.buffer(vertices.tobytes()),
+                self._ctx.buffer(mesh.triangles.astype("u4").tobytes()),
+                mesh.uv is not None,
+            )
         return self._mesh_buffers[key]
 
     def _target(self, width: int, height: int, outputs) -> Target:

@@ -1,4 +1,5 @@
 """What there is to see, as plain records that can be sent to another process: visuals and lights, each on a link."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -39,10 +40,8 @@ class SceneDescription:
     scene: Scene = Scene()
 
 
-def _of_link(row: int, scoped: str, visuals: Iterable[Visual],
-             lights: Iterable[Light]) -> Tuple[List[SceneVisual], List[SceneLight]]:
-    return ([SceneVisual(row, f"{scoped}::{visual.name}", visual) for visual in visuals],
-            [SceneLight(row, light) for light in lights])
+def _of_link(row: int, scoped: str, visuals: Iterable[Visual], lights: Iterable[Light]) -> Tuple[List[SceneVisual], List[SceneLight]]:
+    return ([SceneVisual(row, f"{scoped}::{visual.name}", visual) for visual in visuals], [SceneLight(row, light) for light in lights])
 
 
 def roads_of(scene: Scene) -> List[SceneVisual]:
@@ -63,8 +62,7 @@ def describe(world) -> SceneDescription:
     return SceneDescription(names, (*visuals, *roads_of(world.scene)), tuple(lights), world.scene)
 
 
-def arrange(models: Iterable[Model], lights: Iterable[Light] = (),
-            scene: Scene = Scene()) -> Tuple[SceneDescription, np.ndarray]:
+def arrange(models: Iterable[Model], lights: Iterable[Light] = (), scene: Scene = Scene()) -> Tuple[SceneDescription, np.ndarray]:
     """The scene of models that stand where their descriptions put them, without physics.
 
     :return: (scene, link poses (L,7): x y z qx qy qz qw, world frame).
@@ -81,5 +79,4 @@ def arrange(models: Iterable[Model], lights: Iterable[Light] = (),
             pose: Pose = compose(model.pose, link.pose)
             poses.append(pose.p + pose.q)
     shining = [SceneLight(WORLD_FRAME, light) for light in lights] + shining
-    return (SceneDescription(tuple(names), (*visuals, *roads_of(scene)), tuple(shining), scene),
-            np.array(poses, float).reshape(-1, 7))
+    return (SceneDescription(tuple(names), (*visuals, *roads_of(scene)), tuple(shining), scene), np.array(poses, float).reshape(-1, 7))

@@ -3,6 +3,7 @@
 Lighting is that of OGRE's fixed pipeline, which Gazebo's materials are made for: emissive + ambient * scene ambient +
 sum over lights of attenuation * (diffuse * cos + specular * cos_half^shininess), all in display values (no gamma).
 """
+
 from __future__ import annotations
 
 from typing import Sequence
@@ -27,8 +28,7 @@ def vertex_shader(flags: frozenset, lights: Sequence[str] = ()) -> str:
     """
     inputs, outputs, body = [], [], []
     if "color" in flags:
-        inputs += ["in vec3 normal;", "in vec4 world0, world1, world2;", "in vec3 shrink;", "in vec4 base;",
-                   "in vec3 diffuse;"]
+        inputs += ["in vec3 normal;", "in vec4 world0, world1, world2;", "in vec3 shrink;", "in vec4 base;", "in vec3 diffuse;"]
         turned = "vec3(" + ", ".join(f"dot(world{i}.xyz, normal * shrink)" for i in range(3)) + ")"
         if "by_vertex" in flags:
             inputs += [f"uniform vec4 lights[{5 * len(lights)}];"] if lights else []
@@ -54,30 +54,36 @@ def vertex_shader(flags: frozenset, lights: Sequence[str] = ()) -> str:
         inputs.append("in int ident;")
         outputs.append("flat out int v_ident;")
         body.append("v_ident = ident;")
-    return _VERTEX.format(inputs="\n".join(inputs), outputs="\n".join(outputs),
-                          body="".join(f"    {line}\n" for line in body))
+    return _VERTEX.format(inputs="\n".join(inputs), outputs="\n".join(outputs), body="".join(f"    {line}\n" for line in body))
 
 
 def _light(index: int, kind: str, casts: bool, specular: bool) -> str:
     """One light, unrolled. Uniform layout: position.w range, direction, diffuse, specular, attenuation/spot cosines."""
-    u = f"lights[{5 * index}]", f"lights[{5 * index + 1}]", f"lights[{5 * index + 2}]", \
-        f"lights[{5 * index + 3}]", f"lights[{5 * index + 4}]"
+    u = (
+        f"lights[{5 * index}]",
+        f"lights[{5 * index + 1}]",
+        f"lights[{5 * index + 2}]",
+        f"lights[{5 * index + 3}]",
+        f"lights[{5 * index + 4}]",
+    )
     lines = []
     if kind == "directional":
         lines += [f"l = -{u[1]}.xyz;", "k = 1.0;"]
     else:
-        lines += [f"l = {u[0]}.xyz - p_W;", "float d = length(l);", "l /= d;",
-                  f"k = d > {u[0]}.w ? 0.0 : 1.0 / max({u[4]}.x + d * ({u[4]}.y + d * {u[4]}.z), 1e-4);"]
+        lines += [
+            f"l = {u[0]}.xyz - p_W;",
+            "float d = length(l);",
+            "l /= d;",
+            f"k = d > {u[0]}.w ? 0.0 : 1.0 / max({u[4]}.x + d * ({u[4]}.y + d * {u[4]}.z), 1e-4);",
+        ]
         if kind == "spot":
-            lines += [f"k *= pow(clamp((dot(-l, {u[1]}.xyz) - {u[2]}.w) / max({u[1]}.w - {u[2]}.w, 1e-4), 0.0, 1.0), "
-                      f"{u[4]}.w);"]
+            lines += [f"k *= pow(clamp((dot(-l, {u[1]}.xyz) - {u[2]}.w) / max({u[1]}.w - {u[2]}.w, 1e-4), 0.0, 1.0), {u[4]}.w);"]
     lines.append("c = max(dot(N, l), 0.0);")
     if casts:
         lines.append("if (c > 0.0) k *= lit();")
     lines.append(f"shine += (k * c) * {u[2]}.rgb;")
     if specular:
-        lines.append(
-            f"gloss += (c > 0.0 ? k * pow(max(dot(N, normalize(l + V)), 0.0), v_specular.a) : 0.0) * {u[3]}.rgb;")
+        lines.append(f"gloss += (c > 0.0 ? k * pow(max(dot(N, normalize(l + V)), 0.0), v_specular.a) : 0.0) * {u[3]}.rgb;")
     return "    {\n" + "".join(f"        {line}\n" for line in lines) + "    }\n"
 
 

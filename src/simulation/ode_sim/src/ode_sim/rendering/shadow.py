@@ -1,4 +1,5 @@
 """Shadow map of the sun: where its rays end, drawn once per change of the poses and shared by all cameras."""
+
 from __future__ import annotations
 
 from typing import Optional

@@ -1,4 +1,5 @@
 """What is drawn into: frame buffers whose images become arrays."""
+
 from __future__ import annotations
 
 from typing import Dict, Tuple
@@ -21,8 +22,10 @@ class Target:
 
     def _make(self, samples: int):
         size = self._shape[::-1]
-        images = [self._ctx.renderbuffer(size, components, samples=samples, dtype=kind)
-                  for components, kind in (self._KINDS[name] for name in self._outputs)]
+        images = [
+            self._ctx.renderbuffer(size, components, samples=samples, dtype=kind)
+            for components, kind in (self._KINDS[name] for name in self._outputs)
+        ]
         depth = self._ctx.depth_renderbuffer(size, samples=samples)
         # each image alone as well: a clear of several at once would give them all one value
         single = [self._ctx.framebuffer([image], depth) for image in images]

@@ -1,5 +1,6 @@
 """What changed in a world since its last picture, and the seed of a camera's noise: all that the physics process needs
 of the rendering."""
+
 from __future__ import annotations
 
 import hashlib
@@ -29,9 +30,16 @@ class SceneWatch:
         world = self._world()
         if world is None:
             return False
-        settings = (world.scene, *world.lights.values(), *(
-            part for model in world.models.values() for link in model.links.values()
-            for part in (link.description.visuals, *link.lights.values())))
+        settings = (
+            world.scene,
+            *world.lights.values(),
+            *(
+                part
+                for model in world.models.values()
+                for link in model.links.values()
+                for part in (link.description.visuals, *link.lights.values())
+            ),
+        )
         if not self._changed and settings == self._settings:
             return False
         self._changed, self._settings = False, settings

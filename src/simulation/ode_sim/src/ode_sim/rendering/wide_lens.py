@@ -1,4 +1,5 @@
 """Wide-angle lenses: square pictures to up to six sides, joined to the one that such a lens sees."""
+
 from __future__ import annotations
 
 import math
@@ -47,14 +48,27 @@ class WideView:
         directions[~self._seen] = (1.0, 0.0, 0.0)
         self._reach = 1 / np.abs(directions).max(axis=-1)  # of a ray, for each metre along the axis of its side
         nearest = (directions @ _FORWARD.T).argmax(axis=-1)
-        self._sides = [_side(lens.texture, index, nearest == index, directions) for index in range(len(_FORWARD))
-                       if (nearest[self._seen] == index).any()]
+        self._sides = [
+            _side(lens.texture, index, nearest == index, directions)
+            for index in range(len(_FORWARD))
+            if (nearest[self._seen] == index).any()
+        ]
 
     def cameras(self, camera: Camera) -> List[Camera]:
         """Of the pictures to draw, in the order in which :meth:`joined` takes them."""
         size = self._lens.texture
-        return [replace(camera, width=size, height=size, hfov=2 * math.atan(_half(size)), lens=None, distortion=Distortion(),
-                        pose=math3.compose(camera.pose, side.turn)) for side in self._sides]
+        return [
+            replace(
+                camera,
+                width=size,
+                height=size,
+                hfov=2 * math.atan(_half(size)),
+                lens=None,
+                distortion=Distortion(),
+                pose=math3.compose(camera.pose, side.turn),
+            )
+            for side in self._sides
+        ]
 
     def joined(self, pictures: List[Dict[str, np.ndarray]]) -> Dict[str, np.ndarray]:
         """The images (H,W) of the lens; its depths are distances from the eye, m."""

@@ -2,6 +2,7 @@
 
 It ends when the socket closes, however the simulator went, so it never outlives it.
 """
+
 from __future__ import annotations
 
 import contextlib
@@ -84,8 +85,9 @@ class Worker:
         entry = self._cameras[request.key]
         camera, wanted = entry.camera, request.outputs
         flat = {name.partition(":")[0] for name in wanted}
-        sources = (("color",) if flat & {"image", "jpeg", "png", "cloud"} else ()) + \
-            (("depth",) if flat & {"depth", "depth16", "cloud"} else ())
+        sources = (("color",) if flat & {"image", "jpeg", "png", "cloud"} else ()) + (
+            ("depth",) if flat & {"depth", "depth16", "cloud"} else ()
+        )
         pictures = self._renderer.images(camera, np.frombuffer(request.poses).reshape(-1, 7), sources)
         if "color" in pictures:
             rgb = add_noise(pictures["color"], camera, entry.seed, request.time_ns)

@@ -29,6 +29,7 @@
 
 Needs the PyPI package viser (scripts/requirements.txt).
 """
+
 from importlib import import_module
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,5 @@
 """Forces as arrows, and the places where they act."""
+
 from __future__ import annotations
 
 from typing import Any, Optional, Tuple
@@ -45,8 +46,9 @@ class Forces:
             _without(self._arrows)
             self._arrows = None
         elif self._arrows is None:
-            self._arrows = self._scene.add_arrows(f"{self._node}/arrows", arrows, self._colour, shaft_radius=_THICK,
-                                                  head_radius=2.5 * _THICK, head_length=6 * _THICK)
+            self._arrows = self._scene.add_arrows(
+                f"{self._node}/arrows", arrows, self._colour, shaft_radius=_THICK, head_radius=2.5 * _THICK, head_length=6 * _THICK
+            )
         else:
             self._arrows.points = arrows
         if self._dots:
@@ -58,8 +60,9 @@ class Forces:
             _without(self._points)
             self._points = None
         elif self._points is None:
-            self._points = self._scene.add_point_cloud(f"{self._node}/places", places, colors=(220, 30, 30),
-                                                       point_size=0.02, point_shape="circle", precision="float32")
+            self._points = self._scene.add_point_cloud(
+                f"{self._node}/places", places, colors=(220, 30, 30), point_size=0.02, point_shape="circle", precision="float32"
+            )
         else:
             self._points.points = places
 

@@ -1,4 +1,5 @@
 """Where bodies touch, and with what force, for whoever draws it."""
+
 from __future__ import annotations
 
 from typing import Any, Dict
@@ -34,8 +35,9 @@ class ContactWatch:
     def read(self) -> np.ndarray:
         """(N, 6) float32 of the last step: place m, force N on the body that can move (on the first of two), world axes."""
         found = self._world.contacts()[:_MOST]
-        bears = np.array([self._stands(one) and not self._stands(other)
-                          for one, other in zip(found["collision1"], found["collision2"])], bool)
+        bears = np.array(
+            [self._stands(one) and not self._stands(other) for one, other in zip(found["collision1"], found["collision2"])], bool
+        )
         force = np.where(bears[:, None], -found["force"], found["force"])
         return np.concatenate([found["position"], force], axis=1).astype(np.float32)
 
@@ -45,7 +47,6 @@ class ContactWatch:
 
     def _add(self, model: Any) -> None:
         if self._on:
-            self._watched[model.name] = [collision for link in model.links.values()
-                                         for collision in link.collisions.values()]
+            self._watched[model.name] = [collision for link in model.links.values() for collision in link.collisions.values()]
             for collision in self._watched[model.name]:
                 self._world.watch_contacts(collision)

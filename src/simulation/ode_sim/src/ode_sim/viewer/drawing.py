@@ -1,4 +1,5 @@
 """The world in the page: models and lights, moved by the frames of the stream."""
+
 from __future__ import annotations
 
 import io
@@ -38,11 +39,17 @@ def rgb255(colour) -> Tuple[int, int, int]:
 
 def plain_png(colour: Tuple[int, int, int]) -> bytes:
     """A picture of two by two pixels."""
+
     def chunk(kind: bytes, data: bytes) -> bytes:
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
     rows = (b"\0" + 2 * bytes(colour)) * 2
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 2, 2, 8, 2, 0, 0, 0))
-            + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+    return (
+        b"\x89PNG\r\n\x1a\n"
+        + chunk(b"IHDR", struct.pack(">IIBBBBB", 2, 2, 8, 2, 0, 0, 0))
+        + chunk(b"IDAT", zlib.compress(rows))
+        + chunk(b"IEND", b"")
+    )
 
 
 def _picture(pixels: np.ndarray) -> Any:
@@ -52,6 +59,7 @@ def _picture(pixels: np.ndarray) -> Any:
     :param pixels: (rows, columns, 4), 0 to 255
     """
     from PIL import Image
+
     image, content = Image.fromarray(pixels), io.BytesIO()
     if (pixels[..., 3] == 255).all():
         image = image.convert("RGB")
@@ -87,8 +95,12 @@ class Drawing:
     :ivar problems: lines about what cannot be drawn, drained by the caller
     """
 
-    def __init__(self, server, on_pick: Callable[[str, str, object], None],
-                 on_draw: Callable[[object, str, str], None] = lambda mesh, model, link: None):
+    def __init__(
+        self,
+        server,
+        on_pick: Callable[[str, str, object], None],
+        on_draw: Callable[[object, str, str], None] = lambda mesh, model, link: None,
+    ):
         """:param on_pick: ``f(model, link, event)``, a click on it. :param on_draw: ``f(mesh, model, link)``."""
         self._server = server
         self._scene = server.scene
@@ -108,9 +120,19 @@ class Drawing:
         self.wireframe = False
         self.shadows = True
         self._hidden = False
-        self.grid = self._scene.add_grid("/grid", width=20.0, height=20.0, cell_size=1.0, cell_thickness=0.6,
-                                         section_size=10.0, section_thickness=0.8, position=(0.0, 0.0, _GRID_LIFT),
-                                         cell_color=(120, 120, 120), section_color=(80, 80, 80), shadow_opacity=0.0)
+        self.grid = self._scene.add_grid(
+            "/grid",
+            width=20.0,
+            height=20.0,
+            cell_size=1.0,
+            cell_thickness=0.6,
+            section_size=10.0,
+            section_thickness=0.8,
+            position=(0.0, 0.0, _GRID_LIFT),
+            cell_color=(120, 120, 120),
+            section_color=(80, 80, 80),
+            shadow_opacity=0.0,
+        )
         self._scene.configure_environment_map(hdri=None)  # those of viser come from the internet
         self._scene.configure_default_lights(enabled=False)
 
@@ -123,8 +145,9 @@ class Drawing:
     def update(self, world: WorldRecord) -> None:
         """Draw what is new, take away what has gone."""
         wanted = {model.name: model for model in world.models}
-        for name in [name for name, drawn in self._models.items()
-                     if name not in wanted or drawn.record.description != wanted[name].description]:
+        for name in [
+            name for name, drawn in self._models.items() if name not in wanted or drawn.record.description != wanted[name].description
+        ]:
             self._remove(name)
         with self._server.atomic():
             for name, record in wanted.items():
@@ -172,8 +195,11 @@ class Drawing:
         self._laid = roads
         for mesh in self._roads:
             take_away(mesh)
-        self._roads = [self._mesh(f"/road{number}_{at}", part, road, road.name)
-                       for number, road in enumerate(roads) for at, part in enumerate(self._assets.parts(road, road.name))]
+        self._roads = [
+            self._mesh(f"/road{number}_{at}", part, road, road.name)
+            for number, road in enumerate(roads)
+            for at, part in enumerate(self._assets.parts(road, road.name))
+        ]
         for mesh in self._roads:
             mesh.visible = not self._hidden
 
@@ -206,14 +232,21 @@ class Drawing:
         place = dict(position=part.pose.p, wxyz=wxyz(part.pose.q))
         image = self._image(look.texture, scoped) if look.texture and mesh.uv is not None else None
         if image is not None and not self.wireframe:
-            return self._scene.add_mesh_trimesh(node, _textured(
-                mesh, part, image, look, alpha), cast_shadow=shadow, **place)
+            return self._scene.add_mesh_trimesh(node, _textured(mesh, part, image, look, alpha), cast_shadow=shadow, **place)
         # a flat thing of nothing but its scale has one side, as in Gazebo; files are shown from both
         side = "double" if isinstance(part.key, tuple) else "front"
         return self._scene.add_mesh_simple(
-            node, np.asarray(mesh.vertices, np.float32), np.asarray(mesh.triangles, np.uint32),
-            color=rgb255(_seen(look)), opacity=alpha if alpha < 0.995 else None, wireframe=self.wireframe, side=side,
-            scale=tuple(float(s) for s in part.scale), cast_shadow=shadow, **place)
+            node,
+            np.asarray(mesh.vertices, np.float32),
+            np.asarray(mesh.triangles, np.uint32),
+            color=rgb255(_seen(look)),
+            opacity=alpha if alpha < 0.995 else None,
+            wireframe=self.wireframe,
+            side=side,
+            scale=tuple(float(s) for s in part.scale),
+            cast_shadow=shadow,
+            **place,
+        )
 
     def _box(self, part: Part) -> np.ndarray:
         points = np.asarray(self._assets.meshes[part.key].vertices) * part.scale
@@ -240,8 +273,9 @@ class Drawing:
     # ------------------------------------------------------------------------------------------ light
 
     def _light(self, world: WorldRecord) -> None:
-        carried = tuple((model.links.get(link.name), light) for model in world.models
-                        for link in model.description.links for light in link.lights)
+        carried = tuple(
+            (model.links.get(link.name), light) for model in world.models for link in model.description.links for light in link.lights
+        )
         lit = (world.lights, carried, world.scene, self.shadows)
         if lit == self._lit:
             return
@@ -249,8 +283,7 @@ class Drawing:
         for handle in self._lights:
             take_away(handle)
         shadows = world.scene.shadows and self.shadows
-        self._lights = [self._scene.add_light_ambient("/light_ambient", color=rgb255(world.scene.ambient),
-                                                      intensity=_FULL)]
+        self._lights = [self._scene.add_light_ambient("/light_ambient", color=rgb255(world.scene.ambient), intensity=_FULL)]
         for number, light in enumerate(world.lights):
             self._lights.append(self._lamp(f"/light{number}", light, shadows))
         for number, (row, light) in enumerate(carried):
@@ -262,8 +295,8 @@ class Drawing:
     def _background(self, colour: Tuple[int, int, int]) -> None:
         """viser's own way would load OpenCV to write this picture, half a second before anything is seen."""
         from viser._messages import BackgroundImageMessage
-        self._scene._websock_interface.queue_message(BackgroundImageMessage(
-            format="png", rgb_data=plain_png(colour), depth_data=None))
+
+        self._scene._websock_interface.queue_message(BackgroundImageMessage(format="png", rgb_data=plain_png(colour), depth_data=None))
 
     def _lamp(self, node: str, light: d.Light, shadows: bool):
         common = dict(color=rgb255(light.diffuse), cast_shadow=shadows and light.cast_shadows)
@@ -275,12 +308,16 @@ class Drawing:
             return self._scene.add_light_directional(node, intensity=_FULL * 0.8, position=place, **common)
         decay = 2.0 if light.quadratic > 0.0 else 1.0 if light.linear > 0.0 else 0.0
         fading = {0.0: light.constant, 1.0: light.linear, 2.0: light.quadratic}[decay]
-        options = dict(intensity=min(_FULL / max(fading, 0.05), 30.0), distance=light.range, decay=decay,
-                       position=light.pose.p, **common)
+        options = dict(intensity=min(_FULL / max(fading, 0.05), 30.0), distance=light.range, decay=decay, position=light.pose.p, **common)
         if light.type == "spot":
             return self._scene.add_light_spot(
-                node, angle=min(max(light.spot[1] / 2, 0.01), math.pi / 2), penumbra=0.5, direction=(0.0, 0.0, -1.0),
-                wxyz=wxyz(quat_multiply(light.pose.q, turn)), **options)
+                node,
+                angle=min(max(light.spot[1] / 2, 0.01), math.pi / 2),
+                penumbra=0.5,
+                direction=(0.0, 0.0, -1.0),
+                wxyz=wxyz(quat_multiply(light.pose.q, turn)),
+                **options,
+            )
         return self._scene.add_light_point(node, **options)
 
     # ------------------------------------------------------------------------------------------ what moves
@@ -311,10 +348,21 @@ def _seen(look: Look) -> Tuple[float, ...]:
 
 def _textured(mesh, part: Part, image, look: Look, alpha: float):
     import trimesh
+
     material = trimesh.visual.material.PBRMaterial(
-        baseColorTexture=image, baseColorFactor=[*rgb255(look.diffuse), int(255 * alpha)], metallicFactor=0.0,
-        roughnessFactor=1.0, doubleSided=True, alphaMode="BLEND" if alpha < 0.995 else "MASK", alphaCutoff=0.02)
-    made = trimesh.Trimesh(np.asarray(mesh.vertices, float) * part.scale, np.asarray(mesh.triangles, np.int64),
-                           vertex_normals=np.asarray(mesh.normals, float), process=False)
+        baseColorTexture=image,
+        baseColorFactor=[*rgb255(look.diffuse), int(255 * alpha)],
+        metallicFactor=0.0,
+        roughnessFactor=1.0,
+        doubleSided=True,
+        alphaMode="BLEND" if alpha < 0.995 else "MASK",
+        alphaCutoff=0.02,
+    )
+    made = trimesh.Trimesh(
+        np.asarray(mesh.vertices, float) * part.scale,
+        np.asarray(mesh.triangles, np.int64),
+        vertex_normals=np.asarray(mesh.normals, float),
+        process=False,
+    )
     made.visual = trimesh.visual.TextureVisuals(uv=np.asarray(mesh.uv, float), material=material)
     return made

@@ -1,4 +1,5 @@
 """From where a page looks at the world at first: everything in it fills the view."""
+
 from __future__ import annotations
 
 import math
@@ -32,14 +33,14 @@ def view_of(still: np.ndarray, moving: np.ndarray) -> View:
     width, depth, height = np.maximum(np.ptp(corners, axis=0), 0.1)
     flat = max(width, depth) > _FLAT * height and max(width, depth) > 3.0
     elevation = _ELEVATIONS[1 if flat else 0]
-    away = np.array([math.cos(elevation) * math.cos(_AZIMUTH), math.cos(elevation) * math.sin(_AZIMUTH),
-                     math.sin(elevation)])
+    away = np.array([math.cos(elevation) * math.cos(_AZIMUTH), math.cos(elevation) * math.sin(_AZIMUTH), math.sin(elevation)])
     right = np.array([-math.sin(_AZIMUTH), math.cos(_AZIMUTH), 0.0])
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
     seen = (corners - middle) @ np.stack([right, np.cross(away, right), away]).T
     slope = math.tan(FIELD / 2) * _FILLED
-    distance = max(float((np.abs(seen[:, 1]) / slope + seen[:, 2]).max()),
-                   float((np.abs(seen[:, 0]) / (slope * _ASPECT) + seen[:, 2]).max()), 0.3)
+    distance = max(
+        float((np.abs(seen[:, 1]) / slope + seen[:, 2]).max()), float((np.abs(seen[:, 0]) / (slope * _ASPECT) + seen[:, 2]).max()), 0.3
+    )
     return middle + distance * away, middle
 
 
@@ -81,5 +82,4 @@ class Eyes:
     @staticmethod
     def _as_told(camera: Any, view: View) -> bool:
         distance = float(np.linalg.norm(view[0] - view[1]))
-        return all(np.linalg.norm(np.subtract(now, then)) < _SAME * distance
-                   for now, then in zip((camera.position, camera.look_at), view))
+        return all(np.linalg.norm(np.subtract(now, then)) < _SAME * distance for now, then in zip((camera.position, camera.look_at), view))

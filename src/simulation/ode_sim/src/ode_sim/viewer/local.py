@@ -1,4 +1,5 @@
 """A world of this process as a simulation: stepped in a thread of its own, in real time."""
+
 from __future__ import annotations
 
 import queue
@@ -11,14 +12,24 @@ from typing import Any, Callable, Dict, Optional, Tuple
 import numpy as np
 
 from ode_sim import math3
-from ode_sim.description import DescriptionError, Entity, model as d
+from ode_sim.description import DescriptionError, Entity
+from ode_sim.description import model as d
 from ode_sim.description.sdf_writer import world_text
 from ode_sim.rendering.watch import SceneWatch
 from ode_sim.timeline import Timeline
 from ode_sim.viewer.contacts import ContactWatch
 from ode_sim.viewer.saving import describe_now
-from ode_sim.viewer.simulation import (Frame, KeptMoment, LinkProperties, Looks, Refused, Simulation,
-                                       SurfaceProperties, WorldRecord, record_world)
+from ode_sim.viewer.simulation import (
+    Frame,
+    KeptMoment,
+    LinkProperties,
+    Looks,
+    Refused,
+    Simulation,
+    SurfaceProperties,
+    WorldRecord,
+    record_world,
+)
 from ode_sim.viewer.surfaces import paint, set_looks
 
 _FRAME = 1.0 / 60.0  # wall s between two frames
@@ -113,9 +124,16 @@ class LocalSimulation(Simulation):
         world = self._world
         if self._newest_contacts is not None:
             self._newest_contacts = self._contacts.read()
-        self._frame = Frame(self._revision, world.time, self._real_time, world.iterations, self._paused,
-                            0.0 if self._paused else self._factor, np.array(world.link_poses, np.float32),
-                            np.array(world.joint_positions, np.float32))
+        self._frame = Frame(
+            self._revision,
+            world.time,
+            self._real_time,
+            world.iterations,
+            self._paused,
+            0.0 if self._paused else self._factor,
+            np.array(world.link_poses, np.float32),
+            np.array(world.joint_positions, np.float32),
+        )
 
     def _drive(self, world) -> None:
         for joint, mode, value, gains, memory in self._commands.values():
@@ -149,12 +167,14 @@ class LocalSimulation(Simulation):
     def pause(self, on: bool) -> None:
         def do(world):
             self._paused = on
+
         self.call(do)
 
     def step(self, count: int) -> None:
         def do(world):
             self._paused = True
             world.step(count)
+
         self.call(do)
 
     def reset(self, what: str) -> None:
@@ -164,6 +184,7 @@ class LocalSimulation(Simulation):
             if what != "models":
                 self._real_time = 0.0
             {"time": world.reset_time, "models": world.reset_poses, "all": world.reset}[what]()
+
         self.call(do)
 
     def set_pose(self, model: str, pose: d.Pose) -> None:
@@ -171,6 +192,7 @@ class LocalSimulation(Simulation):
             handle = _model(world, model)
             handle.pose = pose
             handle.set_twist((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
         self.call(do)
 
     def insert(self, name: str, text: str, pose: d.Pose) -> None:
@@ -185,6 +207,7 @@ class LocalSimulation(Simulation):
             model, problems = entity.model(name)
             world.problems += problems
             world.spawn(model, pose=math3.compose(pose, model.pose))
+
         self.call(do)
 
     def delete(self, name: str) -> None:
@@ -197,18 +220,19 @@ class LocalSimulation(Simulation):
             self._pushes = [push for push in self._pushes if push[0].model.name != name]
             _model(world, name)
             world.remove(name)
+
         self.call(do)
 
     def set_joint_position(self, model: str, joint: str, position: float) -> None:
         self.call(lambda world: _model(world, model).joints[joint].set_position(position))
 
-    def command_joint(self, model: str, joint: str, mode: str, value: float,
-                      gains: Tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
+    def command_joint(self, model: str, joint: str, mode: str, value: float, gains: Tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
         def do(world):
             handle = _model(world, model).joints[joint]
             self._commands.pop(handle.scoped_name, None)
             if mode != "none":
                 self._commands[handle.scoped_name] = (handle, mode, value, gains, [0.0, None])
+
         self.call(do)
 
     def link_properties(self, model: str, link: str) -> LinkProperties:
@@ -217,6 +241,7 @@ class LocalSimulation(Simulation):
             ixx, iyy, izz, ixy, ixz, iyz = (float(v) for v in handle.inertia)
             com = math3.transform(math3.inverse(handle.pose), tuple(handle.com()))
             return LinkProperties(handle.mass, com, (ixx, ixy, ixz, iyy, iyz, izz), bool(handle.gravity))
+
         return self.call(do)
 
     def set_link_properties(self, model: str, link: str, properties: LinkProperties) -> None:
@@ -224,6 +249,7 @@ class LocalSimulation(Simulation):
             handle = _model(world, model).links[link]
             handle.set_inertial(d.Inertial(properties.mass, d.Pose(properties.com), *properties.inertia))
             handle.gravity = properties.gravity
+
         self.call(do)
 
     def physics(self) -> Tuple[d.Physics, d.Vec3]:
@@ -237,6 +263,7 @@ class LocalSimulation(Simulation):
             if light.name not in world.lights:
                 raise Refused(f"there is no light '{light.name}'")
             world.lights[light.name] = light
+
         self.call(do)
 
     def push(self, model: str, link: str, force: d.Vec3, torque: d.Vec3, duration: float) -> None:
@@ -244,12 +271,14 @@ class LocalSimulation(Simulation):
             handle = _model(world, model).links[link]
             self._pushes = [push for push in self._pushes if push[0] is not handle]  # the last one asked for wins
             self._pushes.append((handle, force, torque, world.time + duration))
+
         self.call(do)
 
     def surface(self, model: str, link: str) -> SurfaceProperties:
         def do(world):
             surface = _collisions(world, model, link)[0].surface
             return SurfaceProperties(surface.mu, surface.mu2, surface.restitution)
+
         return self.call(do)
 
     def set_surface(self, model: str, link: str, surface: SurfaceProperties) -> None:
@@ -257,11 +286,11 @@ class LocalSimulation(Simulation):
             for collision in _collisions(world, model, link):
                 for name, value in vars(surface).items():
                     setattr(collision.surface, name, value)
+
         self.call(do)
 
     def paint(self, model: str, link: str, rgba: d.Rgba) -> None:
-        self.call(lambda world: [paint(other, rgba) for name, other in _model(world, model).links.items()
-                                 if link in ("", name)])
+        self.call(lambda world: [paint(other, rgba) for name, other in _model(world, model).links.items() if link in ("", name)])
 
     def set_looks(self, model: str, looks: Looks) -> None:
         self.call(lambda world: set_looks(_model(world, model), looks))
@@ -270,6 +299,7 @@ class LocalSimulation(Simulation):
         def do(world):
             self._contacts.watch(on)
             self._newest_contacts = self._contacts.read() if on else None
+
         self.call(do)
 
     def contacts(self) -> np.ndarray:
@@ -277,8 +307,7 @@ class LocalSimulation(Simulation):
         return newest if newest is not None else np.zeros((0, 6), np.float32)
 
     def moments(self) -> Tuple[KeptMoment, ...]:
-        return self.call(lambda world: tuple(
-            KeptMoment(moment.number, moment.time_ns * 1e-9) for moment in self._timeline.moments))
+        return self.call(lambda world: tuple(KeptMoment(moment.number, moment.time_ns * 1e-9) for moment in self._timeline.moments))
 
     def keep(self) -> None:
         self.call(lambda world: self._timeline.keep())
@@ -292,6 +321,7 @@ class LocalSimulation(Simulation):
             world.restore(moment.snapshot)
             self._paused = True
             self._timeline.went_back(moment)
+
         self.call(do)
 
     def save(self) -> str:

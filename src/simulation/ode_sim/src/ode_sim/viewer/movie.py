@@ -3,6 +3,7 @@
 The pictures are those of the simulator's cameras, from where the page looked. Nothing is drawn while the film is being
 taken, so that it costs the simulation nothing and no picture is missing.
 """
+
 from __future__ import annotations
 
 import math
@@ -63,8 +64,7 @@ class Movie:
         if world.revision != self._revision:
             self._revision = world.revision
             self.scenes.append(scene_of(world))
-        self.shots.append(Shot(len(self.scenes) - 1, frame.poses, vec3(camera.position),
-                               vec3(camera.look_at), float(camera.fov)))
+        self.shots.append(Shot(len(self.scenes) - 1, frame.poses, vec3(camera.position), vec3(camera.look_at), float(camera.fov)))
 
     def render(self) -> bytes:
         """The file. In another process; it takes about as long as the film.
@@ -75,8 +75,7 @@ class Movie:
             raise Refused("Nothing was filmed yet.")
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "film.mp4")
-            command = [sys.executable, "-c",
-                       f"import sys; sys.path[:] = {sys.path!r}; from ode_sim.viewer.movie import main; main()", file]
+            command = [sys.executable, "-c", f"import sys; sys.path[:] = {sys.path!r}; from ode_sim.viewer.movie import main; main()", file]
             seconds = _DRAWING * (1.0 + len(self.shots) / RATE)
             try:
                 ended = subprocess.run(command, input=pickle.dumps(self), capture_output=True, timeout=seconds)
@@ -109,6 +108,7 @@ def write(movie: Movie, file: str) -> None:
     import cv2
 
     from ode_sim.rendering.renderer import Renderer
+
     renderer = Renderer(antialiasing="msaa", shadows="auto")
     writer = cv2.VideoWriter(file, cv2.VideoWriter_fourcc(*"avc1"), RATE, (movie.width, movie.height))
     if not writer.isOpened():
@@ -120,8 +120,7 @@ def write(movie: Movie, file: str) -> None:
                 now = shot.scene
                 renderer.set_scene(movie.scenes[now])
             wide = 2 * math.atan(math.tan(shot.field / 2) * movie.width / movie.height)
-            camera = Camera("film", movie.width, movie.height, wide, near=0.02, far=1000.0,
-                            pose=look_at(shot.eye, shot.target))
+            camera = Camera("film", movie.width, movie.height, wide, near=0.02, far=1000.0, pose=look_at(shot.eye, shot.target))
             writer.write(cv2.cvtColor(renderer.color(camera, shot.poses), cv2.COLOR_RGB2BGR))
     finally:
         writer.release()

@@ -1,4 +1,5 @@
 """What is drawn on top of the models on request: collisions, centres of mass, inertias, joints, frames, labels."""
+
 from __future__ import annotations
 
 import math
@@ -94,11 +95,21 @@ class Overlays:
                 scoped = f"{record.name}::{link.name}::{collision.name}"
                 for part_number, part in enumerate(self._assets.parts(visual, scoped)):
                     mesh = self._assets.meshes[part.key]
-                    made.append(self._scene.add_mesh_simple(
-                        f"{frames[link.name]}/c{number}_{part_number}", np.asarray(mesh.vertices, np.float32),
-                        np.asarray(mesh.triangles, np.uint32), color=_ORANGE, opacity=0.45, side="double",
-                        scale=tuple(float(s) for s in part.scale), position=part.pose.p, wxyz=wxyz(part.pose.q),
-                        cast_shadow=False, receive_shadow=False))
+                    made.append(
+                        self._scene.add_mesh_simple(
+                            f"{frames[link.name]}/c{number}_{part_number}",
+                            np.asarray(mesh.vertices, np.float32),
+                            np.asarray(mesh.triangles, np.uint32),
+                            color=_ORANGE,
+                            opacity=0.45,
+                            side="double",
+                            scale=tuple(float(s) for s in part.scale),
+                            position=part.pose.p,
+                            wxyz=wxyz(part.pose.q),
+                            cast_shadow=False,
+                            receive_shadow=False,
+                        )
+                    )
         self._assets.problems.clear()  # said already when the world was loaded
         return made
 
@@ -106,12 +117,20 @@ class Overlays:
         made = []
         for link in record.description.links if not record.static else ():
             radius = min(0.15, max(0.01, 0.5 * (3 * max(link.inertial.mass, 0.0) / (4 * math.pi * 11340.0)) ** (1 / 3)))
-            made.append(self._scene.add_icosphere(  # of lead, as Gazebo sizes it
-                f"{frames[link.name]}/com", radius=radius, color=_PINK, position=link.inertial.pose.p,
-                cast_shadow=False))
-            made.append(self._scene.add_frame(f"{frames[link.name]}/com_axes", axes_length=2.5 * radius,
-                                              axes_radius=0.12 * radius, position=link.inertial.pose.p,
-                                              wxyz=wxyz(link.inertial.pose.q)))
+            made.append(
+                self._scene.add_icosphere(  # of lead, as Gazebo sizes it
+                    f"{frames[link.name]}/com", radius=radius, color=_PINK, position=link.inertial.pose.p, cast_shadow=False
+                )
+            )
+            made.append(
+                self._scene.add_frame(
+                    f"{frames[link.name]}/com_axes",
+                    axes_length=2.5 * radius,
+                    axes_radius=0.12 * radius,
+                    position=link.inertial.pose.p,
+                    wxyz=wxyz(link.inertial.pose.q),
+                )
+            )
         return made
 
     def _inertias(self, record: ModelRecord, frames: Dict[str, str]) -> List[Any]:
@@ -120,9 +139,17 @@ class Overlays:
             box = inertia_box(link.inertial)
             if box is not None:
                 pose, size = box
-                made.append(self._scene.add_box(f"{frames[link.name]}/inertia", dimensions=size, color=_PINK,
-                                                opacity=0.4,
-                                                position=pose.p, wxyz=wxyz(pose.q), cast_shadow=False))
+                made.append(
+                    self._scene.add_box(
+                        f"{frames[link.name]}/inertia",
+                        dimensions=size,
+                        color=_PINK,
+                        opacity=0.4,
+                        position=pose.p,
+                        wxyz=wxyz(pose.q),
+                        cast_shadow=False,
+                    )
+                )
         return made
 
     def _joints(self, record: ModelRecord, frames: Dict[str, str]) -> List[Any]:
@@ -132,23 +159,31 @@ class Overlays:
             if joint.child not in frames:
                 continue
             node = f"{frames[joint.child]}/j{number}"
-            made.append(self._scene.add_frame(node, axes_length=size, axes_radius=size / 25, position=joint.pose.p,
-                                              wxyz=wxyz(joint.pose.q)))
+            made.append(
+                self._scene.add_frame(node, axes_length=size, axes_radius=size / 25, position=joint.pose.p, wxyz=wxyz(joint.pose.q))
+            )
             for which, axis in enumerate(joint.axes):
                 tip = tuple(1.6 * size * v for v in axis.xyz)
-                made.append(self._scene.add_arrows(
-                    f"{node}/axis{which}", points=np.array([[(0.0, 0.0, 0.0), tip]], np.float32), colors=_AXES[which],
-                    shaft_radius=size / 18, head_radius=size / 8, head_length=size / 4))
+                made.append(
+                    self._scene.add_arrows(
+                        f"{node}/axis{which}",
+                        points=np.array([[(0.0, 0.0, 0.0), tip]], np.float32),
+                        colors=_AXES[which],
+                        shaft_radius=size / 18,
+                        head_radius=size / 8,
+                        head_length=size / 4,
+                    )
+                )
         return made
 
     def _link_frames(self, record: ModelRecord, frames: Dict[str, str]) -> List[Any]:
-        return [self._scene.add_frame(f"{frame}/axes", axes_length=0.15, axes_radius=0.005)
-                                      for frame in frames.values()]
+        return [self._scene.add_frame(f"{frame}/axes", axes_length=0.15, axes_radius=0.005) for frame in frames.values()]
 
     def _labels(self, record: ModelRecord, frames: Dict[str, str]) -> List[Any]:
         many = len(frames) > 1
-        return [self._scene.add_label(f"{frame}/label", f"{record.name}::{name}" if many else record.name)
-                for name, frame in frames.items()]
+        return [
+            self._scene.add_label(f"{frame}/label", f"{record.name}::{name}" if many else record.name) for name, frame in frames.items()
+        ]
 
 
 def inertia_box(inertial: d.Inertial) -> Optional[Tuple[Pose, Tuple[float, float, float]]]:

@@ -1,4 +1,5 @@
 """The page: draws the world, follows it, and joins the panels."""
+
 from __future__ import annotations
 
 import logging
@@ -42,9 +43,18 @@ class Page:
     :raises ode_sim.viewer.website.Unavailable: no page can be served
     """
 
-    def __init__(self, simulation: Simulation, port: int = DEFAULT_PORT, listen: bool = False, title: str = "Gazebo",
-                 panels: Sequence[type] = (), say: Callable[[str], None] = _log.warning,
-                 website: Optional[Website] = None, later: Callable[[], Sequence[type]] = tuple, shadows: bool = True):
+    def __init__(
+        self,
+        simulation: Simulation,
+        port: int = DEFAULT_PORT,
+        listen: bool = False,
+        title: str = "Gazebo",
+        panels: Sequence[type] = (),
+        say: Callable[[str], None] = _log.warning,
+        website: Optional[Website] = None,
+        later: Callable[[], Sequence[type]] = tuple,
+        shadows: bool = True,
+    ):
         self.simulation = simulation
         self.website = website or Website(port, listen, title)
         self.server = self.website.open()

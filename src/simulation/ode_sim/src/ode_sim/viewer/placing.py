@@ -1,4 +1,5 @@
 """Putting something new into the world by hand: it is seen under the pointer, and put there by a click."""
+
 from __future__ import annotations
 
 import time
@@ -53,11 +54,14 @@ class Placing:
         self._thing, self._client_id = thing, event.client_id
         scene = self._page.server.scene
         for modifier in (None, _COARSE_KEY):
+
             async def on_click(click: Any, step: float = _COARSE if modifier else 0.0) -> None:
                 self._page.later(lambda: self._click(click, step))
+
             self._listening.append(scene.on_click(modifier=modifier)(on_click))
-        self._pointer = Pointer(event.client, lambda ray: self._page.later(lambda: self._show(thing, ray)),
-                                lambda: self._page.later(lambda: self._leave(thing)))
+        self._pointer = Pointer(
+            event.client, lambda ray: self._page.later(lambda: self._show(thing, ray)), lambda: self._page.later(lambda: self._leave(thing))
+        )
         self.say(f"{thing.name}: click where it shall stand; Esc leaves it")
 
     def end(self) -> None:
@@ -74,8 +78,7 @@ class Placing:
     def takes(self, event: Any) -> bool:
         """Whether a click of that page puts something down: then nothing is picked by it."""
         who = getattr(event, "client_id", None)
-        return who is not None and (who == self._client_id or
-                                    who == self._last[0] and time.monotonic() - self._last[1] < _ECHO)
+        return who is not None and (who == self._client_id or who == self._last[0] and time.monotonic() - self._last[1] < _ECHO)
 
     # ------------------------------------------------------------------------------------------ the hand
 
@@ -110,8 +113,7 @@ class Placing:
             place = round(place[0] / step) * step, round(place[1] / step) * step
         self._last = (event.client_id, time.monotonic())
         self.end()
-        name = self._page.attempt(event, lambda: self._page.selection.insert(
-            thing.name, thing.text, self._pose(thing, place)))
+        name = self._page.attempt(event, lambda: self._page.selection.insert(thing.name, thing.text, self._pose(thing, place)))
         self.say(f"{name} is at {place[0]:.2f}, {place[1]:.2f} m" if name else "")
 
     @staticmethod
@@ -135,10 +137,20 @@ class Placing:
             for at, visual in enumerate(link.visuals):
                 for part_number, part in enumerate(self._assets.parts(replace(visual, cast_shadows=False), thing.name)):
                     mesh = self._assets.meshes[part.key]
-                    nodes.append(scene.add_mesh_simple(
-                        f"{frame.name}/{at}_{part_number}", np.asarray(mesh.vertices, np.float32),
-                        np.asarray(mesh.triangles, np.uint32), color=rgb255(part.look.diffuse), opacity=_ALPHA,
-                        side="double", scale=tuple(float(s) for s in part.scale), position=part.pose.p,
-                        wxyz=wxyz(part.pose.q), cast_shadow=False, receive_shadow=False))
+                    nodes.append(
+                        scene.add_mesh_simple(
+                            f"{frame.name}/{at}_{part_number}",
+                            np.asarray(mesh.vertices, np.float32),
+                            np.asarray(mesh.triangles, np.uint32),
+                            color=rgb255(part.look.diffuse),
+                            opacity=_ALPHA,
+                            side="double",
+                            scale=tuple(float(s) for s in part.scale),
+                            position=part.pose.p,
+                            wxyz=wxyz(part.pose.q),
+                            cast_shadow=False,
+                            receive_shadow=False,
+                        )
+                    )
         self._assets.problems.clear()  # said when it is in the world
         return nodes

@@ -1,5 +1,6 @@
 """Where the pointer is over the scene of one page. viser tells of clicks and drags only, so a few lines of script note
 it in the page, and it is asked for."""
+
 from __future__ import annotations
 
 import json
@@ -78,11 +79,13 @@ class Pointer:
 
     def _run(self) -> None:
         from viser import _messages
+
         store, told = self._client.local_storage, ""
         try:
             store.set_item(self._key, told)
-            self._client._websock_connection.queue_message(_messages.RunJavascriptMessage(
-                source=_SCRIPT.replace("KEY", json.dumps(self._key))))
+            self._client._websock_connection.queue_message(
+                _messages.RunJavascriptMessage(source=_SCRIPT.replace("KEY", json.dumps(self._key)))
+            )
             while not self._ended.is_set():
                 begin = time.monotonic()
                 now = store.get_item(self._key, _PATIENCE) or ""

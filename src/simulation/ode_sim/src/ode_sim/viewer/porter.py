@@ -3,6 +3,7 @@
 A browser needs a second to unpack and start the page, viser needs a second of imports: they happen side by side. The porter
 answers the first request for the page, then leaves the door: what knocks next waits in the system's queue for the server.
 """
+
 from __future__ import annotations
 
 import contextlib
@@ -81,26 +82,34 @@ _UNPACKED = b"const code=td.decode(heap.subarray(up+ss,up+sz))"
 _UNLIT = rb""".replace(/===null\?[\w$]+:([\w$]+\.hdri_data)/,"===null?null:$1")"""
 #: It makes a canvas of its own to find out whether the processor draws, which takes that 0.2 s and more: later is soon enough to say so,
 #: and the canvas of the scene knows it as well.
-_ASKED_LATER = (rb""".replace(/let ([\w$]+)=([\w$]+)\(\);(console\.log\(`WebGL support[^]*?`webgl-software-rendering`[^]*?`orange`\}\))"""
-                rb"""(?=\},\[\]\))/,"setTimeout(()=>{let $1=$2();$3},5e3)")"""
-                rb""".replace(/=document\.createElement\(`canvas`\)(?=,[\w$]+=!1,[\w$]+=`unknown`)/,"""
-                rb""""=document.querySelector('canvas[data-engine]')??document.createElement('canvas')")""")
+_ASKED_LATER = (
+    rb""".replace(/let ([\w$]+)=([\w$]+)\(\);(console\.log\(`WebGL support[^]*?`webgl-software-rendering`[^]*?`orange`\}\))"""
+    rb"""(?=\},\[\]\))/,"setTimeout(()=>{let $1=$2();$3},5e3)")"""
+    rb""".replace(/=document\.createElement\(`canvas`\)(?=,[\w$]+=!1,[\w$]+=`unknown`)/,"""
+    rb""""=document.querySelector('canvas[data-engine]')??document.createElement('canvas')")"""
+)
 #: What is typed and pressed goes to the server at most every 50 ms, the last of it only: a button pressed right after a field was filled
 #: took the place of the field's value, which was lost. What concerns something else is sent first, and so is a
 #: second press of the same button, which a page that is slow to draw hears together with the first.
-_NOTHING_LOST = (rb""".replace(/([\w$]+)\.sendMessage!==null&&\(([\w$]+)=([\w$]+),([\w$]+)\?\(\1\.sendMessage\(\3\),([\w$]+)=!1/,"""
-                 rb""""$1.sendMessage!==null&&($5&&$2&&($2.type!==$3.type||$2.uuid!==$3.uuid||$2.name!==$3.name"""
-                 rb"""||$2!==$3&&JSON.stringify($2)===JSON.stringify($3))&&($1.sendMessage($2),$5=!1),$2=$3,$4?($1.sendMessage($3),$5=!1")""")
+_NOTHING_LOST = (
+    rb""".replace(/([\w$]+)\.sendMessage!==null&&\(([\w$]+)=([\w$]+),([\w$]+)\?\(\1\.sendMessage\(\3\),([\w$]+)=!1/,"""
+    rb""""$1.sendMessage!==null&&($5&&$2&&($2.type!==$3.type||$2.uuid!==$3.uuid||$2.name!==$3.name"""
+    rb"""||$2!==$3&&JSON.stringify($2)===JSON.stringify($3))&&($1.sendMessage($2),$5=!1),$2=$3,$4?($1.sendMessage($3),$5=!1")"""
+)
 #: Handles that are drawn through everything are gripped so, too: what is hit of them is hit first. Some are gripped by a part that is not
 #: drawn at all, in a group that stands where it is put.
-_ON_TOP = (rb""".replace(/\.sort\(\(([\w$]+),([\w$]+)\)=>\{(?=let [\w$]+=[\w$]+\(\1\.object\),)/,"""
-           rb"""".sort(($1,$2)=>{let grip=o=>o.material?.depthTest===!1||!o.visible&&o.parent?.matrixAutoUpdate===!1?1:0,"""
-           rb"""first=grip($2.object)-grip($1.object);if(first)return first;")""")
+_ON_TOP = (
+    rb""".replace(/\.sort\(\(([\w$]+),([\w$]+)\)=>\{(?=let [\w$]+=[\w$]+\(\1\.object\),)/,"""
+    rb"""".sort(($1,$2)=>{let grip=o=>o.material?.depthTest===!1||!o.visible&&o.parent?.matrixAutoUpdate===!1?1:0,"""
+    rb"""first=grip($2.object)-grip($1.object);if(first)return first;")"""
+)
 #: A colour that was typed as rgb(...) and left by Enter was taken back: the field puts in what was right a moment before, as if it had been
 #: typed. What is no colour gives way to the colour that is, and nothing else.
-_COLOUR_AS_TYPED = (rb""".replace(/&&([\w$]+\([\w$]+\([\w$]+\)\))\},\[([\w$]+)\]\),([^]{1,700}?)onBlur:\(\)=>"""
-                    rb"""\{let ([\w$]+)=([\w$]+\([\w$]+\));\4&&!([\w$]+\(\4,[\w$]+\))&&([\w$]+\([\w$]+,\4\))\}/,"""
-                    rb""""&&$1},[$2]),$3fixOnBlur:!1,onBlur:()=>{let $4=$5;$4?$6||$7:$1}")""")
+_COLOUR_AS_TYPED = (
+    rb""".replace(/&&([\w$]+\([\w$]+\([\w$]+\)\))\},\[([\w$]+)\]\),([^]{1,700}?)onBlur:\(\)=>"""
+    rb"""\{let ([\w$]+)=([\w$]+\([\w$]+\));\4&&!([\w$]+\(\4,[\w$]+\))&&([\w$]+\([\w$]+,\4\))\}/,"""
+    rb""""&&$1},[$2]),$3fixOnBlur:!1,onBlur:()=>{let $4=$5;$4?$6||$7:$1}")"""
+)
 
 
 def entitled(page: bytes, title: str) -> bytes:
@@ -197,8 +206,14 @@ class Porter(threading.Thread):
 
     @staticmethod
     def _send(connection: socket.socket, status: http.HTTPStatus, headers: Dict[str, str], body: bytes) -> None:
-        lines = [f"HTTP/1.1 {status.value} {status.phrase}", *(f"{name}: {value}" for name, value in headers.items()),
-                 f"Content-Length: {len(body)}", "Connection: close", "", ""]
+        lines = [
+            f"HTTP/1.1 {status.value} {status.phrase}",
+            *(f"{name}: {value}" for name, value in headers.items()),
+            f"Content-Length: {len(body)}",
+            "Connection: close",
+            "",
+            "",
+        ]
         connection.sendall("\r\n".join(lines).encode("latin-1") + body)
 
     def _drop(self, connection: socket.socket) -> None:

@@ -1,4 +1,5 @@
 """Pulling at a body with the mouse: a spring from the place that was gripped to the pointer; with Shift it only turns the body."""
+
 from __future__ import annotations
 
 import math
@@ -32,11 +33,13 @@ class Pull:
 
     def attach(self, mesh: Any, model: str, link: str) -> None:
         """Let ``mesh`` be pulled at, with the left button and Ctrl, or turned with Shift as well."""
+
         async def on_drag(event: Any) -> None:
             with self._lock:
                 waiting, self._news = self._news is not None, (event, model, link)
             if not waiting:
                 self._page.later(self._take)
+
         for modifier in (MODIFIER, TURNING):
             mesh.on_drag("left", modifier=modifier)(on_drag)
 

@@ -3,6 +3,7 @@
 A simple shape is a model of one link whose collisions and visuals all are the same box, sphere or cylinder, as Gazebo's
 window inserts and scales them.
 """
+
 from __future__ import annotations
 
 import threading
@@ -62,9 +63,12 @@ def resized(model: d.Model, geometry: Simple) -> d.Model:
     """A simple shape of other measures: the mass stays, the inertia is that of the new shape."""
     link = model.links[0]
     solid = shape_model(model.name, geometry, max(link.inertial.mass, 1e-9)).links[0].inertial
-    made = replace(link, inertial=replace(solid, pose=link.inertial.pose) if not model.static else link.inertial,
-                   collisions=tuple(replace(part, geometry=geometry) for part in link.collisions),
-                   visuals=tuple(replace(part, geometry=geometry) for part in link.visuals))
+    made = replace(
+        link,
+        inertial=replace(solid, pose=link.inertial.pose) if not model.static else link.inertial,
+        collisions=tuple(replace(part, geometry=geometry) for part in link.collisions),
+        visuals=tuple(replace(part, geometry=geometry) for part in link.visuals),
+    )
     return replace(model, links=(made,))
 
 
@@ -106,8 +110,7 @@ class Resizing:
         if selection.record is not None:  # else it is just being made anew, where it was
             self._place = record.pose(frame)
         pose = self._place
-        selection.history.do(f"resize {name}", lambda: self._swap(name, after, pose),
-                                        lambda: self._swap(name, before, pose), typed)
+        selection.history.do(f"resize {name}", lambda: self._swap(name, after, pose), lambda: self._swap(name, before, pose), typed)
 
     def _swap(self, name: str, model: d.Model, usual: Pose) -> None:
         """:param usual: where it goes when the page does not know where it is: it comes from a step a moment ago."""
@@ -159,6 +162,7 @@ class Resizing:
                 self._events.append(update)
             if not waiting:
                 self._page.later(self._take)
+
         knob.on_drag(on_drag)
 
     def _take(self) -> None:
@@ -191,9 +195,12 @@ class Resizing:
     def _stretch(self, record: ModelRecord, geometry: Simple) -> None:
         """What is seen already follows the hand."""
         drawn = self._page.drawing.model_root(record.name)
-        sizes = size_of(geometry) if isinstance(geometry, d.Box) else tuple(
-            side / 2 for side in size_of(geometry)[:2]) + (
-                geometry.length if isinstance(geometry, d.Cylinder) else geometry.radius,)
+        sizes = (
+            size_of(geometry)
+            if isinstance(geometry, d.Box)
+            else tuple(side / 2 for side in size_of(geometry)[:2])
+            + (geometry.length if isinstance(geometry, d.Cylinder) else geometry.radius,)
+        )
         for mesh in drawn.meshes if drawn is not None else ():
             if hasattr(mesh, "vertices"):  # one with a texture is drawn anew at the end
                 mesh.scale = tuple(map(float, sizes))

@@ -1,4 +1,5 @@
 """A running world as a description that can be written down and started again."""
+
 from __future__ import annotations
 
 from dataclasses import replace
@@ -13,24 +14,47 @@ def describe_now(world) -> d.World:
     models, states = [], []
     for model in world.models.values():
         pose = model.pose
-        models.append(replace(model.description, name=model.name, pose=pose, static=model.static,
-                              links=tuple(_link_now(model, link) for link in model.description.links)))
-        states.append(d.ModelState(model.name, pose, links=tuple(
-            d.LinkState(link.name, link.pose, _plain(link.com_velocity()), _plain(link.angular_velocity()))
-            for link in model.links.values())))
+        models.append(
+            replace(
+                model.description,
+                name=model.name,
+                pose=pose,
+                static=model.static,
+                links=tuple(_link_now(model, link) for link in model.description.links),
+            )
+        )
+        states.append(
+            d.ModelState(
+                model.name,
+                pose,
+                links=tuple(
+                    d.LinkState(link.name, link.pose, _plain(link.com_velocity()), _plain(link.angular_velocity()))
+                    for link in model.links.values()
+                ),
+            )
+        )
     return replace(
-        world.description, gravity=tuple(world.gravity), physics=world.physics.record(), scene=world.scene,
-        models=tuple(models), lights=tuple(world.lights.values()),
-        state=d.WorldState(world.time, world.iterations, tuple(states)))
+        world.description,
+        gravity=tuple(world.gravity),
+        physics=world.physics.record(),
+        scene=world.scene,
+        models=tuple(models),
+        lights=tuple(world.lights.values()),
+        state=d.WorldState(world.time, world.iterations, tuple(states)),
+    )
 
 
 def _link_now(model, link: d.Link) -> d.Link:
     handle = model.links.get(link.name)
     if handle is None:
         return link
-    return replace(link, gravity=bool(handle.gravity), lights=tuple(handle.lights.values()),
-                   inertial=_inertial_now(handle, link.inertial) if not model.static else link.inertial,
-                   collisions=tuple(_collision_now(handle, collision) for collision in link.collisions))
+    return replace(
+        link,
+        gravity=bool(handle.gravity),
+        lights=tuple(handle.lights.values()),
+        inertial=_inertial_now(handle, link.inertial) if not model.static else link.inertial,
+        collisions=tuple(_collision_now(handle, collision) for collision in link.collisions),
+    )
 
 
 def _inertial_now(handle, written: d.Inertial) -> d.Inertial:
@@ -46,8 +70,11 @@ def _collision_now(handle, written: d.Collision) -> d.Collision:
     now = handle.collisions.get(written.name)
     if now is None:
         return written
-    changed = {name: getattr(now.surface, name) for name in ("mu", "mu2", "restitution")
-               if getattr(now.surface, name) != getattr(written.surface, name)}
+    changed = {
+        name: getattr(now.surface, name)
+        for name in ("mu", "mu2", "restitution")
+        if getattr(now.surface, name) != getattr(written.surface, name)
+    }
     return replace(written, surface=replace(written.surface, **changed)) if changed else written
 
 

@@ -1,4 +1,5 @@
 """What is picked: its frame, gizmo, copy, delete; undo and redo of what was done to the world."""
+
 from __future__ import annotations
 
 import math
@@ -53,7 +54,7 @@ class History:
     def note(self, what: str, forth: Callable[[], None], back: Callable[[], None]) -> None:
         """Remember a step that was taken already."""
         with self._lock:
-            self._done = self._done[1 - _MOST_STEPS:] + [(what, forth, back)]
+            self._done = self._done[1 - _MOST_STEPS :] + [(what, forth, back)]
             self._undone.clear()
             self._typed = -math.inf
 
@@ -145,8 +146,9 @@ class Selection:
             if before is None:
                 raise Refused("That light is not there any more.")
             now = replace(before, **changes)
-            self.history.do(f"{', '.join(changes)} of light {before.name}", lambda: self._put_light(now),
-                            lambda: self._put_light(before), typed=True)
+            self.history.do(
+                f"{', '.join(changes)} of light {before.name}", lambda: self._put_light(now), lambda: self._put_light(before), typed=True
+            )
 
     def select(self, model: str = "", link: str = "", light: str = "") -> None:
         """Drawing thread."""
@@ -169,8 +171,7 @@ class Selection:
         """What is wanted, if it is there; else nothing."""
         model, link, light = self._wanted
         record = world.model(model) if model else None
-        there = (record is not None and (not link or link in record.links) if model else
-                 any(other.name == light for other in world.lights))
+        there = record is not None and (not link or link in record.links) if model else any(other.name == light for other in world.lights)
         return self._wanted if there else ("", "", "")
 
     def _become(self, model: str, link: str, light: str) -> None:
@@ -259,8 +260,7 @@ class Selection:
         if begin is not None:
             self._page.attempt(event, lambda: self._put_named(name, pose))
             if phase == "end" and pose != begin:
-                self.history.note(f"move {name}", lambda: self._put_named(name, pose),
-                                  lambda: self._put_named(name, begin))
+                self.history.note(f"move {name}", lambda: self._put_named(name, pose), lambda: self._put_named(name, begin))
         if phase == "end":
             self._dragged = None
 
@@ -301,8 +301,7 @@ class Selection:
         :raises Refused: nothing is picked
         """
         name, text, pose = self._text()
-        return self.insert(name.rstrip("0123456789").rstrip("_") or name, text,
-                           replace(pose, p=(pose.p[0] + 1.0, pose.p[1], pose.p[2])))
+        return self.insert(name.rstrip("0123456789").rstrip("_") or name, text, replace(pose, p=(pose.p[0] + 1.0, pose.p[1], pose.p[2])))
 
     def insert(self, wanted: str, text: str, pose: Pose) -> str:
         """A model or light from text, under a free name; the name."""

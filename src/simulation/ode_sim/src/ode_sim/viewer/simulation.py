@@ -1,4 +1,5 @@
 """What the page wants of a simulator, in this process or in another one."""
+
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
@@ -171,8 +172,7 @@ class Simulation(ABC):
         """Teleport a joint, rad or m."""
 
     @abstractmethod
-    def command_joint(self, model: str, joint: str, mode: str, value: float,
-                      gains: Tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
+    def command_joint(self, model: str, joint: str, mode: str, value: float, gains: Tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
         """From now on, until another command or a reset; see :data:`JOINT_MODES`."""
 
     @abstractmethod
@@ -251,10 +251,15 @@ def record_world(world, revision: int) -> WorldRecord:
     """Of a running :class:`ode_sim.World`; in the thread that steps it."""
     models: List[ModelRecord] = []
     for model in world.models.values():
-        models.append(ModelRecord(
-            model.name, _with_lights(model), model.static,
-            {link.name: link.index for link in model.links.values()},
-            {joint.name: joint.index for joint in model.joints.values() if joint.axis_count}))
+        models.append(
+            ModelRecord(
+                model.name,
+                _with_lights(model),
+                model.static,
+                {link.name: link.index for link in model.links.values()},
+                {joint.name: joint.index for joint in model.joints.values() if joint.axis_count},
+            )
+        )
     return WorldRecord(revision, world.name, tuple(models), tuple(world.lights.values()), world.scene)
 
 

@@ -1,4 +1,5 @@
 """The colour of what is in a running world."""
+
 from __future__ import annotations
 
 from dataclasses import replace
@@ -39,13 +40,22 @@ def set_looks(model: Any, looks: Looks) -> int:
         if link is None:
             continue
         count += sum(visual.name in wanted for visual in link.description.visuals)
-        _show(link, tuple(replace(visual, material=wanted[visual.name].material, transparency=wanted[visual.name].transparency)
-                          if visual.name in wanted else visual for visual in link.description.visuals))
+        _show(
+            link,
+            tuple(
+                replace(visual, material=wanted[visual.name].material, transparency=wanted[visual.name].transparency)
+                if visual.name in wanted
+                else visual
+                for visual in link.description.visuals
+            ),
+        )
     return count
 
 
 def _show(link: Any, visuals: Tuple[d.Visual, ...]) -> None:
     link.description = replace(link.description, visuals=visuals)
     model = link.model
-    model.description = replace(model.description, links=tuple(
-        replace(other, visuals=visuals) if other.name == link.name else other for other in model.description.links))
+    model.description = replace(
+        model.description,
+        links=tuple(replace(other, visuals=visuals) if other.name == link.name else other for other in model.description.links),
+    )

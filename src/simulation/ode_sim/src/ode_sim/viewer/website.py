@@ -7,6 +7,7 @@ the token on the loopback interface, too (``token``): all users of the machine r
 The port is taken at once, viser (a second of imports) is started when a browser has knocked. The page itself is given to that
 browser at once, by the :mod:`~ode_sim.viewer.porter`; what comes next waits in the system's queue for viser.
 """
+
 from __future__ import annotations
 
 import contextlib
@@ -128,8 +129,7 @@ class Website:
             try:
                 import viser
             except ImportError as error:
-                raise Unavailable(
-                    f"the page needs the Python package {error.name}; scripts/setup installs it") from error
+                raise Unavailable(f"the page needs the Python package {error.name}; scripts/setup installs it") from error
             self._porter.leave()
             self.viser = _start(viser, self._door, self.guard, self._title)
             self._withdraw_sharing()
@@ -146,6 +146,7 @@ class Website:
     def _withdraw_sharing(self) -> None:
         """A page may ask viser for a tunnel through a server in the internet; not here."""
         from viser import _messages
+
         for message in (_messages.ShareUrlRequest, _messages.ShareUrlDisconnect):
             self.viser._websock_server.unregister_handler(message)
 

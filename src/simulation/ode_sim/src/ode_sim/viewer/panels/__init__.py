@@ -1,4 +1,5 @@
 """The tabs of the page; each is a :class:`~ode_sim.viewer.panels.base.Panel` in a module of its own."""
+
 from ode_sim.viewer.panels.insert import InsertPanel
 from ode_sim.viewer.panels.joints import JointsPanel
 from ode_sim.viewer.panels.physics import PhysicsPanel

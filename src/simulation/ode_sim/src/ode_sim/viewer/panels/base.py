@@ -1,4 +1,5 @@
 """What every tab of the page is."""
+
 from __future__ import annotations
 
 import html

@@ -1,10 +1,12 @@
 """Simple shapes, lights, and the models of the model path."""
+
 from __future__ import annotations
 
 import threading
 from typing import Any, Dict, Tuple
 
-from ode_sim.description import DescriptionError, model as d, read_model
+from ode_sim.description import DescriptionError, read_model
+from ode_sim.description import model as d
 from ode_sim.description.sdf_writer import light_text, model_text
 from ode_sim.math3 import Pose, compose, vec3
 from ode_sim.viewer.panels.base import Panel, note
@@ -23,10 +25,12 @@ class InsertPanel(Panel):
         self._models: Dict[str, str] = {}
         self._asked = False
         self._by_hand = self.gui.add_checkbox(
-            "Put it down with the mouse", True, hint="it hangs at the pointer, and a click in the scene puts it down (Ctrl: "
-            "on whole metres); without, it goes to the place below at once")
-        self._place = self.gui.add_vector3("Place (m)", (0.0, 0.0, 0.0), step=0.1,
-                                           hint="on the ground: z is the lower end")
+            "Put it down with the mouse",
+            True,
+            hint="it hangs at the pointer, and a click in the scene puts it down (Ctrl: "
+            "on whole metres); without, it goes to the place below at once",
+        )
+        self._place = self.gui.add_vector3("Place (m)", (0.0, 0.0, 0.0), step=0.1, hint="on the ground: z is the lower end")
         self._shapes = self.gui.add_button_group("Shape", ("Box", "Sphere", "Cylinder"))
         self._lights = self.gui.add_button_group("Light", ("Point", "Spot", "Sun"))
         self._search = self.gui.add_text("Search", "", hint="of models whose name has this in it")
@@ -66,19 +70,21 @@ class InsertPanel(Panel):
 
     def _shape(self, event: Any) -> None:
         shapes: Dict[str, Tuple[Simple, str]] = {
-            "Box": (d.Box(), "unit_box"), "Sphere": (d.Sphere(0.5), "unit_sphere"),
-            "Cylinder": (d.Cylinder(0.5, 1.0), "unit_cylinder")}
+            "Box": (d.Box(), "unit_box"),
+            "Sphere": (d.Sphere(0.5), "unit_sphere"),
+            "Cylinder": (d.Cylinder(0.5, 1.0), "unit_cylinder"),
+        }
         shape, name = shapes[event.target.value]
         model = shape_model(name, shape)
         self._put(event, Thing(name, model_text(model), Pose((0.0, 0.0, 0.5)), model))
 
     def _light(self, event: Any) -> None:
         kind = event.target.value
-        light = {"Point": d.Light("user_point_light", "point", range=20.0, linear=0.0, constant=0.5, quadratic=0.01),
-                 "Spot": d.Light("user_spot_light", "spot", range=20.0, constant=0.5, linear=0.0, quadratic=0.01,
-                                 spot=(0.6, 1.0, 1.0)),
-                 "Sun": d.Light("user_directional_light", "directional", direction=(0.1, 0.1, -0.9),
-                                cast_shadows=True)}[kind]
+        light = {
+            "Point": d.Light("user_point_light", "point", range=20.0, linear=0.0, constant=0.5, quadratic=0.01),
+            "Spot": d.Light("user_spot_light", "spot", range=20.0, constant=0.5, linear=0.0, quadratic=0.01, spot=(0.6, 1.0, 1.0)),
+            "Sun": d.Light("user_directional_light", "directional", direction=(0.1, 0.1, -0.9), cast_shadows=True),
+        }[kind]
         self._put(event, Thing(light.name, light_text(light), Pose((0.0, 0.0, 1.0 if kind != "Sun" else 10.0))))
 
     def _model(self, event: Any) -> None:

@@ -1,4 +1,5 @@
 """Joints of the picked model: put, or driven by force, position or velocity, as Gazebo's joint tab."""
+
 from __future__ import annotations
 
 import math
@@ -20,11 +21,12 @@ class JointsPanel(Panel):
     def __init__(self, page: Any):
         super().__init__(page)
         self._mode = self.gui.add_dropdown(
-            "Slider", _MODES, hint="set: put the joint there at once. force, position, velocity: drive it from now on. "
-                                   "none: let go")
+            "Slider", _MODES, hint="set: put the joint there at once. force, position, velocity: drive it from now on. none: let go"
+        )
         with self.gui.add_folder("PID of position and velocity", expand_by_default=False):
-            self._pid = tuple(self.gui.add_number(name, value, step=step) for name, value, step in zip(
-                "pid", _GAINS["position"], (1.0, 0.1, 0.1)))
+            self._pid = tuple(
+                self.gui.add_number(name, value, step=step) for name, value, step in zip("pid", _GAINS["position"], (1.0, 0.1, 0.1))
+            )
         self._force = self.gui.add_number("Largest force (N m, N)", 10.0, min=0.001, step=1.0)
         self._folder = self.gui.add_folder("Pick a model first")
         self._sliders: Dict[str, Any] = {}
@@ -65,7 +67,7 @@ class JointsPanel(Panel):
         self._made, self._sliders = [], {}
         record = self.page.world.model(self._model)
         movable = [joint for joint in record.description.joints if joint.name in record.joints] if record else []
-        self._folder.label = (f"{self._model}: {len(movable)} joints" if record else "Pick a model first")
+        self._folder.label = f"{self._model}: {len(movable)} joints" if record else "Pick a model first"
         mode = self._mode.value
         with self._folder:
             for joint in movable[:_MOST]:

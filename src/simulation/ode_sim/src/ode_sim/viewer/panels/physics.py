@@ -1,4 +1,5 @@
 """Gravity, step, rate and solver of the world."""
+
 from __future__ import annotations
 
 import threading
@@ -21,8 +22,11 @@ class _Field(NamedTuple):
 
 def _number(control: Any, name: str, kind: Callable[[Any], Any] = float) -> _Field:
     """:param name: of an attribute of Physics"""
-    return _Field(control, lambda physics, _: kind(getattr(physics, name)),
-                  lambda physics, gravity, value: (replace(physics, **{name: kind(value)}), gravity))
+    return _Field(
+        control,
+        lambda physics, _: kind(getattr(physics, name)),
+        lambda physics, gravity, value: (replace(physics, **{name: kind(value)}), gravity),
+    )
 
 
 def _vector(value: Any) -> d.Vec3:
@@ -41,8 +45,14 @@ class PhysicsPanel(Panel):
         self._rate = self.gui.add_number("Steps per second", 1000.0, min=0.0, step=100.0, hint="0: as fast as possible")
         self._iterations = self.gui.add_number("Solver iterations", 50, min=1, max=10_000, step=10)
         self._sor = self.gui.add_number("Relaxation (SOR)", 1.3, min=0.01, max=2.0, step=0.05)
-        self._soft = self.gui.add_vector2("CFM, ERP", (0.0, 0.2), min=(0.0, 0.0), max=(1.0, 1.0), step=0.01,
-                                          hint="how soft contacts are, and how much of an error a step mends")
+        self._soft = self.gui.add_vector2(
+            "CFM, ERP",
+            (0.0, 0.2),
+            min=(0.0, 0.0),
+            max=(1.0, 1.0),
+            step=0.01,
+            hint="how soft contacts are, and how much of an error a step mends",
+        )
         self._correcting = self.gui.add_number("Contacts: fastest correction (m/s)", 100.0, min=0.0, step=1.0)
         self._layer = self.gui.add_number("Contacts: depth that stays (m)", 0.001, min=0.0, max=0.1, step=0.0005)
         self._contacts = self.gui.add_number("Contacts of a pair at most", 20, min=1, max=1000, step=1)
@@ -50,12 +60,19 @@ class PhysicsPanel(Panel):
         self._waiting: Dict[str, threading.Timer] = {}
         self._fields = (
             _Field(self._gravity, lambda _, gravity: _vector(gravity), lambda physics, _, value: (physics, _vector(value))),
-            _Field(self._soft, lambda physics, _: (float(physics.cfm), float(physics.erp)),
-                   lambda physics, gravity, value: (replace(physics, cfm=float(value[0]), erp=float(value[1])), gravity)),
-            _number(self._step, "max_step_size"), _number(self._rate, "real_time_update_rate"),
-            _number(self._iterations, "iters", int), _number(self._sor, "sor"),
-            _number(self._correcting, "contact_max_correcting_vel"), _number(self._layer, "contact_surface_layer"),
-            _number(self._contacts, "max_contacts", int))
+            _Field(
+                self._soft,
+                lambda physics, _: (float(physics.cfm), float(physics.erp)),
+                lambda physics, gravity, value: (replace(physics, cfm=float(value[0]), erp=float(value[1])), gravity),
+            ),
+            _number(self._step, "max_step_size"),
+            _number(self._rate, "real_time_update_rate"),
+            _number(self._iterations, "iters", int),
+            _number(self._sor, "sor"),
+            _number(self._correcting, "contact_max_correcting_vel"),
+            _number(self._layer, "contact_surface_layer"),
+            _number(self._contacts, "max_contacts", int),
+        )
         for field in self._fields:
             self.on_update(field.control, partial(self._set, field))
         self.on_click(self.gui.add_button("Read again"), self._read)

@@ -1,4 +1,5 @@
 """Play, pause, step, reset; times and real-time factor."""
+
 from __future__ import annotations
 
 from typing import Any
@@ -11,11 +12,11 @@ class PlayPanel(Panel):
     def __init__(self, page: Any):
         super().__init__(page)
         self._times = self.gui.add_html(_table("waiting for the simulator", "", "", ""))
-        self._run = self.gui.add_button_group("Run", ("Play", "Pause", "Step"),
-                                              hint="Step takes the number of steps below")
+        self._run = self.gui.add_button_group("Run", ("Play", "Pause", "Step"), hint="Step takes the number of steps below")
         self._count = self.gui.add_number("Steps", 1, min=1, max=1_000_000, step=1)
-        self._reset = self.gui.add_button_group("Reset", ("Time", "Models", "All"),
-                                                hint="Models: poses as at the start. All: time and joints, too")
+        self._reset = self.gui.add_button_group(
+            "Reset", ("Time", "Models", "All"), hint="Models: poses as at the start. All: time and joints, too"
+        )
         self._hold = self.gui.add_checkbox("Hold the controls", False, hint="Other pages only look while this one holds them")
         self._run.on_click(self._on_run)
         self._reset.on_click(self._on_reset)
@@ -58,7 +59,8 @@ def clock(seconds: float) -> str:
 
 def _table(state: str, sim: str, real: str, iterations: str) -> str:
     rows = (("Sim time", "sim_time", sim), ("Real time", "real_time", real), ("Iterations", "iterations", iterations))
-    cells = "".join(f"<tr><td style='padding-right:1em'>{name}</td><td id='{key}'>{value}</td></tr>"
-                    for name, key, value in rows)
-    return (f"<div style='font-size:0.8em;padding:0 0.6em;font-variant-numeric:tabular-nums'><b id='state'>{state}</b>"
-            f"<table>{cells}</table></div>")
+    cells = "".join(f"<tr><td style='padding-right:1em'>{name}</td><td id='{key}'>{value}</td></tr>" for name, key, value in rows)
+    return (
+        f"<div style='font-size:0.8em;padding:0 0.6em;font-variant-numeric:tabular-nums'><b id='state'>{state}</b>"
+        f"<table>{cells}</table></div>"
+    )

@@ -1,4 +1,5 @@
 """The properties of what is picked, as controls."""
+
 from __future__ import annotations
 
 import math
@@ -104,8 +105,9 @@ class ModelProperties(Properties):
     def _size_controls(self, record: ModelRecord) -> None:
         shape = shape_of(record.description)
         if shape is not None:
-            self.size = self.add(self.gui.add_vector3("Size (m)", size_of(shape[0]), min=(0.01,) * 3, step=0.05,
-                                                      hint="what is round stays round"))
+            self.size = self.add(
+                self.gui.add_vector3("Size (m)", size_of(shape[0]), min=(0.01,) * 3, step=0.05, hint="what is round stays round")
+            )
             self.panel.on_update(self.size, self._set_size)
 
     def _set_size(self, sizes: tuple) -> None:
@@ -125,8 +127,9 @@ class ModelProperties(Properties):
         self.mass = self.add(self.gui.add_number("Mass (kg)", values["mass"], min=1e-6, step=0.1))
         self.gravity = self.add(self.gui.add_checkbox("Gravity", values["gravity"]))
         self.com = self.add(self.gui.add_vector3("Centre of mass (m)", values["com"], step=0.01, hint="in the frame of the link"))
-        self.diagonal = self.add(self.gui.add_vector3("Inertia xx yy zz", values["diagonal"], step=0.001,
-                                                      hint="kg m², about the centre of mass"))
+        self.diagonal = self.add(
+            self.gui.add_vector3("Inertia xx yy zz", values["diagonal"], step=0.001, hint="kg m², about the centre of mass")
+        )
         self.products = self.add(self.gui.add_vector3("Inertia xy xz yz", values["products"], step=0.001))
         for control in (self.com, self.diagonal, self.products):
             self.panel.on_update(control, lambda _: self._set_inertia())
@@ -136,8 +139,12 @@ class ModelProperties(Properties):
         push = self.add(self.gui.add_button("Apply force and torque"))
         self.panel.on_update(self.mass, lambda _: self._set_mass())
         self.panel.on_update(self.gravity, lambda _: self._set_mass())
-        self.panel.on_click(push, lambda: self.page.simulation.push(
-            self._model, self._link, tuple(self.force.value), tuple(self.torque.value), float(self.duration.value)))
+        self.panel.on_click(
+            push,
+            lambda: self.page.simulation.push(
+                self._model, self._link, tuple(self.force.value), tuple(self.torque.value), float(self.duration.value)
+            ),
+        )
 
     def _look_controls(self, record: ModelRecord) -> None:
         links = self._links(record)
@@ -147,8 +154,11 @@ class ModelProperties(Properties):
             self.panel.on_update(self.colour, lambda value: self._paint(tuple(part / 255 for part in value)))
         if self._link and links and links[0].collisions:
             values = _contact(self.page.simulation.surface(self._model, self._link))
-            self.friction = self.add(self.gui.add_vector2("Friction", values["friction"], min=(0.0, 0.0), step=0.05,
-                                                          hint="mu and mu2: of the two directions along the surface"))
+            self.friction = self.add(
+                self.gui.add_vector2(
+                    "Friction", values["friction"], min=(0.0, 0.0), step=0.05, hint="mu and mu2: of the two directions along the surface"
+                )
+            )
             self.bounce = self.add(self.gui.add_number("Bounce", values["bounce"], min=0.0, max=1.0, step=0.05))
             for control in (self.friction, self.bounce):
                 self.panel.on_update(control, lambda _: self._set_surface())
@@ -161,40 +171,54 @@ class ModelProperties(Properties):
         if record is None:
             raise Refused(f"There is no {model} any more.")
         before = {other.name: other.visuals for other in self._links(record) if other.visuals}
-        self.page.selection.history.do(f"colour of {model}::{link}", lambda: simulation.paint(model, link, rgba),
-                                       lambda: simulation.set_looks(model, before), typed=True)
+        self.page.selection.history.do(
+            f"colour of {model}::{link}",
+            lambda: simulation.paint(model, link, rgba),
+            lambda: simulation.set_looks(model, before),
+            typed=True,
+        )
 
     def _set_surface(self) -> None:
         mu, mu2 = (float(value) for value in self.friction.value)
         simulation, model, link = self.page.simulation, self._model, self._link
         before, now = simulation.surface(model, link), SurfaceProperties(mu, mu2, float(self.bounce.value))
-        self.page.selection.history.do(f"friction of {model}::{link}", lambda: simulation.set_surface(model, link, now),
-                                       lambda: simulation.set_surface(model, link, before), typed=True)
+        self.page.selection.history.do(
+            f"friction of {model}::{link}",
+            lambda: simulation.set_surface(model, link, now),
+            lambda: simulation.set_surface(model, link, before),
+            typed=True,
+        )
 
     def _set_mass(self) -> None:
         """A new mass keeps the shape: the inertia grows with it."""
         simulation, model, link = self.page.simulation, self._model, self._link
         before, mass = simulation.link_properties(model, link), float(self.mass.value)
         factor = mass / before.mass if before.mass else 1.0
-        now = replace(before, mass=mass, inertia=tuple(v * factor for v in before.inertia),
-                      gravity=bool(self.gravity.value))
+        now = replace(before, mass=mass, inertia=tuple(v * factor for v in before.inertia), gravity=bool(self.gravity.value))
         self._put({name: value for name, value in _inertial(now).items() if name in ("diagonal", "products")})
-        self.page.selection.history.do(f"mass of {model}::{link}", lambda: simulation.set_link_properties(model, link, now),
-                                       lambda: simulation.set_link_properties(model, link, before), typed=True)
+        self.page.selection.history.do(
+            f"mass of {model}::{link}",
+            lambda: simulation.set_link_properties(model, link, now),
+            lambda: simulation.set_link_properties(model, link, before),
+            typed=True,
+        )
 
     def _set_inertia(self) -> None:
         simulation, model, link = self.page.simulation, self._model, self._link
         (ixx, iyy, izz), (ixy, ixz, iyz) = (tuple(map(float, part.value)) for part in (self.diagonal, self.products))
         before = simulation.link_properties(model, link)
         now = replace(before, com=tuple(map(float, self.com.value)), inertia=(ixx, ixy, ixz, iyy, iyz, izz))
-        self.page.selection.history.do(f"inertia of {model}::{link}", lambda: simulation.set_link_properties(model, link, now),
-                                       lambda: simulation.set_link_properties(model, link, before), typed=True)
+        self.page.selection.history.do(
+            f"inertia of {model}::{link}",
+            lambda: simulation.set_link_properties(model, link, now),
+            lambda: simulation.set_link_properties(model, link, before),
+            typed=True,
+        )
 
 
 def _inertial(now: LinkProperties) -> Dict[str, Any]:
     diagonal, products = (tuple(float(now.inertia[i]) for i in part) for part in ((0, 3, 5), (1, 2, 4)))
-    return {"mass": float(now.mass), "gravity": now.gravity, "com": tuple(map(float, now.com)), "diagonal": diagonal,
-            "products": products}
+    return {"mass": float(now.mass), "gravity": now.gravity, "com": tuple(map(float, now.com)), "diagonal": diagonal, "products": products}
 
 
 def _contact(now: SurfaceProperties) -> Dict[str, Any]:
@@ -214,8 +238,7 @@ class LightProperties(Properties):
         self._pose_controls()
         self.diffuse = self.add(self.gui.add_rgb("Colour", values["diffuse"]))
         self.shadows = self.add(self.gui.add_checkbox("Casts shadows", values["shadows"]))
-        self.panel.on_update(self.diffuse, lambda value: self._set(
-            diffuse=tuple(c / 255 for c in value) + (1.0,)))
+        self.panel.on_update(self.diffuse, lambda value: self._set(diffuse=tuple(c / 255 for c in value) + (1.0,)))
         self.panel.on_update(self.shadows, lambda value: self._set(cast_shadows=bool(value)))
         self.specular = self.add(self.gui.add_rgb("Highlights", values["specular"]))
         self.panel.on_update(self.specular, lambda value: self._set(specular=tuple(c / 255 for c in value) + (1.0,)))
@@ -223,10 +246,10 @@ class LightProperties(Properties):
             self.direction = self.add(self.gui.add_vector3("Shines along", values["direction"], step=0.05))
             self.panel.on_update(self.direction, lambda value: self._aim(tuple(map(float, value))))
         if light.type != "directional":
-            self.fading = self.add(self.gui.add_vector3(
-                "Fading", values["fading"], min=(0.0,) * 3, step=0.01, hint="constant, linear, quadratic part"))
-            self.panel.on_update(self.fading, lambda value: self._set(**dict(zip(
-                ("constant", "linear", "quadratic"), map(float, value)))))
+            self.fading = self.add(
+                self.gui.add_vector3("Fading", values["fading"], min=(0.0,) * 3, step=0.01, hint="constant, linear, quadratic part")
+            )
+            self.panel.on_update(self.fading, lambda value: self._set(**dict(zip(("constant", "linear", "quadratic"), map(float, value)))))
             self.range = self.add(self.gui.add_number("Range (m)", values["range"], min=0.0, step=0.5))
             self.panel.on_update(self.range, lambda value: self._set(range=float(value)))
 
@@ -245,6 +268,11 @@ class LightProperties(Properties):
 
 
 def _shine(light: d.Light) -> Dict[str, Any]:
-    return {"diffuse": rgb255(light.diffuse), "shadows": light.cast_shadows, "specular": rgb255(light.specular),
-            "direction": tuple(map(float, light.direction)), "range": float(light.range),
-            "fading": (float(light.constant), float(light.linear), float(light.quadratic))}
+    return {
+        "diffuse": rgb255(light.diffuse),
+        "shadows": light.cast_shadows,
+        "specular": rgb255(light.specular),
+        "direction": tuple(map(float, light.direction)),
+        "range": float(light.range),
+        "fading": (float(light.constant), float(light.linear), float(light.quadratic)),
+    }

@@ -1,4 +1,5 @@
 """Save the world, a screenshot, a replay."""
+
 from __future__ import annotations
 
 import time
@@ -18,8 +19,11 @@ class RecordPanel(Panel):
         self._save = self.gui.add_button("Save world", hint="a world file of everything as it is now")
         self._shot = self.gui.add_button("Screenshot", hint="what this page shows, as PNG")
         self._replay = self.gui.add_button("Record", hint="a page that plays by itself, without a simulator")
-        self._save.on_click(lambda event: page.attempt(event, lambda: keep(
-            event.client, f"{page.world.name or 'world'}.world", self.simulation.save().encode())))
+        self._save.on_click(
+            lambda event: page.attempt(
+                event, lambda: keep(event.client, f"{page.world.name or 'world'}.world", self.simulation.save().encode())
+            )
+        )
         self._shot.on_click(lambda event: page.attempt(event, lambda: self._screenshot(event.client)))
         self._replay.on_click(lambda event: page.attempt(event, lambda: self._toggle(event.client)))
         self._film = self.gui.add_button("Film", hint="MP4 of what this page looks at, drawn when it ends; 2 minutes")
@@ -44,8 +48,9 @@ class RecordPanel(Panel):
 
     def _toggle_film(self, client: Any) -> None:
         if self._movie is None:
-            width, height = (max(64, int(side or usual)) for side, usual in (
-                (client.camera.image_width, 1280), (client.camera.image_height, 720)))
+            width, height = (
+                max(64, int(side or usual)) for side, usual in ((client.camera.image_width, 1280), (client.camera.image_height, 720))
+            )
             self._filming, self._next = client, time.monotonic()
             self._movie = Movie(width, height)
             self._film.label = "Stop and keep the film"

@@ -1,4 +1,5 @@
 """Going back in time: moments that the simulator has kept."""
+
 from __future__ import annotations
 
 import time
@@ -21,8 +22,9 @@ class TimelinePanel(Panel):
         self._moments: Tuple[KeptMoment, ...] = ()
         self._next = 0.0
         self._record = self.gui.add_checkbox("Record", False, hint="keep moments while the simulation runs")
-        self._period = self.gui.add_number("One every (s)", 0.5, min=0.01, max=1000.0, step=0.1,
-                                           hint="of sim time; the newest 300 are kept")
+        self._period = self.gui.add_number(
+            "One every (s)", 0.5, min=0.01, max=1000.0, step=0.1, hint="of sim time; the newest 300 are kept"
+        )
         self._keep = self.gui.add_button("Keep this moment")
         self._slider = self.gui.add_slider("Moment", 0, 1, 1, 0, disabled=True)
         self._text = self.gui.add_html(note("nothing is kept yet"))
@@ -61,8 +63,10 @@ class TimelinePanel(Panel):
         self._slider.disabled = many < 1
         self._slider.max = max(1, many - 1)
         self._text.content = note(
-            f"{many} moment{'s' if many > 1 else ''}, {clock(self._moments[0].time)} to {clock(self._moments[-1].time)}" if many else
-            "nothing is kept; a model that comes or goes begins anew")
+            f"{many} moment{'s' if many > 1 else ''}, {clock(self._moments[0].time)} to {clock(self._moments[-1].time)}"
+            if many
+            else "nothing is kept; a model that comes or goes begins anew"
+        )
 
     def _go(self, which: int) -> None:
         if not self._moments:
@@ -77,7 +81,6 @@ class TimelinePanel(Panel):
         now = frame.sim_time if frame is not None else 0.0
         before = [at for at, moment in enumerate(self._moments) if moment.time < now - 1e-9]
         after = [at for at, moment in enumerate(self._moments) if moment.time > now + 1e-9]
-        which = {"First": 0, "Back": before[-1] if before else 0, "On": after[0] if after else many - 1,
-                 "Last": many - 1}[where]
+        which = {"First": 0, "Back": before[-1] if before else 0, "On": after[0] if after else many - 1, "Last": many - 1}[where]
         self._go(which)
         self._slider.value = max(0, which)

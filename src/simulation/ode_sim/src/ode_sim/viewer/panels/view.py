@@ -1,4 +1,5 @@
 """How the world is drawn."""
+
 from __future__ import annotations
 
 from typing import Any
@@ -19,10 +20,8 @@ class ViewPanel(Panel):
         for kind in Overlays.KINDS:
             box = self.gui.add_checkbox(kind.capitalize(), False)
             self._on_box(box, lambda on, kind=kind: page.overlays.show(kind, on))
-        self._on_box(self.gui.add_checkbox("Contacts", False, hint="where bodies touch, and with what force"),
-                     page.overlays.contacts)
-        self._scale = self.gui.add_number("Arrow for 1 N (m)", page.overlays.force_scale, min=1e-6, max=10.0,
-                                          step=0.001)
+        self._on_box(self.gui.add_checkbox("Contacts", False, hint="where bodies touch, and with what force"), page.overlays.contacts)
+        self._scale = self.gui.add_number("Arrow for 1 N (m)", page.overlays.force_scale, min=1e-6, max=10.0, step=0.001)
         self._scale.on_update(lambda event: setattr(page.overlays, "force_scale", float(event.target.value)))
         self._on_box(self.gui.add_checkbox("Grid", True), lambda on: setattr(page.drawing.grid, "visible", on))
         for name in ("transparent", "wireframe", "shadows"):
@@ -51,8 +50,7 @@ class ViewPanel(Panel):
             if max(map(abs, moved)) > 1e-4:
                 for client in self.page.server.get_clients().values():
                     eye, at = client.camera.position, client.camera.look_at
-                    put_eye(client, [float(v) + m for v, m in zip(eye, moved)],
-                            [float(v) + m for v, m in zip(at, moved)])
+                    put_eye(client, [float(v) + m for v, m in zip(eye, moved)], [float(v) + m for v, m in zip(at, moved)])
         self._followed = pose.p
 
     def _on_all(self, event: Any) -> None:

@@ -1,4 +1,5 @@
 """The tree of the world, and the properties of what is picked."""
+
 from __future__ import annotations
 
 import math
@@ -37,8 +38,7 @@ class WorldPanel(Panel):
             self._gizmo = self.gui.add_checkbox("Move and rotate by hand", False)
             self._resize = self.gui.add_checkbox("Resize by hand", False, hint="the three knobs of a box, sphere or cylinder")
             self._snap = self.gui.add_number("Snap to (m)", 0.0, min=0.0, max=10.0, step=0.05)
-            self._snap_angle = self.gui.add_number("Snap to (deg)", 0.0, min=0.0, max=180.0, step=5.0,
-                                                   hint="of roll, pitch and yaw")
+            self._snap_angle = self.gui.add_number("Snap to (deg)", 0.0, min=0.0, max=180.0, step=5.0, hint="of roll, pitch and yaw")
         self._search.on_update(lambda event: self.page.later(self._list_rows))
         self.on_update(self._gizmo, lambda _: self._set_gizmo())
         self.on_update(self._resize, lambda _: self._set_gizmo())
@@ -90,8 +90,7 @@ class WorldPanel(Panel):
     def _row(self, row: Row, order: float) -> Any:
         label, *what = row
         button = self.gui.add_button(label, color="gray" if not row[2] else None, order=order)
-        button.on_click(lambda event: self.page.attempt(
-            event, lambda: self.page.later(lambda: self.page.selection.select(*what))))
+        button.on_click(lambda event: self.page.attempt(event, lambda: self.page.later(lambda: self.page.selection.select(*what))))
         return button
 
     def _fitting(self) -> Tuple[Row, ...]:
@@ -146,6 +145,7 @@ class WorldPanel(Panel):
                 (history.undo if what == "Undo" else history.redo)()
             finally:
                 self.page.later(self._show_anew)
+
         return turn
 
     def _on_pull(self, geometry: Simple, done: bool) -> None:
