@@ -1,4 +1,5 @@
 """What all tests of this folder need."""
+
 import os
 import pathlib
 import shutil

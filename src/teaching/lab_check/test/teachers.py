@@ -1,4 +1,5 @@
 """Who examines, and may or may not do much on this machine: root, root without control groups, and a user."""
+
 import json
 import os
 import pathlib
@@ -49,8 +50,13 @@ class Teacher:
 
     def check(self, spec: str, script: str, cmake="", cwd=None, **environment):
         """A package ``evil`` whose configuration runs ``script`` in Python. Returns the report and what was printed while it was built."""
-        files = {"package.xml": MANIFEST.format("evil", ""), "attack.py": script, "CMakeLists.txt": CMAKE.format("evil") +
-                 "execute_process(COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/attack.py)\n" + cmake}
+        files = {
+            "package.xml": MANIFEST.format("evil", ""),
+            "attack.py": script,
+            "CMakeLists.txt": CMAKE.format("evil")
+            + "execute_process(COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/attack.py)\n"
+            + cmake,
+        }
         result, out, _ = self.examine(spec, "evil", files, cwd, **environment)
         return result, (out / "build.log").read_text()
 

@@ -1,4 +1,5 @@
 """The arm's homework from one end to the other, in the sandbox: full marks for the lab, fewer for a node that does nothing."""
+
 import json
 import pathlib
 import xml.etree.ElementTree as ET

@@ -1,5 +1,6 @@
 """What a submission's nodes, launch files and plugins may try while they run, by whoever examines: with and without the kernel's control
 groups, as root and as a user. The arm of this submission has nothing that moves it: its joint earns no point, whatever is tried."""
+
 import contextlib
 import os
 import pathlib
@@ -34,11 +35,11 @@ BOMBS = {
     "xacro.launch": '<launch><param name="robot_description" command="xacro $(find my_robot)/bomb.xacro"/></launch>',
     "include.launch": '<launch><include file="$(find my_robot)/include.launch"/></launch>',
     "eval.launch": "<launch><param name=\"x\" value=\"$(eval __import__('os').system('id'))\"/></launch>",
-    "power.launch": "<launch><param name=\"x\" value=\"$(eval 9**9**9**9)\"/></launch>",
-    "bomb.yaml": "a: &a [x, x, x, x, x, x, x, x, x]\n" + "".join(
-        f"{chr(98 + i)}: &{chr(98 + i)} [{', '.join([f'*{chr(97 + i)}'] * 9)}]\n" for i in range(9)),
+    "power.launch": '<launch><param name="x" value="$(eval 9**9**9**9)"/></launch>',
+    "bomb.yaml": "a: &a [x, x, x, x, x, x, x, x, x]\n"
+    + "".join(f"{chr(98 + i)}: &{chr(98 + i)} [{', '.join([f'*{chr(97 + i)}'] * 9)}]\n" for i in range(9)),
     "bomb.xacro": "<robot xmlns:xacro='http://www.ros.org/wiki/xacro' name='x'><xacro:macro name='m'><xacro:m/><xacro:m/></xacro:macro>"
-                  "<xacro:m/></robot>",
+    "<xacro:m/></robot>",
 }
 HEAD = """\
 title: An arm
@@ -58,8 +59,14 @@ def task(name, launch, more=(), costs=False):
 
 
 def submission(script, **more):
-    return {"package.xml": MANIFEST.format("my_robot", ""), "CMakeLists.txt": CMAKE.format("my_robot"), "arm.urdf": ARM % "",
-            "a.launch": LAUNCH % "arm", "attack.py": "#!/usr/bin/env python3\n" + script, **more}
+    return {
+        "package.xml": MANIFEST.format("my_robot", ""),
+        "CMakeLists.txt": CMAKE.format("my_robot"),
+        "arm.urdf": ARM % "",
+        "a.launch": LAUNCH % "arm",
+        "attack.py": "#!/usr/bin/env python3\n" + script,
+        **more,
+    }
 
 
 def noted(result, words):
@@ -67,10 +74,22 @@ def noted(result, words):
 
 
 # Of Gazebo 11's gazebo_ros_api_plugin: its services that change the world, and its topics.
-CHANGING = ("apply_body_wrench", "apply_joint_effort", "delete_light", "delete_model", "reset_simulation", "reset_world",
-            "set_joint_properties", "set_light_properties", "set_link_properties", "set_link_state", "set_model_configuration",
-            "set_model_state", "set_physics_properties")
-WORLD = r'''
+CHANGING = (
+    "apply_body_wrench",
+    "apply_joint_effort",
+    "delete_light",
+    "delete_model",
+    "reset_simulation",
+    "reset_world",
+    "set_joint_properties",
+    "set_light_properties",
+    "set_link_properties",
+    "set_link_state",
+    "set_model_configuration",
+    "set_model_state",
+    "set_physics_properties",
+)
+WORLD = r"""
 import os, socket, sys, threading, time, rospy
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from gazebo_wire import Wire, field, fields
@@ -115,7 +134,7 @@ if sys.argv[1] == "transport":
             publish("/gazebo/%s/request" % world, "gazebo.msgs.Request", field(1, 7) + field(2, "entity_delete") + field(3, "nobody"))]
     print("TOLD", flush=True)
 rospy.spin()
-'''
+"""
 
 
 def test_whatever_changes_the_world_is_noted_with_its_name(teacher):
@@ -128,12 +147,16 @@ def test_whatever_changes_the_world_is_noted_with_its_name(teacher):
     missing = [name for name in CHANGING if not noted(result, f"the node /evil used /gazebo/{name} 1 times")]
     assert not missing, (missing, result["notes"], log)
     assert "TOLD" in log, log
-    for words in ("/evil used /gazebo/set_model_state 1", "/evil used /gazebo/set_link_state 1",
-                  "transport.* used /gazebo/reset_simulation 1", "transport.* used /gazebo/delete_model 1"):
+    for words in (
+        "/evil used /gazebo/set_model_state 1",
+        "/evil used /gazebo/set_link_state 1",
+        "transport.* used /gazebo/reset_simulation 1",
+        "transport.* used /gazebo/delete_model 1",
+    ):
         assert noted(result, words), (words, result["notes"], log)
 
 
-IMPOSTER = r'''
+IMPOSTER = r"""
 import ctypes, os, pathlib, signal, socket, subprocess, sys, threading, time, xmlrpc.client
 import rosgraph, rospy
 from controller_manager_msgs.msg import ControllerState
@@ -180,7 +203,7 @@ while not rospy.is_shutdown():
     clock.publish(Clock(rospy.Time(1e6)))
     tf.publish(TFMessage([moved]))
     time.sleep(0.01)
-'''
+"""
 
 
 @contextlib.contextmanager
@@ -204,8 +227,10 @@ def test_nobody_passes_for_the_simulator_its_master_or_its_clock(teacher):
         script = IMPOSTER.replace("HOST_PORT", str(port)).replace("HOST_NAME", name).replace("HOST_PATH", path)
         managed = ["controllers: {running: [best]}"]
         result, out, _ = teacher.examine(
-            HEAD + task("noted", "a.launch attack:=x", managed) + task("costs", "a.launch attack:=x", managed, costs=True), "my_robot",
-            submission(script))
+            HEAD + task("noted", "a.launch attack:=x", managed) + task("costs", "a.launch attack:=x", managed, costs=True),
+            "my_robot",
+            submission(script),
+        )
     log = (out / "launch_0.log").read_text()
     assert "FORGES" in log, log
     assert [task["points"] for task in result["tasks"]] == [10, 10, 0], reasons(result)
@@ -214,7 +239,7 @@ def test_nobody_passes_for_the_simulator_its_master_or_its_clock(teacher):
     assert noted(result, "controller manager that was asked is the node /evil's"), result["notes"]
 
 
-FLOOD = r'''
+FLOOD = r"""
 import os, socket, sys, threading, time, xmlrpc.client
 import rosgraph
 uri, what = os.environ["ROS_MASTER_URI"], sys.argv[1]
@@ -262,7 +287,7 @@ if what == "doors":
             held.append(near)
     print("HELD", len(held), flush=True)
 time.sleep(10000)
-'''
+"""
 
 
 def test_floods_of_parameters_names_and_connections_are_the_submissions_fault(teacher):
@@ -296,7 +321,7 @@ def _memory_of_masters():
     return most
 
 
-HIDING = '''
+HIDING = """
 import gc, os, sys
 from gazebo_ros.plugin import ModelPlugin
 class Hide(ModelPlugin):
@@ -308,13 +333,15 @@ for name in [name for name in sys.modules if name.startswith("my_robot")]:
 for one in gc.get_objects():
     if isinstance(one, set) and any("my_robot" in str(each) for each in list(one)[:1000]):
         one.clear()
-'''
+"""
 PLUGIN = {
     "plugins.xml": '<library path="src"><class name="libhide.so" type="my_robot.hide.Hide" base_class_type="gazebo_ros.ModelPlugin"/>'
-                   "</library>",
-    "src/my_robot/__init__.py": "", "src/my_robot/hide.py": HIDING,
+    "</library>",
+    "src/my_robot/__init__.py": "",
+    "src/my_robot/hide.py": HIDING,
     "arm.urdf": ARM % "<gazebo><plugin name='hide' filename='libhide.so'/></gazebo>",
-    "package.xml": MANIFEST.format("my_robot", "<depend>gazebo_ros</depend><export><gazebo_ros plugin='${prefix}/plugins.xml'/></export>")}
+    "package.xml": MANIFEST.format("my_robot", "<depend>gazebo_ros</depend><export><gazebo_ros plugin='${prefix}/plugins.xml'/></export>"),
+}
 
 
 def test_a_plugin_that_hides_itself_is_named(teacher):

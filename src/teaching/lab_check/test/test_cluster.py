@@ -1,4 +1,5 @@
 """Grading on a cluster: what travels, which nodes are fit, and the same marks and retries as the pool gives on Ray's own local one."""
+
 import os
 import pathlib
 import signal

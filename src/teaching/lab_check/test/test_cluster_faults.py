@@ -1,5 +1,6 @@
 """A cluster of four nodes on this machine, each a raylet of its own: the pool's marks, and what is lost when a node, the driver or the head
 is killed in mid-run. Submissions sleep while CMake configures them, until the test ends their sleep: nothing here hopes for a moment."""
+
 import csv
 import functools
 import os
@@ -23,8 +24,10 @@ build: {points: 3, timeout: 3000}
 tasks:
   - {name: A, points: 4, launch: '', expect: [{file: {path: '*/readme.txt', contains: hello}}, {file: {path: '*/x'}}]}
 """
-MANIFEST = ("<package format='2'><name>p</name><version>1.0.0</version><description>d</description>"
-            "<maintainer email='a@b.de'>m</maintainer><license>BSD</license><buildtool_depend>catkin</buildtool_depend></package>")
+MANIFEST = (
+    "<package format='2'><name>p</name><version>1.0.0</version><description>d</description>"
+    "<maintainer email='a@b.de'>m</maintainer><license>BSD</license><buildtool_depend>catkin</buildtool_depend></package>"
+)
 CMAKE = "cmake_minimum_required(VERSION 3.10)\nproject(p)\nfind_package(catkin REQUIRED)\ncatkin_package()\n"
 POINTS = ["5.0", "3.0", "5.0", "3.0", "5.0", "3.0"]  # of the submissions in turn: a file that every second one lacks
 
@@ -70,9 +73,24 @@ class Nodes:
     def add(self, *words):
         log = self.folder / f"start{len(self.processes)}.log"
         with open(log, "w", encoding="utf-8") as file:
-            process = subprocess.Popen(["rosrun", "lab_check", "ray", "start", *words, "--num-cpus=1", "--min-worker-port=0",
-                                        "--max-worker-port=0", "--object-store-memory=100000000", "--block"], stdout=file, stderr=file,
-                                       start_new_session=True, env={**os.environ, "RAY_AUTH_MODE": "disabled"})
+            process = subprocess.Popen(
+                [
+                    "rosrun",
+                    "lab_check",
+                    "ray",
+                    "start",
+                    *words,
+                    "--num-cpus=1",
+                    "--min-worker-port=0",
+                    "--max-worker-port=0",
+                    "--object-store-memory=100000000",
+                    "--block",
+                ],
+                stdout=file,
+                stderr=file,
+                start_new_session=True,
+                env={**os.environ, "RAY_AUTH_MODE": "disabled"},
+            )
         self.processes.append(process)
         wait_until(lambda: "block forever" in log.read_text() or process.poll() is not None, log)
         if process.poll() is not None:
@@ -121,12 +139,17 @@ def grade(place, out, *words):
     """A driver; what it says goes to a file."""
     submissions = sorted(map(str, (place / "submissions").iterdir()))
     with open(place / f"{out}.txt", "a", encoding="utf-8") as file:
-        return subprocess.Popen(["rosrun", "lab_check", "grade", str(place / "spec.yaml"), *submissions, "--out", str(place / out),
-                                 "--no-films", *words], stdout=file, stderr=file, start_new_session=True)
+        return subprocess.Popen(
+            ["rosrun", "lab_check", "grade", str(place / "spec.yaml"), *submissions, "--out", str(place / out), "--no-films", *words],
+            stdout=file,
+            stderr=file,
+            start_new_session=True,
+        )
 
 
 def finish(driver):
     """Whoever sleeps is woken until the driver has ended; its exit code."""
+
     def woken():
         wake()
         return driver.poll() is not None

@@ -1,4 +1,5 @@
 """Marks that a submission tries to forge: an arm that nothing moves, and nodes that say, or see to it, that it moved."""
+
 import pathlib
 
 import pytest
@@ -72,14 +73,14 @@ def examine(tmp_path, node="", cmake="", extra="", models="arm"):
     return result, log.read_text() if log.exists() else ""
 
 
-CUSTOM = r'''
+CUSTOM = r"""
 import sys
 print("CUSTOM", sys.orig_argv, flush=True)
 if "lab_check.probe" in " ".join(sys.orig_argv):
     import os
     os.write(2, b"INSIDE THE SIMULATOR\n")
-'''
-FAKE_STATE = '''
+"""
+FAKE_STATE = """
 import json, rospy
 from std_srvs.srv import Empty, Trigger, TriggerResponse
 rospy.init_node("evil")
@@ -90,7 +91,7 @@ rospy.wait_for_service("/gazebo/pause_physics")
 rospy.Service("/gazebo/pause_physics", Empty, lambda request: None)
 print("FORGED", flush=True)
 rospy.spin()
-'''
+"""
 
 
 def test_only_the_simulator_is_measured(tmp_path):
@@ -98,8 +99,14 @@ def test_only_the_simulator_is_measured(tmp_path):
     cmake = "".join(
         f"file(COPY ${{CMAKE_CURRENT_SOURCE_DIR}}/custom.py DESTINATION {folder})\nfile(RENAME {folder}/custom.py {folder}/{name}.py)\n"
         for name in ("usercustomize", "sitecustomize")
-        for folder in ("$ENV{HOME}/.local/lib/python3.11/site-packages", "$ENV{HOME}/.local/lib/python3.13/site-packages",
-                       "${CATKIN_DEVEL_PREFIX}/lib/python3/dist-packages", "$ENV{HOME}/.ros", "$ENV{HOME}"))
+        for folder in (
+            "$ENV{HOME}/.local/lib/python3.11/site-packages",
+            "$ENV{HOME}/.local/lib/python3.13/site-packages",
+            "${CATKIN_DEVEL_PREFIX}/lib/python3/dist-packages",
+            "$ENV{HOME}/.ros",
+            "$ENV{HOME}",
+        )
+    )
     cmake += 'file(WRITE ${CATKIN_DEVEL_PREFIX}/etc/catkin/profile.d/99.x.sh "export LD_PRELOAD=/nowhere/evil.so GAZEBO_EVIL=yes\\n")\n'
     result, log = examine(tmp_path, FAKE_STATE, f"file(WRITE ${{CMAKE_CURRENT_SOURCE_DIR}}/custom.py [==[{CUSTOM}]==])\n" + cmake)
     assert not result.fault and {task.name: task.points for task in result.tasks}["Build"] == 10
@@ -110,7 +117,7 @@ def test_only_the_simulator_is_measured(tmp_path):
     assert any("registered /gazebo/pause_physics over the simulator's" in note for note in result.notes), result.notes
 
 
-BY_HAND = '''
+BY_HAND = """
 import rospy
 from gazebo_msgs.srv import SetModelConfiguration
 rospy.init_node("evil")
@@ -120,7 +127,7 @@ rate = rospy.Rate(40)
 while not rospy.is_shutdown():
     put("arm", "robot_description", ["j0"], [0.5])
     rate.sleep()
-'''
+"""
 
 
 def test_who_interferes_is_named_and_costs_what_the_spec_says(tmp_path):
@@ -140,7 +147,7 @@ def test_a_second_model_with_the_joints_name_is_a_doubt(tmp_path):
     assert any("the joint j0 is there in several models (" in note for note in result.notes), result.notes
 
 
-UNREADABLE = r'''
+UNREADABLE = r"""
 import os, socket, threading, time, xmlrpc.client
 def serve(door, answer):
     while True:
@@ -174,7 +181,7 @@ for answer in (junk, nothing, slow, other):
     master.registerService(name, "/gazebo/lab_check_state", "rosrpc://localhost:%d" % door.getsockname()[1], uri)
 print("REGISTERED", master.shutdown("/evil", "end"), flush=True)
 time.sleep(10000)
-'''
+"""
 
 
 def test_what_cannot_be_read_is_the_submissions_fault(tmp_path):

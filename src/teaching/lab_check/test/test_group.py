@@ -1,4 +1,5 @@
 """The kernel's bound on the processes of a submission."""
+
 import os
 import signal
 import subprocess

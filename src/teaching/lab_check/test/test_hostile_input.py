@@ -1,4 +1,5 @@
 """What a submission hands in to end the checker, to keep it busy, or to pass for something else: archives, manifests, texts and names."""
+
 import bz2
 import gzip
 import html.parser
@@ -84,12 +85,18 @@ TARS = a_tar(("p/noise.bin", NOISE))
 ARCHIVES = {
     "deflate.zip": (lambda: flipped(d := a_zip(("p/x.txt", "project(p)\n" * 400)), d.find(b"p/x.txt") + 8), "cannot be unpacked"),
     "crc.zip": (lambda: flipped(d := a_zip(("p/x.txt", "x")), d.rfind(b"PK\1\2") + 16, 1), "Bad CRC-32"),
-    "utf8.zip": (lambda: bytes(a_zip(("p/\u00e9\u00e9.txt", "x"))).replace("\u00e9\u00e9".encode(), b"\xff\xfe\xff\xfe"),
-                 "cannot be unpacked"),
-    "lzma.zip": (lambda: flipped(d := a_zip(("p/noise.bin", NOISE), kind=zipfile.ZIP_LZMA), d.find(b"p/noise.bin") + 23, 28, 0x5A),
-                 "cannot be unpacked"),
-    "bzip2.zip": (lambda: flipped(d := a_zip(("p/noise.bin", NOISE), kind=zipfile.ZIP_BZIP2), d.find(b"p/noise.bin") + 30, 28),
-                  "cannot be unpacked"),
+    "utf8.zip": (
+        lambda: bytes(a_zip(("p/\u00e9\u00e9.txt", "x"))).replace("\u00e9\u00e9".encode(), b"\xff\xfe\xff\xfe"),
+        "cannot be unpacked",
+    ),
+    "lzma.zip": (
+        lambda: flipped(d := a_zip(("p/noise.bin", NOISE), kind=zipfile.ZIP_LZMA), d.find(b"p/noise.bin") + 23, 28, 0x5A),
+        "cannot be unpacked",
+    ),
+    "bzip2.zip": (
+        lambda: flipped(d := a_zip(("p/noise.bin", NOISE), kind=zipfile.ZIP_BZIP2), d.find(b"p/noise.bin") + 30, 28),
+        "cannot be unpacked",
+    ),
     "short.zip": (lambda: central(a_zip(("p/noise.bin", NOISE)), 20, 200), "cannot be unpacked"),
     "encrypted.zip": (encrypted, "is encrypted; hand it in without a password"),
     "offset.zip": (lambda: central(a_zip(), 42, 0x7FFFFFFF), "cannot be unpacked"),
@@ -289,10 +296,31 @@ def test_copies_in_archives_are_found_like_those_in_folders(tmp_path):
 
 # ---------------------------------------------------------------------------------------------- names
 
-NAMES = ["class.sqlite", "class.sqlite-wal", "gradebook.html", "gradebook.csv", "comparison.html", "submissions", "javascript:alert(1)",
-         "a#b", "50%", "a?b=c", "data:text,x", "<img src=x onerror=alert(1)>", "a'b\"c", "line\nbreak",
-         "\x1b]0;title\x07", "\u202etxt", "n" * 255, "\u00e9" * 127, "=cmd()", " ", "&amp;",
-         os.fsdecode(b"\xff" * 255), "..."]
+NAMES = [
+    "class.sqlite",
+    "class.sqlite-wal",
+    "gradebook.html",
+    "gradebook.csv",
+    "comparison.html",
+    "submissions",
+    "javascript:alert(1)",
+    "a#b",
+    "50%",
+    "a?b=c",
+    "data:text,x",
+    "<img src=x onerror=alert(1)>",
+    "a'b\"c",
+    "line\nbreak",
+    "\x1b]0;title\x07",
+    "\u202etxt",
+    "n" * 255,
+    "\u00e9" * 127,
+    "=cmd()",
+    " ",
+    "&amp;",
+    os.fsdecode(b"\xff" * 255),
+    "...",
+]
 
 
 class Links(html.parser.HTMLParser):

@@ -1,4 +1,5 @@
 """Each kind of command and expectation in one examination for real: what is met is told as met, what is not as not, with its reason."""
+
 import pathlib
 
 import pytest
@@ -66,7 +67,12 @@ def test_the_report_has_pictures_films_plots_and_what_to_type(examined):
         if any(v.kind in ("joint", "moved", "image") and v.passed for v in task.verdicts):
             assert pathlib.Path(task.film).read_bytes()[4:8] == b"ftyp", task.name
     assert page.count("<video") >= 6 and page.count("svg+xml") >= 4
-    for line in ("roslaunch every_lab every.launch", "rosservice call /allow '{&quot;data&quot;: true}'", "rosrun every_lab picky.py crash",
-                 "rosrun every_lab keys.py   # then type &quot;wwwwwq&quot;", "rostopic pub -1 /mast/command std_msgs/Float64"):
+    for line in (
+        "roslaunch every_lab every.launch",
+        "rosservice call /allow '{&quot;data&quot;: true}'",
+        "rosrun every_lab picky.py crash",
+        "rosrun every_lab keys.py   # then type &quot;wwwwwq&quot;",
+        "rostopic pub -1 /mast/command std_msgs/Float64",
+    ):
         assert line.replace("'", "&#x27;") in page, line
     assert "[ERROR]" in next(task for task in result.tasks if "keys" in task.name and task.name[0] == "-").log[0]

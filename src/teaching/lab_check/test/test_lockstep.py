@@ -1,4 +1,5 @@
 """Who rests, who never does, and who only works for long."""
+
 import subprocess
 import sys
 import time

@@ -11,7 +11,7 @@ import xml.etree.ElementTree as ET
 import zipfile
 
 import pytest
-from lab_check import engines, explain, faults, gradebook, grade, report, scratch, similar, spec, staging, store, supervise
+from lab_check import engines, explain, faults, grade, gradebook, report, scratch, similar, spec, staging, store, supervise
 from lab_check.checks.files import complain, insane
 from lab_check.outcome import Result, TaskResult, Verdict, failed_task, share
 
@@ -125,9 +125,7 @@ def test_reports_agree_and_let_no_markup_through(tmp_path):
     page = (tmp_path / "report.html").read_text()
     assert "<script>" not in page and "&lt;script&gt;" in page and "a hint" in page and "roslaunch a b" in page and "svg+xml" in page
     suite = ET.parse(tmp_path / "junit.xml").getroot()
-    assert (
-        suite.get("tests") == "1" and suite.get("failures") == "1" and suite.find("testcase/failure").get("message") == "5 of 10 points"
-    )
+    assert suite.get("tests") == "1" and suite.get("failures") == "1" and suite.find("testcase/failure").get("message") == "5 of 10 points"
     scores = json.loads((tmp_path / "results.json").read_text())
     assert scores["score"] == 5 and scores["tests"][0]["max_score"] == 10
     again = Result.from_data(json.loads((tmp_path / "report.json").read_text()))
@@ -150,8 +148,10 @@ def test_a_checker_that_failed_gives_no_marks_at_all(tmp_path):
         book.enlist(name, tmp_path / name, "1")
     book.failed("a", "its worker was killed by signal 9")
     gradebook.write(sheet, book, tmp_path)
-    assert (tmp_path / "gradebook.csv").read_text().splitlines()[1:] == ["a,,,,not examined: its worker was killed by signal 9",
-                                                                         "b,,,,not examined yet"]
+    assert (tmp_path / "gradebook.csv").read_text().splitlines()[1:] == [
+        "a,,,,not examined: its worker was killed by signal 9",
+        "b,,,,not examined yet",
+    ]
     assert "not examined: its worker was killed by signal 9" in (tmp_path / "gradebook.html").read_text()
 
 
@@ -179,11 +179,27 @@ def test_what_was_said_since_a_mark():
     assert said.text(late) == "the end" and said.text(mark).startswith("after\n") and "bytes left out" in said.text(mark)
 
 
-REFUSALS = ["Usage: node j1 j2", "usage: arm_node [-h]", "[ERROR] [1795390434.5]: four angles, please", "Error: 3 angles",
-            "Invalid argument", "[ INFO] [1795390434.5, 2.1]: error: no angle", "angle 9 is out of range", "'abc' is not a number",
-            "can't read 'abc'", "fine\n\x1b[31m[FATAL] [1.0]: no\x1b[0m", "You must give four angles"]
-WORK = ["", "moving to 0 0 0 0", "[ INFO] [1.0]: position error 0.01", "[ WARN] [1.0]: slow", "tracking error: 0.2",
-        "[ INFO] [1.0]: can open"]
+REFUSALS = [
+    "Usage: node j1 j2",
+    "usage: arm_node [-h]",
+    "[ERROR] [1795390434.5]: four angles, please",
+    "Error: 3 angles",
+    "Invalid argument",
+    "[ INFO] [1795390434.5, 2.1]: error: no angle",
+    "angle 9 is out of range",
+    "'abc' is not a number",
+    "can't read 'abc'",
+    "fine\n\x1b[31m[FATAL] [1.0]: no\x1b[0m",
+    "You must give four angles",
+]
+WORK = [
+    "",
+    "moving to 0 0 0 0",
+    "[ INFO] [1.0]: position error 0.01",
+    "[ WARN] [1.0]: slow",
+    "tracking error: 0.2",
+    "[ INFO] [1.0]: can open",
+]
 
 
 @pytest.mark.parametrize("said", REFUSALS)
@@ -340,9 +356,11 @@ def test_a_full_disk_is_one_line_and_the_same_command_goes_on(tmp_path):
         package(tmp_path / "class" / f"s{number}")
         (tmp_path / "class" / f"s{number}" / "x").write_text("x")
     grade_it = f"rosrun lab_check grade {tmp_path}/spec.yaml {tmp_path}/class/* --workers 1 --out {tmp_path}/out"
-    script = (f"mkdir {tmp_path}/out; mount -t tmpfs -o size=120k full {tmp_path}/out && head -c 60000 /dev/zero > {tmp_path}/out/fills; "
-              f"{grade_it}; echo first $?; rm -f {tmp_path}/out/fills; mount -o remount,size=5M {tmp_path}/out; {grade_it}; echo then $?; "
-              f"cat {tmp_path}/out/gradebook.csv")
+    script = (
+        f"mkdir {tmp_path}/out; mount -t tmpfs -o size=120k full {tmp_path}/out && head -c 60000 /dev/zero > {tmp_path}/out/fills; "
+        f"{grade_it}; echo first $?; rm -f {tmp_path}/out/fills; mount -o remount,size=5M {tmp_path}/out; {grade_it}; echo then $?; "
+        f"cat {tmp_path}/out/gradebook.csv"
+    )
     done = subprocess.run(["unshare", "--user", "--map-root-user", "--mount", "bash", "-c", script], capture_output=True, text=True)
     if "Operation not permitted" in done.stderr:
         pytest.skip(done.stderr)
@@ -355,7 +373,7 @@ def test_a_full_disk_is_one_line_and_the_same_command_goes_on(tmp_path):
 def test_a_name_that_is_no_utf8_does_not_stop_the_class(tmp_path):
     name = os.fsdecode(b"\xff\xfename")
     package(tmp_path / name)
-    (found, path), = grade.named([tmp_path / name]).items()
+    ((found, path),) = grade.named([tmp_path / name]).items()
     book = store.Store(tmp_path / "class.sqlite")
     book.enlist(found, path, store.fingerprint(path, ""))
     assert found == "\ufffd\ufffdname" and book.path_of(found) == path

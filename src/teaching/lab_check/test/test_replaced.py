@@ -1,5 +1,6 @@
 """What a submission puts in the place of its own files while it is built: links out of its home, pipes, folders without end, a full disk.
 The checker reads those files afterwards, with more rights than the submission has."""
+
 import os
 import pathlib
 import sqlite3
@@ -91,7 +92,10 @@ def test_what_was_replaced_leads_nowhere(teacher, what):
     result, _ = teacher.check(SPEC, REPLACED[what].replace("PRECIOUS", str(precious)), FAILS)
     assert result["points"] == 0, reasons(result)
     assert sorted(str(path.relative_to(precious)) for path in precious.rglob("*.txt")) == [
-        "build/answer.txt", "evil/answer.txt", "src/answer.txt"]
+        "build/answer.txt",
+        "evil/answer.txt",
+        "src/answer.txt",
+    ]
     assert len([note for note in result["notes"] if "has the name of a report" in note]) <= 10
 
 
@@ -107,8 +111,13 @@ except OSError as error:
     print(error)
 """
     launch = "  - {name: L, points: 5, launch: evil a.launch, ready: {timeout: 20}, expect: [{node: /nobody}]}\n"
-    files = {"package.xml": MANIFEST.format("evil", ""), "fill.py": fill, "a.launch": "<launch/>", "CMakeLists.txt": CMAKE.format("evil") +
-             "add_custom_target(full ALL COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/fill.py)\n"}
+    files = {
+        "package.xml": MANIFEST.format("evil", ""),
+        "fill.py": fill,
+        "a.launch": "<launch/>",
+        "CMakeLists.txt": CMAKE.format("evil")
+        + "add_custom_target(full ALL COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/fill.py)\n",
+    }
     result, _, _ = teacher.examine(SPEC + launch, "evil", files)
     assert "the disk that a submission gets is full" in result["tasks"][-1]["verdicts"][0]["reason"], reasons(result)
 
@@ -141,8 +150,13 @@ except OSError as error:
 def test_no_daemon_outlives_the_build(teacher):
     launch = '<launch><node name="looks" pkg="evil" type="looks.py" output="screen"/></launch>'
     attack = "execute_process(COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/attack.py OUTPUT_QUIET ERROR_QUIET TIMEOUT 5)\n"
-    files = {"package.xml": MANIFEST.format("evil", ""), "CMakeLists.txt": CMAKE.format("evil") + attack, "attack.py": DAEMON,
-             "looks.py": "#!/usr/bin/env python3\n" + LOOKS, "a.launch": launch}
+    files = {
+        "package.xml": MANIFEST.format("evil", ""),
+        "CMakeLists.txt": CMAKE.format("evil") + attack,
+        "attack.py": DAEMON,
+        "looks.py": "#!/usr/bin/env python3\n" + LOOKS,
+        "a.launch": launch,
+    }
     task = "  - {name: L, points: 5, launch: evil a.launch, ready: {timeout: 5}, expect: [{node: /nobody}]}\n"
     result, out, _ = teacher.examine(SPEC + task, "evil", files)
     log = (out / "launch_1.log").read_text()
@@ -209,8 +223,15 @@ def test_reports_are_written_through_no_link(tmp_path, link):
         assert done.returncode == 0 and not (alice / "marks" / link).is_symlink(), done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("name, words", [("--unsafe", ["grade", "../spec.yaml"]), ("--out=x", ["grade", "../spec.yaml"]),
-                                         ("-h", ["check", "../spec.yaml"]), ("--least=0", ["similar"])])
+@pytest.mark.parametrize(
+    "name, words",
+    [
+        ("--unsafe", ["grade", "../spec.yaml"]),
+        ("--out=x", ["grade", "../spec.yaml"]),
+        ("-h", ["check", "../spec.yaml"]),
+        ("--least=0", ["similar"]),
+    ],
+)
 def test_a_submission_is_called_like_an_option(tmp_path, name, words):
     folder = tmp_path / "class"
     (folder / name).mkdir(parents=True)

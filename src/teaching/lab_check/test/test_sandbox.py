@@ -85,7 +85,9 @@ def test_threads_are_counted_as_well(place):
     with group.bounded(1) as bound:
         if not bound and os.getuid() == 0:
             pytest.skip("root can make no control group here, and nothing else holds for root")
-    _, log, _ = submit(place, """python3 -c '
+    _, log, _ = submit(
+        place,
+        """python3 -c '
 import threading
 over, count = threading.Event(), 0
 try:
@@ -95,7 +97,8 @@ try:
 except RuntimeError as error:
     print(count, "threads, then:", error, flush=True)
 over.set()'
-""")
+""",
+    )
     found = re.search(r"(\d+) threads, then: can't start new thread", log)
     assert found and 600 < int(found[1]) < 800, log
 

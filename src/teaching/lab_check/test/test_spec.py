@@ -1,4 +1,5 @@
 """Every kind of mistake in a spec gets a line with its place and what to do."""
+
 import pathlib
 
 import pytest
@@ -31,24 +32,32 @@ def test_a_good_one_gets_its_defaults(tmp_path):
     assert found.points == 3 and found.limit("disk") == 1e9 and found.data["tasks"][0]["launch"] == "p a.launch"
 
 
-@pytest.mark.parametrize("old, new, line, words", [
-    ("points: 3", "pionts: 3", 5, "did you mean 'points'"),
-    ("points: 3", "points: -3", 5, "-3 is less than 0"),
-    ("points: 3", "points: many", 5, '"many" is no number'),
-    ("tolerance: 0.1", "tolerance: [1]", 9, "is no number"),
-    (", tolerance: 0.1", "", 9, "'tolerance' is missing"),
-    ("name: A", "name: ''", 4, "too short"),
-    ("title: T", "titel: T", 1, "did you mean 'title'"),
-    ("- joint:", "- joints:", 9, "did you mean 'joint'"),
-    ("{command: p node}", "{}", 7, "'command' is missing"),
-    ("launch: p a.launch\n", "", 8, "'joint' needs something that runs"),
-    ("launch: p a.launch\n", "launch: p a.launch\nlimits: {disk: big}\n", 3, "a size such as 500 MB"),
-    ("launch: p a.launch\n", "launch: p a.launch\nlaunch: q\n", 3, "second time"),
-    ("      - joint: {name: j0, value: 1, tolerance: 0.1}\n", "      - exit: {run: other}\n", 9, "no 'run' of this task is named 'other'"),
-    ("      - joint: {name: j0, value: 1, tolerance: 0.1}\n", "      - {node: a, topic: {name: b}}\n", 9, "several kinds"),
-    ("      - joint: {name: j0, value: 1, tolerance: 0.1}\n", "      - python: {file: no.py, function: f}\n", 9, "there is no file"),
-    ("title: T", "title: [T", 2, "no YAML"),
-])
+@pytest.mark.parametrize(
+    "old, new, line, words",
+    [
+        ("points: 3", "pionts: 3", 5, "did you mean 'points'"),
+        ("points: 3", "points: -3", 5, "-3 is less than 0"),
+        ("points: 3", "points: many", 5, '"many" is no number'),
+        ("tolerance: 0.1", "tolerance: [1]", 9, "is no number"),
+        (", tolerance: 0.1", "", 9, "'tolerance' is missing"),
+        ("name: A", "name: ''", 4, "too short"),
+        ("title: T", "titel: T", 1, "did you mean 'title'"),
+        ("- joint:", "- joints:", 9, "did you mean 'joint'"),
+        ("{command: p node}", "{}", 7, "'command' is missing"),
+        ("launch: p a.launch\n", "", 8, "'joint' needs something that runs"),
+        ("launch: p a.launch\n", "launch: p a.launch\nlimits: {disk: big}\n", 3, "a size such as 500 MB"),
+        ("launch: p a.launch\n", "launch: p a.launch\nlaunch: q\n", 3, "second time"),
+        (
+            "      - joint: {name: j0, value: 1, tolerance: 0.1}\n",
+            "      - exit: {run: other}\n",
+            9,
+            "no 'run' of this task is named 'other'",
+        ),
+        ("      - joint: {name: j0, value: 1, tolerance: 0.1}\n", "      - {node: a, topic: {name: b}}\n", 9, "several kinds"),
+        ("      - joint: {name: j0, value: 1, tolerance: 0.1}\n", "      - python: {file: no.py, function: f}\n", 9, "there is no file"),
+        ("title: T", "title: [T", 2, "no YAML"),
+    ],
+)
 def test_mistakes_are_named_with_their_line(tmp_path, old, new, line, words):
     assert old in GOOD
     found = problems(tmp_path, GOOD.replace(old, new, 1))
@@ -100,11 +109,19 @@ def keys_of(schema):
             yield from keys_of(part)
 
 
-@pytest.mark.parametrize("wrong, right", [
-    ("topic: {name: /a, rate: 10}", "rate: [9, 11]"), ("moved: {distance: 2}", "by: [0.9, 1.1]"), ("node: {name: /x}", "node: /my_node"),
-    ("still: {joints: j0}", "joints: [j0, j1]"), ("path: {points: [1, 2], tolerance: 0.1}", "points: [[1, 0], [1, 1]]"),
-    ("no_errors: true", 'ignore: ["No p gain"]'), ("image: {topic: /a, colour: red}", "topic: /camera/image_raw"),
-    ("controllers: {running: all}", "running: [j0_controller")])
+@pytest.mark.parametrize(
+    "wrong, right",
+    [
+        ("topic: {name: /a, rate: 10}", "rate: [9, 11]"),
+        ("moved: {distance: 2}", "by: [0.9, 1.1]"),
+        ("node: {name: /x}", "node: /my_node"),
+        ("still: {joints: j0}", "joints: [j0, j1]"),
+        ("path: {points: [1, 2], tolerance: 0.1}", "points: [[1, 0], [1, 1]]"),
+        ("no_errors: true", 'ignore: ["No p gain"]'),
+        ("image: {topic: /a, colour: red}", "topic: /camera/image_raw"),
+        ("controllers: {running: all}", "running: [j0_controller"),
+    ],
+)
 def test_a_mistake_is_told_with_the_right_form(tmp_path, wrong, right):
     found = problems(tmp_path, GOOD.replace("joint: {name: j0, value: 1, tolerance: 0.1}", wrong))
     assert "spec.yaml:9:" in found and "; the right form: " in found and right in found
@@ -115,18 +132,34 @@ def test_every_example_of_the_schema_is_good(tmp_path):
     definitions = spec.SCHEMA["definitions"]
     commands = [kind["examples"][0] for kind in definitions["command"]["properties"].values()]
     expectations = [kind["examples"][0] for name, kind in definitions["expectation"]["properties"].items() if name not in spec.EXTRAS]
-    lines = ["title: T", "launch: p a.launch", "tasks:", "  - name: A", "    do:", *(f"      - {line}" for line in commands),
-             "    expect:", *(f"      - {line}" for line in expectations)]
+    lines = [
+        "title: T",
+        "launch: p a.launch",
+        "tasks:",
+        "  - name: A",
+        "    do:",
+        *(f"      - {line}" for line in commands),
+        "    expect:",
+        *(f"      - {line}" for line in expectations),
+    ]
     (tmp_path / "spec.yaml").write_text("\n".join(lines))
     assert len(spec.load(tmp_path / "spec.yaml").data["tasks"][0]["expect"]) == len(expectations) > 20
 
 
-@pytest.mark.parametrize("launch, holds", [
-    ("arm_gazebo arm_gazebo.launch", ["moving: 4, joints: [j0, j1, j2, j3]", "model: arm", "command of j3", "arm_description",
-                                 "count: 5"]),
-    ("mbot_gazebo view_mbot_gazebo_room.launch", ["topic: /cmd_vel, type: geometry_msgs/Twist", "moved: {by: [0.8, 1.2]",
-                                                "models: [mbot]"]),
-    ("myur5_description myur5.launch", ["/arm_controller/follow_joint_trajectory", "moving: 6", "joint: {name: wrist_3_joint"])])
+@pytest.mark.parametrize(
+    "launch, holds",
+    [
+        (
+            "arm_gazebo arm_gazebo.launch",
+            ["moving: 4, joints: [j0, j1, j2, j3]", "model: arm", "command of j3", "arm_description", "count: 5"],
+        ),
+        (
+            "mbot_gazebo view_mbot_gazebo_room.launch",
+            ["topic: /cmd_vel, type: geometry_msgs/Twist", "moved: {by: [0.8, 1.2]", "models: [mbot]"],
+        ),
+        ("myur5_description myur5.launch", ["/arm_controller/follow_joint_trajectory", "moving: 6", "joint: {name: wrist_3_joint"]),
+    ],
+)
 def test_a_first_spec_for_a_launch_file_is_good_as_it_stands(tmp_path, launch, holds):
     """What it must hold is what the labs' URDF and launch files say. Windows are no nodes of an examination."""
     from lab_check import new_spec

@@ -1,4 +1,5 @@
 """A sweep's cases, its mistakes by line, where values go, the table and the page: without ROS."""
+
 import csv
 import math
 import pathlib
@@ -73,27 +74,30 @@ def test_values_go_to_their_places(folder):
     assert "100.0" in (folder / "lab" / "p" / "gains.yaml").read_text()  # the original
 
 
-@pytest.mark.parametrize("old, new, line, words", [
-    ("seed: 3", "sede: 3", 4, "did you mean 'seed'"),
-    ("draws: 2", "draws: 0", 5, "0 is less than 1"),
-    ("{values: [1, 2.5]}", "{values: [1], log: [1, 2]}", 7, "holds log and values; give one"),
-    ("{from: 0, to: 1, steps: 3}", "{from: 0, to: 1}", 8, "from, to and steps belong together"),
-    ("{from: 0, to: 1, steps: 3}", "{from: 0, to: 1, steps: 90000}", 6, "360000 cases; 100000 are the most"),
-    ("{log: [0.1, 10]}", "{log: [0, 10]}", 9, "both numbers must be above 0"),
-    ("{log: [0.1, 10]}", "{uniform: [1, 1]}", 9, "the lesser one"),
-    ("{log: [0.1, 10]}", "{values: [1]}", 5, "no parameter is random"),
-    ("{parameter: start, launch: x}", "{parameter: strat, launch: x}", 12, "there is no parameter 'strat'"),
-    ("{parameter: start, launch: x}", "{parameter: gain, launch: x}", 8, "parameters.start: goes nowhere"),
-    ("launch: x}", "launch: x, spec: seed}", 12, "holds spec and launch"),
-    (", key: arm/pid/p", "", 11, "'yaml' and 'key' belong together"),
-    ("key: arm/pid/p", "key: arm/dip/p", 11, "p/gains.yaml has no arm.dip"),
-    ("p/gains.yaml", "p/gain.yaml", 11, "the submission has no file p/gain.yaml"),
-    ("p/gains.yaml", "../sweep.yaml", 11, "the submission has no file"),
-    ("friction=\"([^\"]*)\"", "damping=(.)", 13, "holds nothing like"),
-    ("([^\"]*)", "[^\"]*", 13, "find needs one group"),
-    ("tasks.1.expect.1", "tasks.2.expect.1", 14, "the spec has no tasks.2"),
-    ("submission: lab", "submission: bal", 3, "there is no folder"),
-])
+@pytest.mark.parametrize(
+    "old, new, line, words",
+    [
+        ("seed: 3", "sede: 3", 4, "did you mean 'seed'"),
+        ("draws: 2", "draws: 0", 5, "0 is less than 1"),
+        ("{values: [1, 2.5]}", "{values: [1], log: [1, 2]}", 7, "holds log and values; give one"),
+        ("{from: 0, to: 1, steps: 3}", "{from: 0, to: 1}", 8, "from, to and steps belong together"),
+        ("{from: 0, to: 1, steps: 3}", "{from: 0, to: 1, steps: 90000}", 6, "360000 cases; 100000 are the most"),
+        ("{log: [0.1, 10]}", "{log: [0, 10]}", 9, "both numbers must be above 0"),
+        ("{log: [0.1, 10]}", "{uniform: [1, 1]}", 9, "the lesser one"),
+        ("{log: [0.1, 10]}", "{values: [1]}", 5, "no parameter is random"),
+        ("{parameter: start, launch: x}", "{parameter: strat, launch: x}", 12, "there is no parameter 'strat'"),
+        ("{parameter: start, launch: x}", "{parameter: gain, launch: x}", 8, "parameters.start: goes nowhere"),
+        ("launch: x}", "launch: x, spec: seed}", 12, "holds spec and launch"),
+        (", key: arm/pid/p", "", 11, "'yaml' and 'key' belong together"),
+        ("key: arm/pid/p", "key: arm/dip/p", 11, "p/gains.yaml has no arm.dip"),
+        ("p/gains.yaml", "p/gain.yaml", 11, "the submission has no file p/gain.yaml"),
+        ("p/gains.yaml", "../sweep.yaml", 11, "the submission has no file"),
+        ('friction="([^"]*)"', "damping=(.)", 13, "holds nothing like"),
+        ('([^"]*)', '[^"]*', 13, "find needs one group"),
+        ("tasks.1.expect.1", "tasks.2.expect.1", 14, "the spec has no tasks.2"),
+        ("submission: lab", "submission: bal", 3, "there is no folder"),
+    ],
+)
 def test_mistakes_are_named_with_their_line(folder, old, new, line, words):
     assert old in SWEEP
     (folder / "sweep.yaml").write_text(SWEEP.replace(old, new, 1))

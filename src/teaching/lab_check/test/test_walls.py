@@ -1,4 +1,5 @@
 """What a submission may not do, tried from inside: by whoever examines (root, or a user), with the kernel's control groups and without."""
+
 import json
 import os
 import pathlib
@@ -21,7 +22,7 @@ tasks:
 SECRET = "the-teachers-token-4711"
 
 
-PROBES = r'''
+PROBES = r"""
 import ctypes, errno, os, pathlib, subprocess
 
 def writable(top):
@@ -76,7 +77,7 @@ for place in ("/dev/shm", "/tmp", "/run", os.path.expanduser("~")):
 sizes = [os.path.getsize(os.path.join(place, "big")) for place in ("/dev/shm", "/tmp", "/run", os.path.expanduser("~"))]
 print("HOLDS", sum(sizes) // 1000000, "MB")
 print("looked")
-'''
+"""
 
 
 def test_nothing_of_the_machine_can_be_written_and_no_room_is_without_bound(teacher):
@@ -179,8 +180,9 @@ def words_of(pid: str):
         return []
 
 
-@pytest.mark.parametrize("name", ["lab_check/examiner.py", "lab_check/cli.py", "yaml.py", "jsonschema/__init__.py", "sitecustomize.py",
-                                  "numpy.py"])
+@pytest.mark.parametrize(
+    "name", ["lab_check/examiner.py", "lab_check/cli.py", "yaml.py", "jsonschema/__init__.py", "sitecustomize.py", "numpy.py"]
+)
 def test_the_current_folder_is_nobodys_library(tmp_path, name):
     """Whoever examines in the submission's own folder runs none of its modules, whichever of the checker's processes looks for one."""
     folder = tmp_path / "alice"

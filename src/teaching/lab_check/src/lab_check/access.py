@@ -1,11 +1,11 @@
 """Whether a Ray cluster asks for a token. Who brings one to a cluster that has none is connected, but asks its nodes for it in turn: they
 are refused, and nothing that is sent to them arrives."""
+
 from __future__ import annotations
 
 import os
 import pathlib
 import subprocess
-
 from typing import Dict
 
 from . import sandbox
@@ -56,8 +56,9 @@ def agree(address: str) -> bool:
     if _MODE in os.environ:
         return True
     try:
-        said = subprocess.run([*sandbox.isolated(), "-c", _ASK, address], capture_output=True, text=True, timeout=60.0, cwd="/",
-                              env=environment()).stdout.split()
+        said = subprocess.run(
+            [*sandbox.isolated(), "-c", _ASK, address], capture_output=True, text=True, timeout=60.0, cwd="/", env=environment()
+        ).stdout.split()
     except subprocess.TimeoutExpired:
         return True
     if said and said[-1] != "asks":

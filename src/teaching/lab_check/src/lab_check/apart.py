@@ -1,5 +1,6 @@
 """An engine in a process of its own. Ray ends the process that uses it where the head or the own node of its cluster is gone, or keeps it
 waiting; here that is not the process that holds the class's results."""
+
 from __future__ import annotations
 
 import os
@@ -40,8 +41,17 @@ class Apart(Engine):
         self._said = tempfile.TemporaryFile()
         self._wire, far = Pipe()
         words = [*sandbox.isolated(), "-m", "lab_check.apart", str(far.fileno())]
-        self._process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=self._said, stderr=self._said, pass_fds=[far.fileno()],
-                                         start_new_session=True, preexec_fn=die_with_parent, cwd="/", env=access.environment())
+        self._process = subprocess.Popen(
+            words,
+            stdin=subprocess.DEVNULL,
+            stdout=self._said,
+            stderr=self._said,
+            pass_fds=[far.fileno()],
+            start_new_session=True,
+            preexec_fn=die_with_parent,
+            cwd="/",
+            env=access.environment(),
+        )
         far.close()
         try:
             self._ask((make, arguments), _WORK)

@@ -1,4 +1,5 @@
 """The simulated world in the examiner's hands: time passes when it says so, and everything is read to the last digit."""
+
 from __future__ import annotations
 
 import time

@@ -1,4 +1,5 @@
 """Does it build? catkin_make first, as courses type it; where that fails, package by package, to say which."""
+
 from __future__ import annotations
 
 import os
@@ -45,8 +46,10 @@ def _make(job: Job, built: Built, timeout: float, only: List[str]) -> bool:
     chosen = f"-DCATKIN_WHITELIST_PACKAGES='{';'.join(only)}'" if only else ""
     # The folder is the submission's: it may lead anywhere by now, and is removed from where it leads nowhere.
     anew = f"rm -rf {job.workspace}/build; " if only else ""
-    line = (f"{anew}cd {job.workspace} && catkin_make -j2 -DCMAKE_BUILD_TYPE=Release -DCATKIN_ENABLE_TESTING=OFF "
-            f"-DPYTHON_EXECUTABLE=/usr/bin/python3 {chosen}")
+    line = (
+        f"{anew}cd {job.workspace} && catkin_make -j2 -DCMAKE_BUILD_TYPE=Release -DCATKIN_ENABLE_TESTING=OFF "
+        f"-DPYTHON_EXECUTABLE=/usr/bin/python3 {chosen}"
+    )
     try:
         program = job.start(line, built=False)
     except NoRoom as error:
@@ -94,6 +97,7 @@ def _ended(code: int) -> str:
 def _order(job: Job) -> List[str]:
     """Of the manifests as they were handed in: before any program of the submission has run."""
     import xml.etree.ElementTree as ET
+
     needs = {}
     for name, folder in job.packages.items():
         try:

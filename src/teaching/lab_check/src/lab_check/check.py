@@ -1,4 +1,5 @@
 """One submission from the outside: makes the job, starts the examiner behind the wall, writes the reports."""
+
 from __future__ import annotations
 
 import errno
@@ -22,13 +23,25 @@ from .outcome import Result
 from .spec import Spec
 from .supervise import STRETCH, die_with_parent
 
-_KEPT = ("lab_check.probe", "lab_check.session", "lab_check.held_launch", "gazebo_ros_control.plugin", "gazebo_plugins.ros_camera",
-         "gazebo_plugins.diff_drive", "ode_sim.rendering.portrait", "ode_sim.rendering.renderer", "joint_state_controller", "xacro")
+_KEPT = (
+    "lab_check.probe",
+    "lab_check.session",
+    "lab_check.held_launch",
+    "gazebo_ros_control.plugin",
+    "gazebo_plugins.ros_camera",
+    "gazebo_plugins.diff_drive",
+    "ode_sim.rendering.portrait",
+    "ode_sim.rendering.renderer",
+    "joint_state_controller",
+    "xacro",
+)
 
 
 _LARGEST = 200_000_000  # bytes of a file of the report: films are the largest
-_OURS = re.compile(r"report\.(html|json)|results?\.json|\.result\.json|junit\.xml|build\.log|launch_\d+\.log|pictures|\.examiner\.log"
-                   r"|\.job(\.json)?|\.session_\d+\.json")
+_OURS = re.compile(
+    r"report\.(html|json)|results?\.json|\.result\.json|junit\.xml|build\.log|launch_\d+\.log|pictures|\.examiner\.log"
+    r"|\.job(\.json)?|\.session_\d+\.json"
+)
 
 
 class NoPlace(LabError, RuntimeError):
@@ -103,9 +116,20 @@ def check(spec: Spec, submission: pathlib.Path, out: pathlib.Path, unsafe: bool 
     # Its files lie in memory: the kernel's bound holds for both together, the Guard tells one from the other.
     with scratch.folder("lab_check.") as place, group.bounded(most_tasks(limits), limits["memory"] + limits["disk"]) as bounds:
         os.chmod(place, 0o755)
-        job = Job(spec.data, str(spec.path.parent), os.path.abspath(submission), str(place), str(out), unsafe,
-                  free_port(port) if unsafe else 11311, limits, asdict(sandbox.Platform.here()), f"LAB_CHECK_RUN={uuid.uuid4().hex}",
-                  films=films, group=bounds)
+        job = Job(
+            spec.data,
+            str(spec.path.parent),
+            os.path.abspath(submission),
+            str(place),
+            str(out),
+            unsafe,
+            free_port(port) if unsafe else 11311,
+            limits,
+            asdict(sandbox.Platform.here()),
+            f"LAB_CHECK_RUN={uuid.uuid4().hex}",
+            films=films,
+            group=bounds,
+        )
         result = _examine(job, spec, submission, out)
     report.write(result, spec, out)
     return result

@@ -1,4 +1,5 @@
 """The engine for a cluster: one task of Ray for each submission, on the nodes that are fit for it."""
+
 from __future__ import annotations
 
 import pathlib
@@ -141,8 +142,9 @@ class Cluster(Engine):
         try:
             alive = {entry["NodeID"] for entry in self._ray.nodes() if entry["Alive"]}
         except (self._ray.exceptions.RayError, RuntimeError, OSError) as error:
-            raise ClusterError(f"the cluster's head does not answer any more ({_first_line(error)}); "
-                               "the same command goes on from here") from None
+            raise ClusterError(
+                f"the cluster's head does not answer any more ({_first_line(error)}); the same command goes on from here"
+            ) from None
         for identity, n in self._nodes.items():
             n.alive = n.alive and identity in alive
 
@@ -204,8 +206,9 @@ def connect(address: str):
     except (OSError, ValueError) as error:  # Ray itself would go on asking for minutes
         raise _nobody(address, error) from None
     if address != "local" and not access.agree(where):
-        raise ClusterError(f"the cluster at '{address}' asks for a token, and {access.token_file()} is not it: "
-                           "copy that file from the machine of its head")
+        raise ClusterError(
+            f"the cluster at '{address}' asks for a token, and {access.token_file()} is not it: copy that file from the machine of its head"
+        )
     try:
         import ray
     except ImportError:
@@ -227,8 +230,10 @@ def connect(address: str):
 
 
 def _nobody(address: str, error: BaseException) -> ClusterError:
-    return ClusterError(f"no Ray cluster answers at '{address}' ({_first_line(error)}); start one: rosrun lab_check ray start --head, "
-                        "and on each other machine rosrun lab_check ray start --address HOST:6379")
+    return ClusterError(
+        f"no Ray cluster answers at '{address}' ({_first_line(error)}); start one: rosrun lab_check ray start --head, "
+        "and on each other machine rosrun lab_check ray start --address HOST:6379"
+    )
 
 
 def _knock(address: str) -> str:
@@ -244,8 +249,10 @@ def _knock(address: str) -> str:
 
 
 # What Ray adds to its errors: colours, and advice to whoever develops with it.
-_ADVICE = re.compile(r"\x1b\[[0-9;]*m|To see information about where this ObjectRef [^\n]*?`ray\.init\(\)`\."
-                     r"|Check cluster logs \([^)]*\)[^\n]*?failure\.")
+_ADVICE = re.compile(
+    r"\x1b\[[0-9;]*m|To see information about where this ObjectRef [^\n]*?`ray\.init\(\)`\."
+    r"|Check cluster logs \([^)]*\)[^\n]*?failure\."
+)
 
 
 def _reason(error: BaseException) -> str:

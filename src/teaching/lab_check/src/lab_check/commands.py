@@ -11,8 +11,8 @@ from collections import Counter
 from typing import Any, Callable, Dict, List
 
 import genpy
-import rospy
 import roslib.message
+import rospy
 from rosservice import ROSServiceException, get_service_class_by_name
 
 from . import connections

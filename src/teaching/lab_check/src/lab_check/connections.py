@@ -1,4 +1,5 @@
 """Is everybody connected who wants to be? Nodes connect in wall time; simulated time waits for them."""
+
 from __future__ import annotations
 
 import http.client
@@ -40,8 +41,20 @@ def complete(master: rosgraph.Master, deaf: Set[str]) -> bool:
             proxy = xmlrpc.client.ServerProxy(master.lookupNode(node), transport=_Transport())
             entries = proxy.getBusInfo("/lab_check")[2]
             have = Counter(entry[4] for entry in entries if entry[2] == "i" and (len(entry) < 6 or entry[5]))
-        except (OSError, xmlrpc.client.Error, ExpatError, http.client.HTTPException, rosgraph.MasterException, IndexError, TypeError,
-                ValueError, KeyError, AttributeError, RecursionError, MemoryError):
+        except (
+            OSError,
+            xmlrpc.client.Error,
+            ExpatError,
+            http.client.HTTPException,
+            rosgraph.MasterException,
+            IndexError,
+            TypeError,
+            ValueError,
+            KeyError,
+            AttributeError,
+            RecursionError,
+            MemoryError,
+        ):
             deaf.add(node)
             continue
         if any(have[topic] < count for topic, count in topics.items()):

@@ -1,4 +1,5 @@
 """Who examines: one interface for processes of this machine (here) and for a cluster (:mod:`lab_check.cluster`)."""
+
 from __future__ import annotations
 
 import abc
@@ -28,8 +29,15 @@ class How:
 
         :param worker: number of the worker on its machine
         """
-        words = [*sandbox.isolated(), "-c", "import sys; from lab_check.cli import check; sys.exit(check())", str(spec), str(submission),
-                 "--out", str(out)]
+        words = [
+            *sandbox.isolated(),
+            "-c",
+            "import sys; from lab_check.cli import check; sys.exit(check())",
+            str(spec),
+            str(submission),
+            "--out",
+            str(out),
+        ]
         words += ["--unsafe", "--port", str((self.port or 11400) + 20 * worker)] if self.unsafe else []
         return words + ([] if self.films else ["--no-films"])
 
@@ -39,8 +47,16 @@ def examine(words: List[str], out: pathlib.Path) -> subprocess.Popen:
     out.mkdir(parents=True, exist_ok=True)
     (out / "report.json").unlink(missing_ok=True)
     with open(out / "check.txt", "w", encoding="utf-8") as log:
-        return subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True, preexec_fn=die_with_parent,
-                                env=sandbox.own_environment(), cwd="/")
+        return subprocess.Popen(
+            words,
+            stdin=subprocess.DEVNULL,
+            stdout=log,
+            stderr=log,
+            start_new_session=True,
+            preexec_fn=die_with_parent,
+            env=sandbox.own_environment(),
+            cwd="/",
+        )
 
 
 def outcome(out: pathlib.Path, code: int) -> Union[Result, str]:

@@ -232,9 +232,7 @@ class Examiner:
             data = json.loads(pathlib.Path(answer).read_text(encoding="utf-8"))
             os.unlink(answer)
         except (OSError, ValueError):
-            last = (pathlib.Path(self.job.out, ".examiner.log").read_text(encoding="utf-8").strip().splitlines() or ["no reason given"])[
-                -1
-            ]
+            last = (pathlib.Path(self.job.out, ".examiner.log").read_text(encoding="utf-8").strip().splitlines() or ["no reason given"])[-1]
             self.result.fault = f"the examination of 'roslaunch {tasks[0]['launch']}' broke off: {last}"
             return {task["name"]: failed_task(task, "not examined: the checker itself failed") for task in tasks}
         self.result.notes += data["notes"]

@@ -41,8 +41,7 @@ _MEANINGS: List[Tuple[re.Pattern, str]] = [
         (r"error: ", "The compiler refuses this line; the first error is the one to mend, the others often follow from it."),
         (
             r"ResourceNotFound: (\S+)",
-            "A launch file or xacro names a package or file that is not there. Mind the spelling, and absolute paths "
-            "of your own machine.",
+            "A launch file or xacro names a package or file that is not there. Mind the spelling, and absolute paths of your own machine.",
         ),
         (
             r"is neither a launch file|is not a launch file name|\.launch\] is neither",
@@ -80,7 +79,7 @@ _MEANINGS: List[Tuple[re.Pattern, str]] = [
 
 
 def lines_of(text: str) -> List[str]:
-    return [line.rstrip() for line in (_COLOURS.sub("", whole[:2 * _LONGEST])[:_LONGEST] for whole in text.splitlines()) if line.strip()]
+    return [line.rstrip() for line in (_COLOURS.sub("", whole[: 2 * _LONGEST])[:_LONGEST] for whole in text.splitlines()) if line.strip()]
 
 
 def _is_error(line: str) -> bool:

@@ -1,4 +1,5 @@
 """Pictures and short films of a task, drawn by the simulator while its time stands still."""
+
 from __future__ import annotations
 
 import os
@@ -22,6 +23,7 @@ class Film:
         """The film's path, '' when there is none: nothing could be drawn, or no time passed."""
         import cv2
         import numpy as np
+
         frames = [cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR) for png in self._frames if png]
         if len(frames) < 2:  # nothing passed that the picture does not show
             return ""

@@ -1,4 +1,5 @@
 """A class: submissions on several workers, results as they come, and what was done stays done."""
+
 from __future__ import annotations
 
 import argparse
@@ -77,13 +78,18 @@ def engine_for(spec: Spec, out: pathlib.Path, options: argparse.Namespace) -> En
     """
     how = How(options.unsafe, not options.no_films, options.port)
     if options.address:
-        return Apart(Cluster, (spec, results(out), how, options.workers or 0, options.address), "the cluster, or its head,",
-                     lambda line: print(f"lab_check: {line}", file=sys.stderr))
+        return Apart(
+            Cluster,
+            (spec, results(out), how, options.workers or 0, options.address),
+            "the cluster, or its head,",
+            lambda line: print(f"lab_check: {line}", file=sys.stderr),
+        )
     return Pool(lambda name: spec.path, results(out), how, options.workers or max(1, os.cpu_count() or 1))
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
     from .cli import allowed, load_spec, parser_for, sandbox_options
+
     parser = parser_for("grade", "Mark a class; run it again to go on after an interruption.")
     parser.add_argument("submissions", type=pathlib.Path, nargs="+")
     parser.add_argument("--workers", type=int, help="examinations at a time; default: one per core")
@@ -110,8 +116,10 @@ def main(arguments: Optional[List[str]] = None) -> int:
         print(f"lab_check: {error}", file=sys.stderr)
         return 3
     except (OSError, sqlite3.Error) as error:  # a full disk, a folder that may not be written to
-        print(f"lab_check: {out}: {getattr(error, 'strerror', None) or error}; when that is mended, the same command goes on from here",
-              file=sys.stderr)
+        print(
+            f"lab_check: {out}: {getattr(error, 'strerror', None) or error}; when that is mended, the same command goes on from here",
+            file=sys.stderr,
+        )
         return 5
 
 

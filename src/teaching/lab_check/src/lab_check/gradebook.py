@@ -30,10 +30,7 @@ def write(spec: Spec, store: Store, out: pathlib.Path) -> None:
         writer.writerow(["submission", "points", "of", *tasks, "remark"])
         for row in rows:
             writer.writerow([safe(row["name"]), row["points"], row["of"], *_marks(results[row["name"]], tasks), safe(_remark(row))])
-    for name, text in (
-        ("gradebook.html", _page(spec, rows, results, tasks, near)),
-        ("comparison.html", _comparison(spec, results, tasks)),
-    ):
+    for name, text in (("gradebook.html", _page(spec, rows, results, tasks, near)), ("comparison.html", _comparison(spec, results, tasks))):
         (out / name).write_text(text, encoding="utf-8", errors="xmlcharrefreplace")
 
 
@@ -64,10 +61,7 @@ def _page(spec: Spec, rows, results, tasks: List[str], near: List[Pair]) -> str:
             continue
         cells = "".join(f"<td class=n style='background:{_colour(task.points, task.of)}'>{task.points:g}" for task in result.tasks)
         link = urllib.parse.quote(f"{RESULTS}/{name}/report.html")
-        lines.append(
-            f"<tr><td><a href='{link}'>{html.escape(name)}</a>"
-            f"<td class=n><b>{result.points:g}</b> of {result.of:g}{cells}"
-        )
+        lines.append(f"<tr><td><a href='{link}'>{html.escape(name)}</a><td class=n><b>{result.points:g}</b> of {result.of:g}{cells}")
     twins = "".join(f"<li>{html.escape(p.first)} and {html.escape(p.second)}: {p.share:.0%} in common" for p in near)
     if twins:
         twins = (

@@ -3,6 +3,7 @@
 prlimit's bound on processes holds for one user, none holds for memory that nobody has mapped (files in memory, buffers of sockets, the
 pages of a tmpfs), and the Guard looks ten times a second: by then much is taken that others need.
 """
+
 from __future__ import annotations
 
 import contextlib
@@ -49,8 +50,12 @@ def enter(place: str) -> None:
 
 
 def counts_memory(place: str) -> bool:
-    return any(os.path.exists(os.path.join(folder, name)) for folder in place.split(os.pathsep) if folder
-               for name in ("memory.max", "memory.limit_in_bytes"))
+    return any(
+        os.path.exists(os.path.join(folder, name))
+        for folder in place.split(os.pathsep)
+        if folder
+        for name in ("memory.max", "memory.limit_in_bytes")
+    )
 
 
 def memory(place: str) -> Optional[float]:

@@ -3,6 +3,7 @@
 In the simulator's place stands who asks the examiner for it (:mod:`lab_check.simulator`). Windows stay shut: nobody looks, and a machine
 that marks has no display. The rest is the launch file's. All of this runs in the submission's world, and is believed nothing.
 """
+
 from __future__ import annotations
 
 import sys

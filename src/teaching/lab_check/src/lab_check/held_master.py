@@ -66,7 +66,7 @@ def _simulator_is(self, caller_id: str, word: str, name: str, uri: str, pid: int
         mine = [index for index, node in enumerate(nodes) if node[1] == uri]
         if mine:
             _Simulator.services[service] = nodes[mine[0]][0]
-            for node, _ in nodes[mine[0] + 1:]:
+            for node, _ in nodes[mine[0] + 1 :]:
                 _note(f"the node {_shown(node)} registered {_shown(service)} over the simulator's")
     return 1, "noted", 0
 
@@ -152,6 +152,7 @@ def _shown(name: Any) -> str:
 
 def _watched(call: Callable, look: Callable[..., None]) -> Callable:
     """A call of the master's API that is looked at first. Wrong arguments are the master's own to refuse."""
+
     def first_looked_at(self, *arguments):
         if all(isinstance(argument, str) for argument in arguments) and len(arguments) > 1:
             with _lock:

@@ -1,5 +1,6 @@
 """Files of a submission, opened as what they are at that moment: regular, within its folder, and no more of them than a bound says.
 Programs of the submission may put a link, a pipe or another file in the place of one that was looked at before."""
+
 from __future__ import annotations
 
 import os
@@ -59,8 +60,9 @@ def read_regular(folder: "str | os.PathLike", name: "str | os.PathLike", most: i
         return file.read(most)
 
 
-def walk(folder: "str | os.PathLike", below: "str | os.PathLike" = "",
-         left_out: Sequence[str] = ()) -> Iterator[Tuple[str, os.stat_result]]:
+def walk(
+    folder: "str | os.PathLike", below: "str | os.PathLike" = "", left_out: Sequence[str] = ()
+) -> Iterator[Tuple[str, os.stat_result]]:
     """(path below ``folder``, what it is) of all that is no folder; no link is followed, and none is gone through. What goes meanwhile, or
     cannot be read, or lies behind more than ``_DEEP`` folders, is left out.
 
@@ -122,6 +124,9 @@ def _fits(names: Tuple[str, ...], wanted: list) -> bool:
                 reached.add(index)
         if name is None:
             return len(wanted) in reached
-        reached = {index if wanted[index] is None else index + 1 for index in reached
-                   if index < len(wanted) and (wanted[index] is None or wanted[index].match(name))}
+        reached = {
+            index if wanted[index] is None else index + 1
+            for index in reached
+            if index < len(wanted) and (wanted[index] is None or wanted[index].match(name))
+        }
     return False

@@ -1,4 +1,5 @@
 """What nodes of the submission did to what is measured: noted in the report, and by the spec's word it costs the task."""
+
 from __future__ import annotations
 
 from typing import Dict, List, Set, Tuple
@@ -22,9 +23,11 @@ class Interference:
 
     def notes(self) -> List[str]:
         """A sentence each."""
-        changes = [f"{'the node ' if who.startswith('/') else ''}{who} used /gazebo/{what} {count} times, for the first time at "
-                   f"{first:.3f} s of simulation: it changed the world by hand"
-                   for (what, who), (count, first) in sorted(self._changes.items())]
+        changes = [
+            f"{'the node ' if who.startswith('/') else ''}{who} used /gazebo/{what} {count} times, for the first time at "
+            f"{first:.3f} s of simulation: it changed the world by hand"
+            for (what, who), (count, first) in sorted(self._changes.items())
+        ]
         return changes + sorted(self.names) + sorted(self.twice)
 
     def first(self) -> str:

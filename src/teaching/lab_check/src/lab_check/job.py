@@ -1,4 +1,5 @@
 """What the processes of one examination tell each other: a file of JSON, and how programs of the submission are started."""
+
 from __future__ import annotations
 
 import json
@@ -78,8 +79,9 @@ class Job:
             words = ["script", "-qfec", shlex.join(words), "/dev/null"]
         return self.program(words, {**sandbox.environment(self.port, self.inner_home), **(more or {})})
 
-    def program(self, words: List[str], environment: Dict[str, str], streams: Optional[Streams] = None,
-                pass_fds: Sequence[int] = ()) -> Program:
+    def program(
+        self, words: List[str], environment: Dict[str, str], streams: Optional[Streams] = None, pass_fds: Sequence[int] = ()
+    ) -> Program:
         """One of the submission's programs, inside the inner wall.
 
         :param streams: its standard streams; by default what it says is kept
@@ -99,8 +101,15 @@ class Job:
         try:
             walls = sandbox.inner_words(platform, self.scratch, place, environment, refused)
             # bwrap's own environment can be read inside: it holds nothing.
-            return Program(walls + most + words, self.limits, {"PATH": "/usr/bin:/bin"}, place=self.group, user=self.user, streams=streams,
-                           pass_fds=[refused, *pass_fds])
+            return Program(
+                walls + most + words,
+                self.limits,
+                {"PATH": "/usr/bin:/bin"},
+                place=self.group,
+                user=self.user,
+                streams=streams,
+                pass_fds=[refused, *pass_fds],
+            )
         finally:
             os.close(refused)
 

@@ -4,6 +4,7 @@ until they rest. What they send thus arrives at the same simulated time in every
 A node rests when none of its threads runs or waits for the disk, and no bytes lie unread in a connection. Nodes of roscpp that sleep in
 simulated time look at the clock every wall millisecond: rest must last longer than that.
 """
+
 from __future__ import annotations
 
 import os

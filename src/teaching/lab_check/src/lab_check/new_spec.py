@@ -1,5 +1,6 @@
 """``new``: a first spec for a launch file, of what the file itself tells: packages, models, joints, controllers, nodes. With a comment to
 each line that a teacher will want to change."""
+
 from __future__ import annotations
 
 import argparse
@@ -128,18 +129,25 @@ def _goal(joint: ET.Element) -> float:
 
 def text(found: Found) -> str:
     """The spec."""
-    lines = [f"# Written for: roslaunch {found.launch}. All of it can be changed;",
-             "# docs/grading.md has a line for everything that can be asked.",
-             f"title: {_quoted(f'Homework: {found.package}')}",
-             f"packages: [{', '.join(found.packages)}]   # that a submission must hold, and that must build",
-             "build: {points: 10}   # shared by the packages",
-             "quantum: 0.05   # s of simulated time between two looks: no longer than the period of the fastest loop that is judged",
-             f"launch: {found.launch}",
-             *_ready(found), "tasks:"]
+    lines = [
+        f"# Written for: roslaunch {found.launch}. All of it can be changed;",
+        "# docs/grading.md has a line for everything that can be asked.",
+        f"title: {_quoted(f'Homework: {found.package}')}",
+        f"packages: [{', '.join(found.packages)}]   # that a submission must hold, and that must build",
+        "build: {points: 10}   # shared by the packages",
+        "quantum: 0.05   # s of simulated time between two looks: no longer than the period of the fastest loop that is judged",
+        f"launch: {found.launch}",
+        *_ready(found),
+        "tasks:",
+    ]
     for part in (_description, _controllers, _movement, _nodes):
         lines += part(found)
-    lines += ["  - name: Nothing complains", "    points: 5", "    expect:",
-              '      - no_errors: {}   # ignore: ["No p gain"] leaves lines out, by regular expressions']
+    lines += [
+        "  - name: Nothing complains",
+        "    points: 5",
+        "    expect:",
+        '      - no_errors: {}   # ignore: ["No p gain"] leaves lines out, by regular expressions',
+    ]
     return "\n".join(lines) + "\n"
 
 
@@ -153,18 +161,25 @@ def _description(found: Found) -> List[str]:
     if not found.joints:
         return []
     names = ", ".join(_quoted(joint.name) for joint in found.joints)
-    return ["  - name: The robot's description", "    points: 10",
-            "    hint: Shown to whoever loses points here.", "    expect:",
-            f"      - urdf: {{param: {found.description}, moving: {len(found.joints)}, joints: [{names}]}}",
-            "      - urdf: {collisions: true, limits: true, inertias: sane}"] + (
-        [f"      - urdf: {{transmissions: {found.transmissions}}}   # at least"] if found.transmissions else [])
+    return [
+        "  - name: The robot's description",
+        "    points: 10",
+        "    hint: Shown to whoever loses points here.",
+        "    expect:",
+        f"      - urdf: {{param: {found.description}, moving: {len(found.joints)}, joints: [{names}]}}",
+        "      - urdf: {collisions: true, limits: true, inertias: sane}",
+    ] + ([f"      - urdf: {{transmissions: {found.transmissions}}}   # at least"] if found.transmissions else [])
 
 
 def _controllers(found: Found) -> List[str]:
     if not found.controllers:
         return []
-    lines = ["  - name: Controllers run", "    points: 10", "    expect:",
-             f"      - controllers: {{count: {len(found.controllers)}}}   # at least so many; running: [NAME, ...] names them, * allowed"]
+    lines = [
+        "  - name: Controllers run",
+        "    points: 10",
+        "    expect:",
+        f"      - controllers: {{count: {len(found.controllers)}}}   # at least so many; running: [NAME, ...] names them, * allowed",
+    ]
     for name, kind in sorted(found.controllers.items()):
         if kind == _STATES:
             topic = f"{name.rpartition('/')[0]}/joint_states"
@@ -178,8 +193,9 @@ def _movement(found: Found) -> List[str]:
 
 
 def _expected(joints: List[Joint]) -> List[str]:
-    return [f"      - joint: {{name: {_quoted(joint.name)}, value: {joint.goal:g}, tolerance: 0.05, within: 10, hold: 0.2}}"
-            for joint in joints]
+    return [
+        f"      - joint: {{name: {_quoted(joint.name)}, value: {joint.goal:g}, tolerance: 0.05, within: 10, hold: 0.2}}" for joint in joints
+    ]
 
 
 def _single_joints(found: Found) -> List[str]:
@@ -187,10 +203,17 @@ def _single_joints(found: Found) -> List[str]:
     joints = [joint for joint in found.joints if joint.name in single]
     if not joints:
         return []
-    lines = ["  - name: The joints obey", "    points: 20", f"    model: {_quoted(found.model)}", "    do:",
-             "      # 'command of JOINT' is the topic of the running controller that claims it, whatever students called it"]
-    lines += [f"      - publish: {{topic: command of {joint.name}, type: std_msgs/Float64, message: {{data: {joint.goal:g}}}}}"
-              for joint in joints]
+    lines = [
+        "  - name: The joints obey",
+        "    points: 20",
+        f"    model: {_quoted(found.model)}",
+        "    do:",
+        "      # 'command of JOINT' is the topic of the running controller that claims it, whatever students called it",
+    ]
+    lines += [
+        f"      - publish: {{topic: command of {joint.name}, type: std_msgs/Float64, message: {{data: {joint.goal:g}}}}}"
+        for joint in joints
+    ]
     return [*lines, "    expect:", *_expected(joints)]
 
 
@@ -199,11 +222,17 @@ def _trajectory(found: Found, controller: str) -> List[str]:
     if not joints:
         return []
     names, goals = ", ".join(_quoted(joint.name) for joint in joints), ", ".join(f"{joint.goal:g}" for joint in joints)
-    return [f"  - name: {_quoted(f'{controller} follows a trajectory')}", "    points: 20", f"    model: {_quoted(found.model)}", "    do:",
-            f"      - action: {{topic: {controller}/follow_joint_trajectory, type: control_msgs/FollowJointTrajectoryAction, within: 20,",
-            f"          goal: {{trajectory: {{joint_names: [{names}],",
-            f"            points: [{{positions: [{goals}], time_from_start: {{secs: 3, nsecs: 0}}}}]}}}}}}",
-            "    expect:", *_expected(joints)]
+    return [
+        f"  - name: {_quoted(f'{controller} follows a trajectory')}",
+        "    points: 20",
+        f"    model: {_quoted(found.model)}",
+        "    do:",
+        f"      - action: {{topic: {controller}/follow_joint_trajectory, type: control_msgs/FollowJointTrajectoryAction, within: 20,",
+        f"          goal: {{trajectory: {{joint_names: [{names}],",
+        f"            points: [{{positions: [{goals}], time_from_start: {{secs: 3, nsecs: 0}}}}]}}}}}}",
+        "    expect:",
+        *_expected(joints),
+    ]
 
 
 def _drive(found: Found) -> List[str]:
@@ -211,9 +240,15 @@ def _drive(found: Found) -> List[str]:
     topic = next(iter(topics), found.driven_by)
     if not topic:
         return []
-    return ["  - name: It drives", "    points: 20", f"    model: {_quoted(found.model)}", "    do:",
-            f"      - publish: {{topic: {topic}, type: geometry_msgs/Twist, message: {{linear: {{x: 0.2}}}}, rate: 10, for: 5}}   # Hz, s",
-            "    expect:", "      - moved: {by: [0.8, 1.2], turned: [-0.2, 0.2]}   # least and most: m, rad"]
+    return [
+        "  - name: It drives",
+        "    points: 20",
+        f"    model: {_quoted(found.model)}",
+        "    do:",
+        f"      - publish: {{topic: {topic}, type: geometry_msgs/Twist, message: {{linear: {{x: 0.2}}}}, rate: 10, for: 5}}   # Hz, s",
+        "    expect:",
+        "      - moved: {by: [0.8, 1.2], turned: [-0.2, 0.2]}   # least and most: m, rad",
+    ]
 
 
 def _nodes(found: Found) -> List[str]:

@@ -1,4 +1,5 @@
 """What runs on a node of a cluster: the look at whether it is fit, and one examination. Knows no Ray."""
+
 from __future__ import annotations
 
 import hashlib

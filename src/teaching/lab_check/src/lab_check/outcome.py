@@ -1,4 +1,5 @@
 """What came of a submission: plain data that travels as JSON between the processes and into the reports."""
+
 from __future__ import annotations
 
 import hashlib
@@ -79,7 +80,7 @@ def name_for(name: str) -> str:
     if len(shown.encode()) <= _LONGEST_NAME:
         return shown
     digest = hashlib.sha256(name.encode("utf-8", "surrogateescape")).hexdigest()[:8]
-    return shown.encode()[:_LONGEST_NAME - 20].decode("utf-8", "ignore") + f"... {digest}"
+    return shown.encode()[: _LONGEST_NAME - 20].decode("utf-8", "ignore") + f"... {digest}"
 
 
 def rounded(points: float) -> float:

@@ -1,5 +1,6 @@
 """Which code of the submission the simulator loads, told before its first instruction: code that runs in the simulator can change what it
 says later, but not what it has said."""
+
 from __future__ import annotations
 
 import importlib.util

@@ -1,4 +1,5 @@
 """Submissions, specs and reports as bytes: the machines of a cluster need no common disk."""
+
 from __future__ import annotations
 
 import io

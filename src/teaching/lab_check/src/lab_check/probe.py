@@ -4,6 +4,7 @@ examiner, and tells it through the pipe of the submission's code that it loads.
 Question and answer pass through a pair of sockets that the examiner made before it started this process: nobody else has an end of it, so
 that no node can answer in the simulator's place. See :mod:`lab_check.simulator` for the other end.
 """
+
 from __future__ import annotations
 
 import base64
@@ -29,8 +30,7 @@ _MOST_PAIRS = 200
 _MOST_NOTES = 100
 _LONGEST_QUESTION = 100_000  # bytes
 # Services of the simulator that only tell, let it come up, or are the examiner's own business; all others change what is measured.
-_TELLING = ("get_", "describe_", "save_", "take_", "spawn_", "clear_", "pause_physics", "unpause_physics", "set_logger_level",
-            "tf2_frames")
+_TELLING = ("get_", "describe_", "save_", "take_", "spawn_", "clear_", "pause_physics", "unpause_physics", "set_logger_level", "tf2_frames")
 _ORDERS = {"reset": "reset_simulation", "reset_time": "reset_time", "reset_poses": "reset_world"}  # of the transport -> service
 _TOPICS = ("set_model_state", "set_link_state")
 
@@ -71,8 +71,11 @@ class Probe:
         for name, model in world.models.items():
             entry: Dict[str, Any] = {"static": bool(model.static), "pose": _numbers(model.pose)}
             if not model.static:
-                entry["joints"] = {joint.name: [float(joint.position()), float(joint.velocity()), float(joint.effort())]
-                                   for joint in model.joints.values() if joint.axis_count}
+                entry["joints"] = {
+                    joint.name: [float(joint.position()), float(joint.velocity()), float(joint.effort())]
+                    for joint in model.joints.values()
+                    if joint.axis_count
+                }
                 entry["links"] = {link.name: _numbers(link.pose) for link in model.links.values()}
             models[name] = entry
         pairs, self._pairs = sorted(self._pairs), set()
@@ -113,8 +116,9 @@ class Probe:
         if camera is None:
             raise LookupError(f"no camera of the simulation publishes {topic}")
         scene, poses = self._server.call(self._scene)
-        done = subprocess.run([sys.executable, "-P", "-s", "-m", "lab_check.seen"], input=pickle.dumps((camera, scene, poses)),
-                              capture_output=True, cwd="/")
+        done = subprocess.run(
+            [sys.executable, "-P", "-s", "-m", "lab_check.seen"], input=pickle.dumps((camera, scene, poses)), capture_output=True, cwd="/"
+        )
         if done.returncode:
             last = (done.stderr.decode("utf-8", "replace").strip().splitlines() or ["no reason given"])[-1]
             raise RuntimeError(f"the simulator cannot draw what the camera sees ({last})")

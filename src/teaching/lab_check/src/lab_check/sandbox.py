@@ -8,6 +8,7 @@ solutions, specs, other submissions and the teacher's files are not there at all
 Where root examines, the programs of the submission have a user of their own, to whom nothing belongs on this machine: root's own files,
 those below /proc and /sys above all, are open to whoever is root's user outside of the walls, whatever he is called inside.
 """
+
 from __future__ import annotations
 
 import ctypes
@@ -70,8 +71,10 @@ class Platform:
             if labs.is_dir():  # solutions
                 names = [manifest.parent.name for manifest in labs.rglob("package.xml")]
                 hidden += [str(labs)] + [os.path.join(prefix, part, name) for part in ("share", "lib", ".private") for name in names]
-            hidden += [os.path.join(root, part) for part in ("out", "build", ".git", "logs", "src/teaching/lab_check/specs",
-                                                             "src/teaching/lab_check/test")]
+            hidden += [
+                os.path.join(root, part)
+                for part in ("out", "build", ".git", "logs", "src/teaching/lab_check/specs", "src/teaching/lab_check/test")
+            ]
             hidden.append(os.path.join(prefix, "share/lab_check/specs"))
         return cls(prefixes, roots, [place for place in dict.fromkeys(hidden) if os.path.isdir(place) and not os.path.islink(place)])
 
@@ -157,10 +160,14 @@ def own_network() -> None:
         subprocess.run(["ip", "route", "change", "local", *loopback.split(), "quickack", "1"], check=False)
 
 
-_ALONE = ("bwrap --unshare-user --disable-userns --unshare-pid --unshare-ipc --unshare-uts --unshare-cgroup-try --die-with-parent "
-          "--new-session --hostname lab --uid 1000 --gid 1000 --cap-drop ALL --ro-bind /usr /usr")
-_OF_ETC = ("alternatives ros ld.so.cache ld.so.conf ld.so.conf.d fonts sgml xml ssl/certs python3 python3.11 python3.13 debian_version "
-           "os-release lsb-release OpenCL glvnd localtime catkin")
+_ALONE = (
+    "bwrap --unshare-user --disable-userns --unshare-pid --unshare-ipc --unshare-uts --unshare-cgroup-try --die-with-parent "
+    "--new-session --hostname lab --uid 1000 --gid 1000 --cap-drop ALL --ro-bind /usr /usr"
+)
+_OF_ETC = (
+    "alternatives ros ld.so.cache ld.so.conf ld.so.conf.d fonts sgml xml ssl/certs python3 python3.11 python3.13 debian_version "
+    "os-release lsb-release OpenCL glvnd localtime catkin"
+)
 
 
 def inner_words(platform: Platform, world: str, place: str, environment: Dict[str, str], filter_fd: int) -> List[str]:
@@ -198,10 +205,29 @@ def inner_words(platform: Platform, world: str, place: str, environment: Dict[st
 
 
 # Below /proc, of the whole machine or of the network that the examiner shares; what else is there belongs to the program's own processes.
-_SHUT = ("/proc/sys", "/proc/sysrq-trigger", "/proc/irq", "/proc/bus", "/proc/fs", "/proc/acpi", "/proc/scsi", "/proc/asound", "/proc/mtrr",
-         "/proc/driver", "/proc/pressure", "/proc/timer_list", "/proc/kcore", "/proc/kmsg", "/proc/sched_debug")
-_FILES = {"passwd": "student:x:1000:1000::/home/student:/bin/bash\n", "group": "student:x:1000:\n", "hosts": "127.0.0.1 localhost lab\n",
-          "nsswitch.conf": "passwd: files\ngroup: files\nhosts: files\n"}
+_SHUT = (
+    "/proc/sys",
+    "/proc/sysrq-trigger",
+    "/proc/irq",
+    "/proc/bus",
+    "/proc/fs",
+    "/proc/acpi",
+    "/proc/scsi",
+    "/proc/asound",
+    "/proc/mtrr",
+    "/proc/driver",
+    "/proc/pressure",
+    "/proc/timer_list",
+    "/proc/kcore",
+    "/proc/kmsg",
+    "/proc/sched_debug",
+)
+_FILES = {
+    "passwd": "student:x:1000:1000::/home/student:/bin/bash\n",
+    "group": "student:x:1000:\n",
+    "hosts": "127.0.0.1 localhost lab\n",
+    "nsswitch.conf": "passwd: files\ngroup: files\nhosts: files\n",
+}
 
 
 def make_world(platform: Platform, world: str, size: int, user: int) -> None:
@@ -245,10 +271,26 @@ def own_folder(path: pathlib.Path, user: int) -> None:
 
 def environment(port: int, home: str = HOME) -> Dict[str, str]:
     """What a program of the submission finds in its environment; nothing of the teacher's."""
-    return {"HOME": home, "USER": "student", "LOGNAME": "student", "SHELL": "/bin/bash", "LANG": "C.UTF-8", "TERM": "dumb",
-            "PATH": "/usr/local/bin:/usr/bin:/bin", "ROS_MASTER_URI": f"http://localhost:{port}", "ROS_HOSTNAME": "localhost",
-            "ROS_HOME": f"{home}/.ros", "PYTHONUNBUFFERED": "1", "PYTHONDONTWRITEBYTECODE": "1", "ROSCONSOLE_STDOUT_LINE_BUFFERED": "1",
-            "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "DISPLAY": "", "QT_QPA_PLATFORM": "offscreen", "PYTHONHASHSEED": "0"}
+    return {
+        "HOME": home,
+        "USER": "student",
+        "LOGNAME": "student",
+        "SHELL": "/bin/bash",
+        "LANG": "C.UTF-8",
+        "TERM": "dumb",
+        "PATH": "/usr/local/bin:/usr/bin:/bin",
+        "ROS_MASTER_URI": f"http://localhost:{port}",
+        "ROS_HOSTNAME": "localhost",
+        "ROS_HOME": f"{home}/.ros",
+        "PYTHONUNBUFFERED": "1",
+        "PYTHONDONTWRITEBYTECODE": "1",
+        "ROSCONSOLE_STDOUT_LINE_BUFFERED": "1",
+        "OMP_NUM_THREADS": "1",
+        "OPENBLAS_NUM_THREADS": "1",
+        "DISPLAY": "",
+        "QT_QPA_PLATFORM": "offscreen",
+        "PYTHONHASHSEED": "0",
+    }
 
 
 def isolated() -> List[str]:
@@ -274,17 +316,32 @@ def check() -> None:
     """
     for tool, package in (("bwrap", "bubblewrap"), ("unshare", "util-linux")):
         if not shutil.which(tool):
-            raise SandboxError(f"{tool} is not installed, which shuts submissions in: sudo apt install {package}; or --unsafe, for code "
-                               "that you trust")
-    inner = ["bwrap", "--unshare-user", "--disable-userns", "--unshare-pid", "--ro-bind", "/", "/", "--proc", "/proc", "--dev", "/dev",
-             "true"]
+            raise SandboxError(
+                f"{tool} is not installed, which shuts submissions in: sudo apt install {package}; or --unsafe, for code that you trust"
+            )
+    inner = [
+        "bwrap",
+        "--unshare-user",
+        "--disable-userns",
+        "--unshare-pid",
+        "--ro-bind",
+        "/",
+        "/",
+        "--proc",
+        "/proc",
+        "--dev",
+        "/dev",
+        "true",
+    ]
     process = shut_in(inner, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     said = process.stderr.read().decode("utf-8", "replace")
     process.stderr.close()
     if process.wait():
         why = (said.strip().splitlines() or ["no reason given"])[-1]
-        raise SandboxError(f"this machine does not allow the namespaces that shut submissions in ({why}). In Docker: --privileged, or a "
-                           "seccomp profile that allows them; or --unsafe, for code that you trust as your own")
+        raise SandboxError(
+            f"this machine does not allow the namespaces that shut submissions in ({why}). In Docker: --privileged, or a "
+            "seccomp profile that allows them; or --unsafe, for code that you trust as your own"
+        )
     if os.getuid() == 0:
         _readable()
 
@@ -294,11 +351,14 @@ def _readable() -> None:
     :raises SandboxError: root alone may read what the submission's user has to
     """
     here = Platform.here()
-    closed = [path for prefix, root in zip(here.prefixes, here.roots) for path in (root, prefix, f"{prefix}/setup.bash")
-              if not os.stat(path).st_mode & stat.S_IROTH]
+    closed = [
+        path
+        for prefix, root in zip(here.prefixes, here.roots)
+        for path in (root, prefix, f"{prefix}/setup.bash")
+        if not os.stat(path).st_mode & stat.S_IROTH
+    ]
     if closed:
-        raise SandboxError(f"{closed[0]} can be read by root alone, and submissions run as a user of their own: "
-                           f"chmod -R o+rX {closed[0]}")
+        raise SandboxError(f"{closed[0]} can be read by root alone, and submissions run as a user of their own: chmod -R o+rX {closed[0]}")
 
 
 def remark(place: str) -> str:
@@ -306,5 +366,8 @@ def remark(place: str) -> str:
 
     :param place: the control group, see :mod:`lab_check.group`
     """
-    return "" if group.counts_memory(place) else (
-        "no control group can be made here, so memory is counted ten times a second instead of being bound by the kernel")
+    return (
+        ""
+        if group.counts_memory(place)
+        else ("no control group can be made here, so memory is counted ten times a second instead of being bound by the kernel")
+    )

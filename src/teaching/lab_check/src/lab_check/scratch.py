@@ -1,4 +1,5 @@
 """Folders for the time of one examination. Whoever works in one holds its lock; what one that was killed left behind goes with the next."""
+
 from __future__ import annotations
 
 import contextlib

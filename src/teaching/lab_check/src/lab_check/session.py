@@ -38,9 +38,23 @@ from .spec import kind_of
 from .supervise import Guard, Program, bound
 
 # What reading from the submission's nodes, or from a master that they have led astray, can raise.
-UNREADABLE = (OSError, ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError, MemoryError, ArithmeticError,
-              xmlrpc.client.Error, ExpatError, http.client.HTTPException, rosgraph.MasterException, rospy.ROSException,
-              genpy.MessageException)
+UNREADABLE = (
+    OSError,
+    ValueError,
+    TypeError,
+    KeyError,
+    IndexError,
+    AttributeError,
+    RecursionError,
+    MemoryError,
+    ArithmeticError,
+    xmlrpc.client.Error,
+    ExpatError,
+    http.client.HTTPException,
+    rosgraph.MasterException,
+    rospy.ROSException,
+    genpy.MessageException,
+)
 _MORE_MEMORY = 1e9  # bytes over the submission's own limit that its messages can make this process take
 _READY_REST = 0.35  # s of rest that show a start-up to be over: spawners look for services every few tenths
 _READY_PATIENCE = 10.0  # s of work without rest after which a node of the launch is waited for no more
@@ -134,8 +148,10 @@ class Session:
             self._look_who_interferes()
         self.notes += self.interference.notes()
         if not self.job.spec["own_plugins"]:
-            self.notes += [f"{path}, code of the submission, ran inside the simulator, where it could have changed what was measured"
-                           for path in self._own_code()]
+            self.notes += [
+                f"{path}, code of the submission, ran inside the simulator, where it could have changed what was measured"
+                for path in self._own_code()
+            ]
         for name in self.nodes.restless_names:
             self.notes.append(
                 f"{name} never rests: a loop without sleep? It is no longer waited for, and what it does may differ from run to run"

@@ -3,6 +3,7 @@
 Debian's ``similarity-tester`` reads C, C++ and text, but neither Python, XML nor YAML, in which half of a robot is written; here the tokens
 are those of any language: names, numbers and signs, without comments, blanks and layout.
 """
+
 from __future__ import annotations
 
 import os
@@ -20,8 +21,9 @@ from .staging import Staged, StagingError, unpack, within_bounds
 
 _ENDINGS = {".cpp", ".cc", ".c", ".h", ".hpp", ".py", ".launch", ".xacro", ".urdf", ".yaml", ".world", ".sdf"}
 # One that is not closed goes to the end: to look for its end again from each beginning would take the square of the text.
-_COMMENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)|<!--.*?(?:-->|\Z)|^[ \t]*#(?!include|define|if|endif|pragma)[^\n]*",
-                      re.DOTALL | re.MULTILINE)
+_COMMENT = re.compile(
+    r"//[^\n]*|/\*.*?(?:\*/|\Z)|<!--.*?(?:-->|\Z)|^[ \t]*#(?!include|define|if|endif|pragma)[^\n]*", re.DOTALL | re.MULTILINE
+)
 _TOKEN = re.compile(r"[A-Za-z_]\w*|\d+(?:\.\d+)?|[^\s\w]")
 _RUN, _WINDOW, _LARGEST, _COMMON = 12, 8, 300_000, 0.5
 _MOST_OF_SOURCE, _MOST_IN_ALL = 10_000_000, 200e6  # bytes of sources that are compared, of an archive that is unpacked for it
@@ -65,8 +67,8 @@ def _of_folder(folder: pathlib.Path) -> Set[int]:
 
 def of_text(text: str) -> Set[int]:
     tokens = _TOKEN.findall(_COMMENT.sub(" ", text))
-    hashes = [zlib.crc32("\0".join(tokens[i:i + _RUN]).encode()) for i in range(max(len(tokens) - _RUN + 1, 0))]
-    return {min(hashes[i:i + _WINDOW]) for i in range(max(len(hashes) - _WINDOW + 1, 1))} if hashes else set()
+    hashes = [zlib.crc32("\0".join(tokens[i : i + _RUN]).encode()) for i in range(max(len(tokens) - _RUN + 1, 0))]
+    return {min(hashes[i : i + _WINDOW]) for i in range(max(len(hashes) - _WINDOW + 1, 1))} if hashes else set()
 
 
 def pairs(submissions: Dict[str, pathlib.Path], near: float = NEAR) -> List[Pair]:

@@ -1,6 +1,7 @@
 """The simulator from the examiner's side. The launch file is the submission's, and so are roslaunch, its environment and its folder; the
 simulator is the examiner's: it starts it, with code of the platform, behind walls of its own, and what is measured comes through a pair of
 sockets that only the two of them have."""
+
 from __future__ import annotations
 
 import base64
@@ -201,15 +202,24 @@ class Starter:
         """For the simulator: no library or module of the submission comes before one of the platform or of Debian."""
         mine = sandbox.own_environment()
         places = ("ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_IP")
-        found = {**sandbox.environment(self._job.port, self._job.inner_home),
-                 **{name: value for name, value in mine.items() if name.startswith("ROS") and name not in places},
-                 **{str(name): str(value) for name, value in wished.items() if name.startswith(_WISHED) or name in _WISHED_TOO}}
+        found = {
+            **sandbox.environment(self._job.port, self._job.inner_home),
+            **{name: value for name, value in mine.items() if name.startswith("ROS") and name not in places},
+            **{str(name): str(value) for name, value in wished.items() if name.startswith(_WISHED) or name in _WISHED_TOO},
+        }
         multiarch = sysconfig.get_config_var("MULTIARCH") or ""
         system = [f"/usr/lib/{multiarch}", f"/lib/{multiarch}", "/usr/lib", "/lib"]
         libraries = [*mine["LD_LIBRARY_PATH"].split(":"), *system, *str(wished.get("LD_LIBRARY_PATH", "")).split(":")]
         home = "/tmp" if not self._job.unsafe else self._job.scratch
-        return {**found, "HOME": home, "ROS_HOME": f"{home}/.ros", "PYTHONPATH": mine["PYTHONPATH"], "PYTHONNOUSERSITE": "1",
-                "PYTHONSAFEPATH": "1", "LD_LIBRARY_PATH": ":".join(dict.fromkeys(path for path in libraries if os.path.isabs(path)))}
+        return {
+            **found,
+            "HOME": home,
+            "ROS_HOME": f"{home}/.ros",
+            "PYTHONPATH": mine["PYTHONPATH"],
+            "PYTHONNOUSERSITE": "1",
+            "PYTHONSAFEPATH": "1",
+            "LD_LIBRARY_PATH": ":".join(dict.fromkeys(path for path in libraries if os.path.isabs(path))),
+        }
 
 
 def _without_seed(words: List[str]) -> List[str]:

@@ -1,4 +1,5 @@
 """How much memory waits in the sockets of this network: the kernel's own figures (sock_diag), without a program that asks for them."""
+
 from __future__ import annotations
 
 import socket
@@ -12,7 +13,9 @@ _FIGURES = struct.Struct("=6I")  # read queue, its limit, sent, its limit, reser
 # (request, bytes before the attributes of an answer, kind of the attribute)
 _ASKED = [(struct.pack("=BBHIII8s", socket.AF_UNIX, 0, 0, 0xFFFFFFFF, 0, 0x20, b"\xff" * 8), 16, _UNIX_MEMORY)] + [
     (struct.pack("=BBBBI48s", family, protocol, 1 << (_INET_MEMORY - 1), 0, 0xFFFFFFFF, b"\0" * 40 + b"\xff" * 8), 72, _INET_MEMORY)
-    for family in (socket.AF_INET, socket.AF_INET6) for protocol in (socket.IPPROTO_TCP, socket.IPPROTO_UDP)]
+    for family in (socket.AF_INET, socket.AF_INET6)
+    for protocol in (socket.IPPROTO_TCP, socket.IPPROTO_UDP)
+]
 
 
 def queued() -> float:
@@ -20,8 +23,13 @@ def queued() -> float:
     try:
         with socket.socket(socket.AF_NETLINK, socket.SOCK_RAW, _NETLINK_SOCK_DIAG) as asks:
             asks.settimeout(2.0)
-            return float(sum(read + max(sent, written) for request, skip, kind in _ASKED
-                             for read, sent, written in _answers(asks, request, skip, kind)))
+            return float(
+                sum(
+                    read + max(sent, written)
+                    for request, skip, kind in _ASKED
+                    for read, sent, written in _answers(asks, request, skip, kind)
+                )
+            )
     except (OSError, struct.error):
         return 0.0
 

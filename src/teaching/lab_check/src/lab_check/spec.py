@@ -1,4 +1,5 @@
 """The teacher's file: read, checked against ``spec_schema.json``, with file and line in every complaint."""
+
 from __future__ import annotations
 
 import difflib
@@ -158,14 +159,14 @@ def _words(error, where: Tuple) -> List[Tuple[Tuple, str]]:
         "exclusiveMinimum": f"{place}: {value} must be more than {error.validator_value}",
         "maximum": f"{place}: {value} is more than {error.validator_value}",
         "pattern": f"{place}: {value} has not the form asked for ({_form(str(error.validator_value))})",
-        "enum": f"{place}: {value} is none of {', '.join(map(str, error.validator_value or []))}"
-                if error.validator == "enum" else "",
+        "enum": f"{place}: {value} is none of {', '.join(map(str, error.validator_value or []))}" if error.validator == "enum" else "",
         "minItems": f"{place}: needs at least {error.validator_value} entries",
         "maxItems": f"{place}: takes at most {error.validator_value} entries",
         "minProperties": f"{place}: is empty",
         "maxProperties": f"{place}: holds several commands ({', '.join(error.instance) if isinstance(error.instance, dict) else ''});"
-                         " give each a '-' of its own",
-        "uniqueItems": f"{place}: has an entry twice"}
+        " give each a '-' of its own",
+        "uniqueItems": f"{place}: has an entry twice",
+    }
     return [((), sentences.get(error.validator, f"{place}: {error.message}"))]
 
 
@@ -174,8 +175,10 @@ def _kind(name) -> str:
 
 
 def _form(pattern: str) -> str:
-    return {SCHEMA["definitions"]["size"]["pattern"]: "a size such as 500 MB or 2 GB",
-            SCHEMA["definitions"]["name"]["pattern"]: "a name of letters, digits and _"}.get(pattern, "package/Type")
+    return {
+        SCHEMA["definitions"]["size"]["pattern"]: "a size such as 500 MB or 2 GB",
+        SCHEMA["definitions"]["name"]["pattern"]: "a name of letters, digits and _",
+    }.get(pattern, "package/Type")
 
 
 def _fill(data: Dict[str, Any]) -> None:

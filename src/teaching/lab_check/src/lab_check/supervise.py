@@ -1,4 +1,5 @@
 """Programs of a submission, watched: what they say is bounded, and so is what they take."""
+
 from __future__ import annotations
 
 import ctypes
@@ -31,8 +32,8 @@ class Output:
         with self._lock:
             self.total += len(data)
             room = _HEAD - len(self._head)
-            self._head += data[:max(room, 0)]
-            self._tail += data[max(room, 0):]
+            self._head += data[: max(room, 0)]
+            self._tail += data[max(room, 0) :]
             if len(self._tail) > 2 * _TAIL:
                 del self._tail[:-_TAIL]
 
@@ -42,7 +43,7 @@ class Output:
             begin = self.total - len(self._tail)  # of the tail
             left_out = begin - max(len(self._head), since)
             gap = f"\n... {left_out} bytes left out ...\n".encode() if left_out > 0 else b""
-            return (bytes(self._head[since:]) + gap + bytes(self._tail[max(since - begin, 0):])).decode("utf-8", "replace")
+            return (bytes(self._head[since:]) + gap + bytes(self._tail[max(since - begin, 0) :])).decode("utf-8", "replace")
 
 
 class Program:
@@ -54,24 +55,45 @@ class Program:
     :param streams: its standard streams; by default what it says is kept, and what is written to it are its keys
     """
 
-    def __init__(self, words: List[str], limits: Dict[str, float], environment: Optional[Dict[str, str]] = None, cwd: Optional[str] = None,
-                 place: str = "", user: int = 0, streams: Optional[Streams] = None, pass_fds: Sequence[int] = ()):
+    def __init__(
+        self,
+        words: List[str],
+        limits: Dict[str, float],
+        environment: Optional[Dict[str, str]] = None,
+        cwd: Optional[str] = None,
+        place: str = "",
+        user: int = 0,
+        streams: Optional[Streams] = None,
+        pass_fds: Sequence[int] = (),
+    ):
         self.output = Output()
         self.broke = ""  # the limit that it broke, in words
         self.words = words
         self._limits = limits
         self._place, self._user = place, user
         into, out, error = streams or (subprocess.PIPE, subprocess.PIPE, subprocess.STDOUT)
-        self.process = subprocess.Popen(words, env=environment, cwd=cwd, stdin=into, stdout=out, stderr=error, start_new_session=True,
-                                        preexec_fn=self._bound, pass_fds=pass_fds)
+        self.process = subprocess.Popen(
+            words,
+            env=environment,
+            cwd=cwd,
+            stdin=into,
+            stdout=out,
+            stderr=error,
+            start_new_session=True,
+            preexec_fn=self._bound,
+            pass_fds=pass_fds,
+        )
         self._reader = threading.Thread(target=self._read if streams is None else lambda: None, daemon=True)
         self._reader.start()
 
     def _bound(self) -> None:
         group.enter(self._place)
         signal.signal(signal.SIGINT, signal.SIG_DFL)
-        for what, most in ((resource.RLIMIT_CORE, 0), (resource.RLIMIT_FSIZE, int(self._limits.get("disk", 1e9))),
-                           (resource.RLIMIT_NOFILE, _MOST_FILES)):
+        for what, most in (
+            (resource.RLIMIT_CORE, 0),
+            (resource.RLIMIT_FSIZE, int(self._limits.get("disk", 1e9))),
+            (resource.RLIMIT_NOFILE, _MOST_FILES),
+        ):
             hard = resource.getrlimit(what)[1]
             most = most if hard == resource.RLIM_INFINITY else min(most, hard)
             resource.setrlimit(what, (most, most))
@@ -202,8 +224,14 @@ class Guard(threading.Thread):
     :param own_network: nobody else's sockets are in this network
     """
 
-    def __init__(self, programs: Callable[[], List[Program]], limits: Dict[str, float], place: str = "",
-                 written: Callable[[], float] = lambda: 0.0, own_network: bool = False):
+    def __init__(
+        self,
+        programs: Callable[[], List[Program]],
+        limits: Dict[str, float],
+        place: str = "",
+        written: Callable[[], float] = lambda: 0.0,
+        own_network: bool = False,
+    ):
         super().__init__(daemon=True)
         self._programs, self._limits, self._place, self._written = programs, limits, place, written
         self._held, self._ended_before = Held(own_network), group.ended_for_memory(place)

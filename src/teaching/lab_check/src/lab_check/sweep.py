@@ -1,4 +1,5 @@
 """``sweep``: one lab over a grid or random draw of parameters; the same examiner, a table and plots."""
+
 from __future__ import annotations
 
 import argparse
@@ -24,8 +25,9 @@ _MOST_PLOTS = 24
 def main(arguments: Optional[List[str]] = None) -> int:
     from .cli import allowed, sandbox_options
 
-    parser = argparse.ArgumentParser(prog="rosrun lab_check sweep", description="Examine a lab over a range of parameters; run it again to "
-                                     "go on after an interruption.")
+    parser = argparse.ArgumentParser(
+        prog="rosrun lab_check sweep", description="Examine a lab over a range of parameters; run it again to go on after an interruption."
+    )
     parser.add_argument("sweep", help="YAML: which parameters take which values; docs/grading.md")
     parser.add_argument("--workers", type=int, default=max(1, os.cpu_count() or 1), help="examinations at a time; default: one per core")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("sweep"), help="default: ./sweep")
@@ -181,8 +183,12 @@ def plots(sweep: Sweep, columns: List[str], rows: List[Dict[str, Any]], out: pat
         known = [row for row in rows if row.get(column) is not None]
         figure, axes = pyplot.subplots(1, len(parameters), figsize=(4.5 * len(parameters), 3.2), squeeze=False, layout="constrained")
         for axis, name in zip(axes[0], parameters):
-            axis.plot([row[name] if isinstance(row[name], (int, float)) else str(row[name]) for row in known],
-                      [row[column] for row in known], "o", alpha=0.6)
+            axis.plot(
+                [row[name] if isinstance(row[name], (int, float)) else str(row[name]) for row in known],
+                [row[column] for row in known],
+                "o",
+                alpha=0.6,
+            )
             axis.set_xlabel(name)
             axis.grid(alpha=0.3)
             if "log" in sweep.data["parameters"][name]:
@@ -212,9 +218,12 @@ def write_page(sweep: Sweep, columns: List[str], rows: List[Dict[str, Any]], pic
         lines.append(f"<tr><td><a href='{row['case']}/report.html'>{row['case']}</a>{cells}<td>{html.escape(row['why'])}")
     images = "".join(f"<p><img src='plots/{path.name}' alt='{html.escape(column, quote=True)}'>" for column, path in pictures)
     title = html.escape(sweep.data["title"])
-    text = (f'<!doctype html>\n<html lang="en"><meta charset="utf-8"><title>{title}</title><style>{STYLE} body {{max-width: none}}</style>'
-            f"<h1>{title}</h1><p class=note>{len(rows)} of {len(sweep.cases)} cases</p>{images}\n<table><tr>{head}\n" + "\n".join(lines)
-            + "</table></html>\n")
+    text = (
+        f'<!doctype html>\n<html lang="en"><meta charset="utf-8"><title>{title}</title><style>{STYLE} body {{max-width: none}}</style>'
+        f"<h1>{title}</h1><p class=note>{len(rows)} of {len(sweep.cases)} cases</p>{images}\n<table><tr>{head}\n"
+        + "\n".join(lines)
+        + "</table></html>\n"
+    )
     (out / "sweep.html").write_text(text, encoding="utf-8", errors="xmlcharrefreplace")
 
 

@@ -1,4 +1,5 @@
 """A sweep's file: which parameters take which values, and where they go in spec and submission."""
+
 from __future__ import annotations
 
 import hashlib
@@ -205,10 +206,11 @@ def _put_into_file(place: Dict[str, Any], value: Any, submission: pathlib.Path, 
         _set(data, place["key"].strip("/").split("/"), value, name)
         text = yaml.safe_dump(data, sort_keys=False)
     else:
+
         def replaced(match):
             begin, end = match.span(1)
             whole = match.group(0)
-            return whole[:begin - match.start()] + _shown(value) + whole[end - match.start():] if begin >= 0 else whole
+            return whole[: begin - match.start()] + _shown(value) + whole[end - match.start() :] if begin >= 0 else whole
 
         text, number = re.subn(place["find"], replaced, text)
         if not number:
@@ -223,7 +225,7 @@ def _set(data: Any, keys: List, value: Any, where: str) -> None:
         last = number == len(keys) - 1
         there = isinstance(data, dict) and (key in data or last) or isinstance(data, list) and isinstance(key, int) and 0 <= key < len(data)
         if not there:
-            shown = ".".join(str(part + 1) if isinstance(part, int) else part for part in keys[:number + 1])
+            shown = ".".join(str(part + 1) if isinstance(part, int) else part for part in keys[: number + 1])
             raise PlaceError(f"{where} has no {shown}")
         if last:
             data[key] = value

@@ -1,4 +1,5 @@
 """Expectations by kind; each is a :class:`lab_check.checks.base.Check`."""
+
 from __future__ import annotations
 
 import importlib.util
@@ -22,10 +23,29 @@ class PythonCheck(Check):
 
 def make(kind: str, wanted: Any, context: Context) -> Check:
     from . import files, graph, motion
-    kinds = {"file": files.FileCheck, "urdf": files.UrdfCheck, "node": graph.NodeCheck, "topic": graph.TopicCheck,
-             "service": graph.ServiceCheck, "param": graph.ParamCheck, "tf": graph.TfCheck, "controllers": graph.ControllersCheck,
-             "no_errors": graph.NoErrorsCheck, "exit": graph.ExitCheck, "answer": graph.AnswerCheck, "joint": motion.JointCheck,
-             "still": motion.StillCheck, "moved": motion.MovedCheck, "path": motion.PathCheck, "distance": motion.DistanceCheck,
-             "odometry": motion.OdometryCheck, "energy": motion.EnergyCheck, "image": motion.ImageCheck,
-             "no_collision": motion.NoCollisionCheck, "real_time_factor": motion.RealTimeFactorCheck, "python": PythonCheck}
+
+    kinds = {
+        "file": files.FileCheck,
+        "urdf": files.UrdfCheck,
+        "node": graph.NodeCheck,
+        "topic": graph.TopicCheck,
+        "service": graph.ServiceCheck,
+        "param": graph.ParamCheck,
+        "tf": graph.TfCheck,
+        "controllers": graph.ControllersCheck,
+        "no_errors": graph.NoErrorsCheck,
+        "exit": graph.ExitCheck,
+        "answer": graph.AnswerCheck,
+        "joint": motion.JointCheck,
+        "still": motion.StillCheck,
+        "moved": motion.MovedCheck,
+        "path": motion.PathCheck,
+        "distance": motion.DistanceCheck,
+        "odometry": motion.OdometryCheck,
+        "energy": motion.EnergyCheck,
+        "image": motion.ImageCheck,
+        "no_collision": motion.NoCollisionCheck,
+        "real_time_factor": motion.RealTimeFactorCheck,
+        "python": PythonCheck,
+    }
     return kinds[kind](wanted, context)

@@ -1,4 +1,5 @@
 """What every expectation shares."""
+
 from __future__ import annotations
 
 import pathlib

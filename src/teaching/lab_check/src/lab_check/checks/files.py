@@ -1,4 +1,5 @@
 """Facts of files and of the robot's description."""
+
 from __future__ import annotations
 
 import math
@@ -49,6 +50,7 @@ class UrdfCheck(Check):
 
     def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
         import rosgraph
+
         name = self.wanted.get("param", "/robot_description")
         try:
             text = rosgraph.Master("/lab_check").getParam(name)
@@ -80,8 +82,12 @@ def complain(robot: ET.Element, wanted: Dict[str, Any]) -> List[str]:
     plugins = {plugin.get("filename") for plugin in robot.iter("plugin")}
     sensors = {sensor.get("type") for sensor in robot.iter("sensor")}
     found = []
-    for kind, wished, there in (("joint", wanted.get("joints", []), joints), ("link", wanted.get("links", []), links),
-                                ("plugin", wanted.get("plugins", []), plugins), ("sensor of type", wanted.get("sensors", []), sensors)):
+    for kind, wished, there in (
+        ("joint", wanted.get("joints", []), joints),
+        ("link", wanted.get("links", []), links),
+        ("plugin", wanted.get("plugins", []), plugins),
+        ("sensor of type", wanted.get("sensors", []), sensors),
+    ):
         for name in wished:
             if name not in there:
                 found.append(f"there is no {kind} '{name}' (there are: {names(sorted(filter(None, there)))})")
@@ -91,11 +97,17 @@ def complain(robot: ET.Element, wanted: Dict[str, Any]) -> List[str]:
     if "transmissions" in wanted and transmissions < wanted["transmissions"]:
         found.append(f"{transmissions} transmissions are there, {wanted['transmissions']} are needed")
     if wanted.get("limits"):
-        found += [f"joint '{joint.get('name')}' has no limit with effort and velocity" for joint in moving
-                  if joint.get("type") in ("revolute", "prismatic") and not _limited(joint)]
+        found += [
+            f"joint '{joint.get('name')}' has no limit with effort and velocity"
+            for joint in moving
+            if joint.get("type") in ("revolute", "prismatic") and not _limited(joint)
+        ]
     if wanted.get("collisions"):
-        found += [f"link '{link.get('name')}' has a visual, but no collision" for link in robot.findall("link")
-                  if link.find("visual") is not None and link.find("collision") is None]
+        found += [
+            f"link '{link.get('name')}' has a visual, but no collision"
+            for link in robot.findall("link")
+            if link.find("visual") is not None and link.find("collision") is None
+        ]
     if wanted.get("inertias") == "sane":
         found += [text for link in robot.findall("link") if (text := insane(link))]
     return found

@@ -1,4 +1,5 @@
 """Nodes, topics, services, parameters, transforms, controllers, what was printed, how programs ended."""
+
 from __future__ import annotations
 
 import difflib
@@ -85,13 +86,13 @@ class TopicCheck(Check):
         passed_time = self.context.bench.now.time - self._begin
         rate = len(self._arrivals) / passed_time if passed_time > 0 else 0.0
         low, high = self.wanted["rate"]
-        return (low <= rate <= high, f"{name} comes at {rate:.4g} Hz of simulated time; {low:g} to {high:g} are asked for",
-                {"rate": rate})
+        return (low <= rate <= high, f"{name} comes at {rate:.4g} Hz of simulated time; {low:g} to {high:g} are asked for", {"rate": rate})
 
 
 class ServiceCheck(Check):
     def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
         from rosservice import ROSServiceException, get_service_type
+
         name = self.wanted["name"]
         there = sorted(service for service, _ in master().getSystemState()[2])
         if name not in there:
@@ -127,10 +128,14 @@ class TfCheck(Check):
 
     def start(self) -> None:
         import tf2_ros
+
         self._buffer = tf2_ros.BufferCore(rospy.Duration(1e6))
         from tf2_msgs.msg import TFMessage
-        self._subscribers = [rospy.Subscriber(name, TFMessage, lambda message, static=static: self._take(message, static), queue_size=None)
-                             for name, static in (("/tf", False), ("/tf_static", True))]
+
+        self._subscribers = [
+            rospy.Subscriber(name, TFMessage, lambda message, static=static: self._take(message, static), queue_size=None)
+            for name, static in (("/tf", False), ("/tf_static", True))
+        ]
         self.context.bench.connect()
 
     def _take(self, message, static: bool) -> None:
@@ -140,6 +145,7 @@ class TfCheck(Check):
 
     def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
         import tf2_ros
+
         for subscriber in self._subscribers:
             subscriber.unregister()
         source, target = self.wanted["from"], self.wanted["to"]
@@ -158,13 +164,20 @@ class TfCheck(Check):
 class ControllersCheck(Check):
     def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
         from controller_manager_msgs.srv import ListControllers
+
         services = sorted(s for s, _ in master().getSystemState()[2] if s.endswith("/controller_manager/list_controllers"))
         manager = self.wanted.get("manager")
-        mine = [s for s in services if manager in (None, s[:-len("/list_controllers")])]
+        mine = [s for s in services if manager in (None, s[: -len("/list_controllers")])]
         if not mine:
             which = f" {manager}" if manager else ""
-            return False, (f"there is no controller manager{which}: is the gazebo_ros_control plugin in the URDF? "
-                           f"(there are: {names(s[:-len('/list_controllers')] for s in services)})"), {}
+            return (
+                False,
+                (
+                    f"there is no controller manager{which}: is the gazebo_ros_control plugin in the URDF? "
+                    f"(there are: {names(s[: -len('/list_controllers')] for s in services)})"
+                ),
+                {},
+            )
         try:
             self._doubt(mine)
             found = {c.name: c for service in mine for c in rospy.ServiceProxy(service, ListControllers)().controller}
@@ -175,8 +188,12 @@ class ControllersCheck(Check):
         for pattern in self.wanted.get("running", []):
             if not any(fnmatch.fnmatchcase(name, pattern) for name in running):
                 state = next((c.state for name, c in found.items() if fnmatch.fnmatchcase(name, pattern)), "")
-                return False, (f"controller {pattern} is loaded, but {state}" if state else
-                               f"controller {pattern} is not loaded") + f" (running: {names(running)})", figures
+                return (
+                    False,
+                    (f"controller {pattern} is loaded, but {state}" if state else f"controller {pattern} is not loaded")
+                    + f" (running: {names(running)})",
+                    figures,
+                )
         if len(running) < self.wanted.get("count", 0):
             return False, f"{len(running)} controllers run, {self.wanted['count']} are asked for (running: {names(running)})", figures
         for pattern, kind in self.wanted.get("types", {}).items():
@@ -184,7 +201,6 @@ class ControllersCheck(Check):
             if wrong:
                 return False, f"{names(wrong)}, not {kind}", figures
         return True, f"running: {names(running)}", figures
-
 
     def _doubt(self, services: List[str]) -> None:
         """A node of the submission that is a controller manager, of a robot of its own say, tells what it likes."""
@@ -257,8 +273,10 @@ class ExitCheck(Check):
         if crashed(program.code, said):
             return f"the program crashed on a wrong argument instead of refusing it: {last}"
         if program.code == 0 and not (search(self.wanted["says"], said) if "says" in self.wanted else refusal(said)):
-            return ("the program took a wrong argument: it ended with code 0 and did not say what is wrong with it, nor how it is used "
-                    f"(it last printed: {last})")
+            return (
+                "the program took a wrong argument: it ended with code 0 and did not say what is wrong with it, nor how it is used "
+                f"(it last printed: {last})"
+            )
         return ""
 
 
@@ -270,12 +288,22 @@ class AnswerCheck(Check):
         if refusal is None and isinstance(answer, dict):
             refusal = next((str(answer) for field in ("success", "ok") if answer.get(field) is False), None)
         if self.wanted.get("refused"):
-            return refusal is not None, (f"refused, as it should be: {refusal}" if refusal is not None else
-                                         f"this had to be refused, but was taken: {str(answer)[:160]}"), {}
+            return (
+                refusal is not None,
+                (
+                    f"refused, as it should be: {refusal}"
+                    if refusal is not None
+                    else f"this had to be refused, but was taken: {str(answer)[:160]}"
+                ),
+                {},
+            )
         if answer is None:
             return False, f"no answer came: {refusal or 'nothing was asked'}", {}
-        wrong = [f"{field} is {str(answer.get(field))[:80]}, not {value}" for field, value in self.wanted.get("equals", {}).items()
-                 if answer.get(field) != value]
+        wrong = [
+            f"{field} is {str(answer.get(field))[:80]}, not {value}"
+            for field, value in self.wanted.get("equals", {}).items()
+            if answer.get(field) != value
+        ]
         if wrong:
             return False, names(wrong), {}
         if refusal is not None and not self.wanted.get("equals"):

@@ -93,8 +93,10 @@ def _doubt(check: Check, sample: Sample, joint: str) -> None:
     """Several models have a joint of that name, and the spec names none."""
     models = [] if check.context.model else sample.models_with(joint)
     if len(models) > 1:
-        check.doubts.add(f"the joint {joint} is there in several models ({names(models)}), and the spec's task names no model: "
-                         f"that of {models[0]} was measured")
+        check.doubts.add(
+            f"the joint {joint} is there in several models ({names(models)}), and the spec's task names no model: "
+            f"that of {models[0]} was measured"
+        )
 
 
 class StillCheck(Timed):
@@ -279,14 +281,7 @@ class _Listening(Timed):
         if message is None:
             self.problem = f"nobody publishes {name}" if kind is None else f"{name} carries {kind}, which is not known here"
             return
-        self._subscriber = rospy.Subscriber(
-            name,
-            message,
-            self._take,
-            queue_size=None,
-            buff_size=1 << 24,
-            tcp_nodelay=True,
-        )
+        self._subscriber = rospy.Subscriber(name, message, self._take, queue_size=None, buff_size=1 << 24, tcp_nodelay=True)
         self.context.bench.connect()
 
     def _take(self, message) -> None:

@@ -1,4 +1,5 @@
 """What came of a submission, for people (HTML), programs (JSON), CI (JUnit XML) and Gradescope (results.json)."""
+
 from __future__ import annotations
 
 import json
@@ -20,9 +21,15 @@ def write(result: Result, spec: Spec, out: pathlib.Path) -> None:
 
 def marks(result: Result) -> str:
     """All that decides about marks and what was measured, as one text: the same in every run."""
-    data = {"points": result.points, "of": result.of, "fault": result.fault,
-            "tasks": [{"name": t.name, "points": t.points,
-                       "verdicts": [[v.kind, v.passed, v.reason, v.points, v.figures] for v in t.verdicts]} for t in result.tasks]}
+    data = {
+        "points": result.points,
+        "of": result.of,
+        "fault": result.fault,
+        "tasks": [
+            {"name": t.name, "points": t.points, "verdicts": [[v.kind, v.passed, v.reason, v.points, v.figures] for v in t.verdicts]}
+            for t in result.tasks
+        ],
+    }
     return json.dumps(data, sort_keys=True)
 
 
@@ -31,8 +38,15 @@ def junit(result: Result) -> bytes:
     if result.fault:
         result = replace(result, tasks=[])
     failed = [task for task in result.tasks if task.points < task.of or not all(v.passed for v in task.verdicts)]
-    suite = ET.Element("testsuite", name=clean(result.title), tests=str(len(result.tasks) + bool(result.fault)), failures=str(len(failed)),
-                       errors=str(int(bool(result.fault))), skipped="0", time=f"{result.seconds:.1f}")
+    suite = ET.Element(
+        "testsuite",
+        name=clean(result.title),
+        tests=str(len(result.tasks) + bool(result.fault)),
+        failures=str(len(failed)),
+        errors=str(int(bool(result.fault))),
+        skipped="0",
+        time=f"{result.seconds:.1f}",
+    )
     for task in result.tasks:
         case = ET.SubElement(suite, "testcase", classname="lab_check", name=clean(task.name), time="0")
         if task in failed:
@@ -53,10 +67,26 @@ def clean(text: str) -> str:
 def gradescope(result: Result) -> dict:
     """results.json; without a score where the checker itself failed: Gradescope then tells of a failed autograder instead of giving 0."""
     if result.fault:
-        return {"execution_time": round(result.seconds), "output": f"The checker itself failed, ask your teacher: {result.fault}",
-                "stdout_visibility": "hidden"}
-    tests = [{"name": task.name, "score": task.points, "max_score": task.of, "status": "passed" if task.points >= task.of else "failed",
-              "output": "\n".join(("+ " if v.passed else "- ") + v.reason for v in task.verdicts), "visibility": "visible"}
-             for task in result.tasks]
-    return {"score": result.points, "execution_time": round(result.seconds), "output": "\n".join(result.notes), "tests": tests,
-            "stdout_visibility": "hidden"}
+        return {
+            "execution_time": round(result.seconds),
+            "output": f"The checker itself failed, ask your teacher: {result.fault}",
+            "stdout_visibility": "hidden",
+        }
+    tests = [
+        {
+            "name": task.name,
+            "score": task.points,
+            "max_score": task.of,
+            "status": "passed" if task.points >= task.of else "failed",
+            "output": "\n".join(("+ " if v.passed else "- ") + v.reason for v in task.verdicts),
+            "visibility": "visible",
+        }
+        for task in result.tasks
+    ]
+    return {
+        "score": result.points,
+        "execution_time": round(result.seconds),
+        "output": "\n".join(result.notes),
+        "tests": tests,
+        "stdout_visibility": "hidden",
+    }

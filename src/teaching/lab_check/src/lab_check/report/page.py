@@ -59,8 +59,7 @@ def _task(number: int, task: TaskResult, result: Result, out: pathlib.Path) -> s
     good = all(v.passed for v in task.verdicts)
     parts = [f"<h2 id=t{number}>{_e(task.name)} <span class=points>{task.points:g} of {task.of:g}</span></h2>"]
     items = "".join(
-        f"<li class={'yes' if v.passed else 'no'}>{_e(v.reason)}"
-        + (f" <span class=note>({v.points:g} of {v.of:g})</span>" if v.of else "")
+        f"<li class={'yes' if v.passed else 'no'}>{_e(v.reason)}" + (f" <span class=note>({v.points:g} of {v.of:g})</span>" if v.of else "")
         for v in task.verdicts
     )
     parts.append(f"<ul>{items}</ul>")
@@ -74,9 +73,7 @@ def _task(number: int, task: TaskResult, result: Result, out: pathlib.Path) -> s
             f"<pre>{_e(chr(10).join(task.commands))}</pre></details>"
         )
     figures = [
-        f'<figure><img src="{_e(os.path.relpath(p, out))}" alt="The end of this task"></figure>'
-        for p in task.pictures
-        if os.path.exists(p)
+        f'<figure><img src="{_e(os.path.relpath(p, out))}" alt="The end of this task"></figure>' for p in task.pictures if os.path.exists(p)
     ]
     if task.film and os.path.exists(task.film):
         figures.append(f'<figure><video controls loop muted src="{_e(os.path.relpath(task.film, out))}"></video></figure>')

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A latched topic, one at 10 Hz, a service that refuses False, an action that refuses negative goals; complains when it is told to."""
+
 import actionlib
 import rospy
 from actionlib.msg import TestAction, TestResult

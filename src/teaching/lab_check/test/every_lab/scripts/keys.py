@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """w drives on, s stops, q ends."""
+
 import sys
 import termios
 import tty

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Takes one number that is not negative, and prints its root; some words in its place end it in other ways."""
+
 import os
 import sys
 
@@ -20,4 +21,4 @@ except (IndexError, ValueError):
 if number < 0:
     print("usage: picky.py NUMBER, not negative")
     sys.exit(2)
-print(f"root {number ** 0.5:.3f}")
+print(f"root {number**0.5:.3f}")
