@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """rosbag record --mcap, as typed."""
+
 import glob
 import os
 import signal
@@ -22,8 +23,14 @@ class Record(unittest.TestCase):
 
     def record(self, *options):
         """Until Ctrl-C, which comes when the recorder has been told five times. :returns: what it printed"""
-        process = subprocess.Popen(["rosbag", "record", "--mcap", *options, "/said"], cwd=self.folder, stdout=subprocess.PIPE,
-                                   stderr=subprocess.STDOUT, text=True, start_new_session=True)
+        process = subprocess.Popen(
+            ["rosbag", "record", "--mcap", *options, "/said"],
+            cwd=self.folder,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        )
         self.addCleanup(process.kill)
         end = rospy.get_time() + 30
         while not self.publisher.get_num_connections() and rospy.get_time() < end:
@@ -41,8 +48,10 @@ class Record(unittest.TestCase):
         with open(file, "rb") as stream:
             reader = make_reader(stream)
             self.assertEqual(reader.get_header().profile, "ros1")
-            return [(channel.topic, channel.metadata["latching"], channel.metadata["callerid"], String().deserialize(message.data).data)
-                    for _, channel, message in reader.iter_messages()]
+            return [
+                (channel.topic, channel.metadata["latching"], channel.metadata["callerid"], String().deserialize(message.data).data)
+                for _, channel, message in reader.iter_messages()
+            ]
 
     def test_named(self):
         output = self.record("-O", "talk")
@@ -56,7 +65,7 @@ class Record(unittest.TestCase):
         with open(older, "w") as file:
             file.write("of somebody else")
         self.record("-o", "drive", "--lz4")
-        made, = glob.glob(os.path.join(self.folder, "drive_*.mcap"))
+        (made,) = glob.glob(os.path.join(self.folder, "drive_*.mcap"))
         self.assertEqual(len(self.words(made)[-5:]), 5)
         self.assertEqual(sorted(os.listdir(self.folder)), [os.path.basename(made), "old.bag"])
 

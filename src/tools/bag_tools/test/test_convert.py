@@ -1,4 +1,5 @@
 """Every message comes through, with its time, its publisher, its definition; what cannot be read is one line."""
+
 import struct
 import subprocess
 
@@ -24,6 +25,7 @@ OWN_MD5 = genpy.dynamic.generate_dynamic("nowhere/Thing", OWN)["nowhere/Thing"].
 
 def bytes_of(message):
     import io
+
     out = io.BytesIO()
     message.serialize(out)
     return out.getvalue()
@@ -35,13 +37,15 @@ def bag(tmp_path):
     path = tmp_path / "in.bag"
     with Writer(path) as out:
         store = get_typestore(Stores.ROS1_NOETIC)
-        chat = [out.add_connection("/chat", "std_msgs/msg/String", typestore=store, callerid=name, latching=latched)
-                for name, latched in (("/anna", 1), ("/ben", None))]
+        chat = [
+            out.add_connection("/chat", "std_msgs/msg/String", typestore=store, callerid=name, latching=latched)
+            for name, latched in (("/anna", 1), ("/ben", None))
+        ]
         joints = out.add_connection("/joint_states", "sensor_msgs/msg/JointState", typestore=store, callerid="/robot")
         image = out.add_connection("/image", "sensor_msgs/msg/CompressedImage", typestore=store)
         own = out.add_connection("/own", "nowhere/msg/Thing", msgdef=OWN, md5sum=OWN_MD5, callerid="/x")
         for i in range(200):
-            at = 1_700_000_000_000_000_001 + i // 2 * 10 ** 7
+            at = 1_700_000_000_000_000_001 + i // 2 * 10**7
             out.write(chat[i % 2], at, bytes_of(String(f"ä{i}")))
             state = JointState(name=["a"], position=[i / 7])
             state.header.seq, state.header.stamp = i, genpy.Time(5, i)
@@ -55,8 +59,10 @@ def bag(tmp_path):
 def content(path):
     """[(topic, type, md5sum, definition, publisher, latched, time, bytes)], of a bag, in order of time, then of the rest"""
     with Reader(path) as reader:
-        return sorted((c.topic, c.msgtype, c.digest, c.msgdef.data.strip(), c.ext.callerid, bool(c.ext.latching), at, bytes(data))
-                      for c, at, data in reader.messages())
+        return sorted(
+            (c.topic, c.msgtype, c.digest, c.msgdef.data.strip(), c.ext.callerid, bool(c.ext.latching), at, bytes(data))
+            for c, at, data in reader.messages()
+        )
 
 
 @pytest.mark.parametrize("there, back", (("zstd", "none"), ("lz4", "bz2"), ("none", "none")))
@@ -103,14 +109,16 @@ def test_ros_2_reads_the_same_values(bag, tmp_path, storage, by):
     assert len(read) == 604
     states = [(at, state) for topic, at, state in read if topic == "/joint_states"]
     assert [(at, state.position[0], state.header.stamp.nanosec) for at, state in states] == [
-        (1_700_000_000_000_000_001 + i // 2 * 10 ** 7, i / 7, i) for i in range(200)]
+        (1_700_000_000_000_000_001 + i // 2 * 10**7, i / 7, i) for i in range(200)
+    ]
     assert [said.data for topic, _, said in read if topic == "/chat"] == [f"ä{i}" for i in range(200)]
     convert(tmp_path / "two", tmp_path / f"back.{by}")
     if by == "mcap":
         convert(tmp_path / "back.mcap", tmp_path / "back.bag")
     with rosbag.Bag(str(tmp_path / "back.bag")) as again:
         assert [(state.position[0], stamp.to_nsec()) for _, state, stamp in again.read_messages("/joint_states")] == [
-            (i / 7, 1_700_000_000_000_000_001 + i // 2 * 10 ** 7) for i in range(200)]
+            (i / 7, 1_700_000_000_000_000_001 + i // 2 * 10**7) for i in range(200)
+        ]
         latched = {c.topic for c in again._get_connections() if c.header.get("latching") in ("1", b"1")}
     assert latched == {"/chat"}
 
@@ -126,17 +134,28 @@ def test_bags_of_rosbag_itself(tmp_path):
 
 def cut(path, of, part):
     data = of.read_bytes()
-    path.write_bytes(data[:int(len(data) * part)])
+    path.write_bytes(data[: int(len(data) * part)])
     return path
 
 
-@pytest.mark.parametrize("source, target, said", (
-    ("none.bag", "out.mcap", "there is no"), ("in.bag", "out.txt", "it should end in .bag or .mcap"),
-    ("in.bag", "in.bag", "is there already"), ("in.bag", "no/out.mcap", "there is no folder"),
-    ("text.txt", "out.bag", "or be the folder of a bag of ROS 2"), ("text.bag", "out.mcap", "no bag"),
-    ("text.mcap", "out.bag", "no MCAP file"), ("empty.bag", "out.mcap", "no bag"),
-    ("empty.mcap", "out.bag", "no MCAP file"), ("cut.bag", "out.mcap", "rosbag reindex"), ("folder", "out.bag", "without metadata.yaml"),
-    ("cut.mcap", "out.bag", "cut off"), ("text.bag", "out", "no bag")))
+@pytest.mark.parametrize(
+    "source, target, said",
+    (
+        ("none.bag", "out.mcap", "there is no"),
+        ("in.bag", "out.txt", "it should end in .bag or .mcap"),
+        ("in.bag", "in.bag", "is there already"),
+        ("in.bag", "no/out.mcap", "there is no folder"),
+        ("text.txt", "out.bag", "or be the folder of a bag of ROS 2"),
+        ("text.bag", "out.mcap", "no bag"),
+        ("text.mcap", "out.bag", "no MCAP file"),
+        ("empty.bag", "out.mcap", "no bag"),
+        ("empty.mcap", "out.bag", "no MCAP file"),
+        ("cut.bag", "out.mcap", "rosbag reindex"),
+        ("folder", "out.bag", "without metadata.yaml"),
+        ("cut.mcap", "out.bag", "cut off"),
+        ("text.bag", "out", "no bag"),
+    ),
+)
 def test_what_cannot_be_done_is_one_line(bag, tmp_path, capsys, source, target, said):
     convert(bag, tmp_path / "whole.mcap")
     for name in ("text.txt", "text.bag", "text.mcap"):
@@ -162,7 +181,7 @@ def test_flipped_bytes_end_in_one_line_or_a_file(bag, tmp_path, capsys, kind, at
         convert(bag, source, "none")
     data = bytearray(source.read_bytes())
     for i in range(40):
-        data[at + i] ^= 0x5a
+        data[at + i] ^= 0x5A
     broken = tmp_path / f"broken.{kind}"
     broken.write_bytes(data)
     target = tmp_path / ("out.mcap" if kind == "bag" else "out.bag")
@@ -181,6 +200,7 @@ def test_compression_that_a_target_does_not_have(bag, tmp_path):
 def test_as_typed(bag, tmp_path):
     def typed(*words):
         return subprocess.run(["rosrun", "bag_tools", "convert", *words], cwd=tmp_path, capture_output=True, text=True, timeout=60)
+
     done = typed("in.bag", "out.mcap")
     assert (done.returncode, done.stdout.strip(), done.stderr) == (0, "out.mcap: 604 messages", "")
     assert typed("in.bag", "out.mcap").returncode == 1

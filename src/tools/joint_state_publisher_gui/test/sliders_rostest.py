@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The window opens, and its slider publishes the joint where the parameter `zeros` wants it."""
+
 import sys
 import unittest
 
@@ -9,7 +10,6 @@ from sensor_msgs.msg import JointState
 
 
 class Sliders(unittest.TestCase):
-
     def test_a_joint_stands_where_its_slider_does(self):
         state = rospy.wait_for_message("joint_states", JointState, timeout=120.0)
         self.assertEqual(state.name, ["hinge"])

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The gallery command on launch files that work and on some that do not."""
+
 import os
 import subprocess
 import tempfile
@@ -56,8 +57,10 @@ class Gallery(unittest.TestCase):
             self.assertIn("dies.launch", page.read())
 
     def test_bad_targets_are_one_line(self):
-        for target, words in (("no_such_package", "neither a file nor a package"),
-                              ("launch_gallery/none.launch", "has no launch file none.launch")):
+        for target, words in (
+            ("no_such_package", "neither a file nor a package"),
+            ("launch_gallery/none.launch", "has no launch file none.launch"),
+        ):
             result = gallery(target, "-o", self.folder)
             self.assertEqual(result.returncode, 1)
             self.assertIn(words, result.stderr)

@@ -1,4 +1,5 @@
 """What the measuring tool makes of samples, topics and logs, without ROS running."""
+
 import math
 from types import SimpleNamespace
 
@@ -10,8 +11,10 @@ def circle(speed, rate, seconds, step=0.1):
     """Samples of a robot on a circle from the origin along x."""
     times = [i * step for i in range(round(seconds / step) + 1)]
     radius = speed / rate
-    return [motion.Sample(t, radius * math.sin(rate * t), radius * (1 - math.cos(rate * t)), 0.0,
-                          math.remainder(rate * t, 2 * math.pi), 0.0) for t in times]
+    return [
+        motion.Sample(t, radius * math.sin(rate * t), radius * (1 - math.cos(rate * t)), 0.0, math.remainder(rate * t, 2 * math.pi), 0.0)
+        for t in times
+    ]
 
 
 def test_turns_are_counted_beyond_half_a_turn():
@@ -29,8 +32,9 @@ def test_tilt_is_the_angle_to_the_upward_axis():
     assert motion.sample(0, (0, 0, 0), (math.sin(0.2), 0, 0, math.cos(0.2))).tilt == pytest.approx(0.4)
 
 
-@pytest.mark.parametrize("angle, lower, upper, target", [
-    (0.0, -1, 1, 0.5), (0.9, -1, 1, 0.4), (0.0, -0.1, 0.3, 0.1), (0.0, None, None, 0.5)])
+@pytest.mark.parametrize(
+    "angle, lower, upper, target", [(0.0, -1, 1, 0.5), (0.9, -1, 1, 0.4), (0.0, -0.1, 0.3, 0.1), (0.0, None, None, 0.5)]
+)
 def test_joints_go_where_their_limits_let_them(angle, lower, upper, target):
     assert motion.reachable(angle, 0.5, lower, upper) == pytest.approx(target)
 
@@ -43,8 +47,9 @@ def test_the_command_goes_to_an_input_of_a_multiplexer():
     assert commands.choose(heard, [], "a") == ("/a", twist)
 
 
-@pytest.mark.parametrize("wanted, words", [("joy", "is of type sensor_msgs/Joy"), ("b", "has no subscriber"),
-                                           ("", "nobody listens to speeds")])
+@pytest.mark.parametrize(
+    "wanted, words", [("joy", "is of type sensor_msgs/Joy"), ("b", "has no subscriber"), ("", "nobody listens to speeds")]
+)
 def test_a_topic_that_cannot_be_commanded_is_said(wanted, words):
     with pytest.raises(commands.MeasuringError, match=words):
         commands.choose([("/joy", "sensor_msgs/Joy")], [], wanted)
@@ -78,9 +83,14 @@ def test_a_blank_picture_is_said():
 
 def test_a_row_sets_what_was_done_against_what_was_told():
     still = {"seconds": 60.0, "ahead": 0.0, "left": 2e-5, "turned": 0.0, "rise": 0.0, "tilt": 0.0}
-    found = {"notes": ["a | b"], "drift": still, "command": {"kind": "geometry_msgs/Twist"}, "reach": {"arm": 0.25},
-             "straight": {**still, "seconds": 10.0, "ahead": 2.9, "speed": 0.3},
-             "turn": {**still, "seconds": 10.0, "turned": 4.8, "rate": 0.5, "speed": 0.0}}
+    found = {
+        "notes": ["a | b"],
+        "drift": still,
+        "command": {"kind": "geometry_msgs/Twist"},
+        "reach": {"arm": 0.25},
+        "straight": {**still, "seconds": 10.0, "ahead": 2.9, "speed": 0.3},
+        "turn": {**still, "seconds": 10.0, "turned": 4.8, "rate": 0.5, "speed": 0.0},
+    }
     cells = row.row("me/it@1", "roslaunch x", found, 0.0).strip("|").split("|")
     assert cells[2].strip().startswith("2.900 of 3.000 m")
     assert cells[3].strip().startswith("4.800 of 5.000 rad")
@@ -98,8 +108,10 @@ def test_cars_are_set_against_their_geometry():
 
 def test_errors_of_a_log_are_told_once(tmp_path):
     log = tmp_path / "log"
-    log.write_text("[INFO] [1.0]: fine\n\x1b[31m[ERROR] [123.4, 5.0]: no p gain\x1b[0m\n[ERROR] [124.4, 6.0]: no p gain\n"
-                   "[gazebo-2] process has died [pid 1]\n")
+    log.write_text(
+        "[INFO] [1.0]: fine\n\x1b[31m[ERROR] [123.4, 5.0]: no p gain\x1b[0m\n[ERROR] [124.4, 6.0]: no p gain\n"
+        "[gazebo-2] process has died [pid 1]\n"
+    )
     assert measure.errors(str(log)) == ["no p gain", "[gazebo-2] process has died [pid 1]"]
 
 

@@ -1,4 +1,5 @@
 """Small packages in Noetic's style, configured and built with plain CMake against the sourced workspace."""
+
 import ctypes
 import os
 import re
@@ -9,14 +10,21 @@ import pytest
 
 HERE = Path(__file__).resolve().parents[1]
 LIST = HERE / "cmake/absent_packages.cmake"
-PREFIX = next((Path(prefix) for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":")
-               if (Path(prefix) / "share/catkin/cmake/absent_packages.cmake").is_file()), None)
+PREFIX = next(
+    (
+        Path(prefix)
+        for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":")
+        if (Path(prefix) / "share/catkin/cmake/absent_packages.cmake").is_file()
+    ),
+    None,
+)
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(PREFIX is None, reason="no sourced workspace has noetic_compatibility")]
 
 
 @pytest.fixture
 def package(tmp_path):
     """Function that writes a package, configures it and builds it; its result has returncode and stdout."""
+
     def make(components, source=None, options="", build=True):
         depends = "".join(f"<depend>{name}</depend>" for name in components.split())
         (tmp_path / "package.xml").write_text(
@@ -24,9 +32,11 @@ def package(tmp_path):
             f"<maintainer email='a@example.org'>m</maintainer><license>BSD</license>"
             f"<buildtool_depend>catkin</buildtool_depend>{depends}</package>"
         )
-        lists = (f"cmake_minimum_required(VERSION 3.0.2)\nproject(p)\n{options}\n"
-                 f"find_package(catkin REQUIRED COMPONENTS {components})\ncatkin_package()\n"
-                 "include_directories(${catkin_INCLUDE_DIRS})\n")
+        lists = (
+            f"cmake_minimum_required(VERSION 3.0.2)\nproject(p)\n{options}\n"
+            f"find_package(catkin REQUIRED COMPONENTS {components})\ncatkin_package()\n"
+            "include_directories(${catkin_INCLUDE_DIRS})\n"
+        )
         if source:
             (tmp_path / "p.cpp").write_text(source)
             lists += "add_library(p SHARED p.cpp)\ntarget_link_libraries(p ${catkin_LIBRARIES})\n"
@@ -37,16 +47,20 @@ def package(tmp_path):
         if ended.returncode == 0 and source:
             ended = subprocess.run(["cmake", "--build", tmp_path / "build"], capture_output=True, text=True, timeout=280)
         return ended
+
     return make
 
 
 def test_headers_of_packages_that_are_not_declared_are_found(package):
     """All of Noetic's headers lie in one folder: sources include what their package.xml does not name."""
-    ended = package("moveit_ros_planning_interface", """
+    ended = package(
+        "moveit_ros_planning_interface",
+        """
         #include <moveit/move_group_interface/move_group_interface.h>
         #include <moveit_visual_tools/moveit_visual_tools.h>
         #include <controller_interface/controller.h>
-    """)
+    """,
+    )
     assert ended.returncode == 0, ended.stdout
 
 
@@ -76,6 +90,7 @@ def test_headers_of_a_workspace_below_are_found_undeclared(package, tmp_path, mo
 @pytest.fixture
 def program(tmp_path, package):
     """Function that links a program with ``libraries`` in a package of these components."""
+
     def link(components, source, libraries):
         package(components, "", build=False)
         (tmp_path / "p.cpp").write_text(source)
@@ -84,6 +99,7 @@ def program(tmp_path, package):
         for command in (["cmake", "-S", tmp_path, "-B", tmp_path / "build", "-Wno-dev"], ["cmake", "--build", tmp_path / "build"]):
             ended = subprocess.run(command, capture_output=True, text=True, timeout=200)
             assert ended.returncode == 0, ended.stdout + ended.stderr
+
     return link
 
 
@@ -94,13 +110,17 @@ def test_libraries_of_packages_that_are_not_declared_are_found(program):
 
 def test_rosbag_storage_hands_on_boosts_options(program):
     """slam_gmapping's replay links them so."""
-    program("roscpp rosbag_storage", "#include <boost/program_options.hpp>\nint main() { boost::program_options::variables_map map; }\n",
-            "${catkin_LIBRARIES}")
+    program(
+        "roscpp rosbag_storage",
+        "#include <boost/program_options.hpp>\nint main() { boost::program_options::variables_map map; }\n",
+        "${catkin_LIBRARIES}",
+    )
 
 
 @pytest.fixture
 def asked(tmp_path, package):
     """Function that builds one target of a package with a message Told, which includes its header and says no add_dependencies."""
+
     def build(lists, target):
         package("roscpp message_generation", "", build=False)
         (tmp_path / "msg").mkdir()
@@ -108,13 +128,17 @@ def asked(tmp_path, package):
         (tmp_path / "p.cpp").write_text("#include <p/Told.h>\nint main() { return p::Told().number; }\n")
         text = (tmp_path / "CMakeLists.txt").read_text()
         (tmp_path / "CMakeLists.txt").write_text(
-            text.replace("catkin_package()", "add_message_files(FILES Told.msg)\ngenerate_messages()\ncatkin_package()") + lists)
-        for command in (["cmake", "-S", tmp_path, "-B", tmp_path / "build", "-Wno-dev"],
-                        ["cmake", "--build", tmp_path / "build", "--target", target]):
+            text.replace("catkin_package()", "add_message_files(FILES Told.msg)\ngenerate_messages()\ncatkin_package()") + lists
+        )
+        for command in (
+            ["cmake", "-S", tmp_path, "-B", tmp_path / "build", "-Wno-dev"],
+            ["cmake", "--build", tmp_path / "build", "--target", target],
+        ):
             ended = subprocess.run(command, capture_output=True, text=True, timeout=200)
             if ended.returncode:
                 break
         return ended
+
     return build
 
 
@@ -138,7 +162,9 @@ def test_a_program_that_messages_wait_for_does_not_wait_for_them(asked, tmp_path
 @pytest.mark.parametrize("standard", ["", "add_compile_options(-std=c++11)"])
 def test_old_sources_build(package, standard):
     """Placeholders without namespace, an undeclared package's messages, headers under their names of before 2018."""
-    ended = package("roscpp std_msgs pluginlib", """
+    ended = package(
+        "roscpp std_msgs pluginlib",
+        """
         #include <ros/ros.h>
         #include <angles/angles.h>
         #include <std_msgs/Float64.h>
@@ -155,7 +181,9 @@ def test_old_sources_build(package, standard):
           double turn = angles::normalize_angle(4.0);
         };
         PLUGINLIB_EXPORT_CLASS(Node, Base)
-        """, standard)
+        """,
+        standard,
+    )
     assert ended.returncode == 0, ended.stdout + ended.stderr
     assert "global namespace is deprecated" not in ended.stdout + ended.stderr
 
@@ -163,7 +191,9 @@ def test_old_sources_build(package, standard):
 @pytest.mark.parametrize("standard", ["14", "17", "20"])
 def test_elements_of_vectors_of_bool_are_swapped(package, standard):
     """By std::swap, with its full name; libstdc++ 12 has it for calls without std:: only."""
-    ended = package("roscpp", """
+    ended = package(
+        "roscpp",
+        """
         #include <vector>
         void f(std::vector<bool>& v, bool& b) {
           std::swap(v[0], v.back());
@@ -172,13 +202,17 @@ def test_elements_of_vectors_of_bool_are_swapped(package, standard):
           using std::swap;
           swap(v[0], v[1]);
         }
-        """, f"add_compile_options(-std=c++{standard})")
+        """,
+        f"add_compile_options(-std=c++{standard})",
+    )
     assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
 @pytest.mark.parametrize("header", ["tree", "chain", "kinfam_io", "joint", "chainiksolverpos_lma"])
 def test_kdl_calls_a_fixed_joint_as_noetics_does(program, tmp_path, header):
-    program("roscpp kdl_parser", f"""
+    program(
+        "roscpp kdl_parser",
+        f"""
         #include <kdl/{header}.hpp>
         #include <kdl_parser/kdl_parser.hpp>
         #include <iostream>
@@ -191,30 +225,41 @@ def test_kdl_calls_a_fixed_joint_as_noetics_does(program, tmp_path, header):
             std::cout << segment.getJoint().getTypeName() << " ";
           std::cout << chain.getNrOfJoints();
         }}
-        """, "${catkin_LIBRARIES} orocos-kdl")
+        """,
+        "${catkin_LIBRARIES} orocos-kdl",
+    )
     ended = subprocess.run([next((tmp_path / "build").rglob("program"))], capture_output=True, text=True, timeout=20)
     assert ended.stdout == "None RotZ None 1", ended.stdout + ended.stderr
 
 
-@pytest.mark.parametrize("minimum, before, after", [
-    ("3.0.2", "add_compile_options(-std=c++11)", ""), ("3.22", "add_compile_options(-std=c++11)", ""),
-    ("3.0.2", "add_definitions(-DX -std=c++11)", ""), ("3.22", "add_definitions(-std=c++11)", ""),
-    ("3.0.2", 'set(CMAKE_CXX_FLAGS "${CMAKE_CXX_FLAGS} -std=c++0x -Wall")', ""),
-    ("3.22", "set(CMAKE_CXX_STANDARD 11)\nset(CMAKE_CXX_EXTENSIONS OFF)", ""),
-    ("3.0.2", "", "set_target_properties(p PROPERTIES CXX_STANDARD 14)"),
-    ("3.22", "", "set_target_properties(p PROPERTIES COMPILE_FLAGS -std=c++14)"),
-    ("3.0.2", "", "target_compile_options(p PRIVATE -std=gnu++14)"), ("3.22", "set(CMAKE_CXX_FLAGS -std=c++20)", ""),
-    ("3.0.2", "add_definitions(-std=c++11)", "target_compile_options(p PRIVATE -std=c++20)")])
+@pytest.mark.parametrize(
+    "minimum, before, after",
+    [
+        ("3.0.2", "add_compile_options(-std=c++11)", ""),
+        ("3.22", "add_compile_options(-std=c++11)", ""),
+        ("3.0.2", "add_definitions(-DX -std=c++11)", ""),
+        ("3.22", "add_definitions(-std=c++11)", ""),
+        ("3.0.2", 'set(CMAKE_CXX_FLAGS "${CMAKE_CXX_FLAGS} -std=c++0x -Wall")', ""),
+        ("3.22", "set(CMAKE_CXX_STANDARD 11)\nset(CMAKE_CXX_EXTENSIONS OFF)", ""),
+        ("3.0.2", "", "set_target_properties(p PROPERTIES CXX_STANDARD 14)"),
+        ("3.22", "", "set_target_properties(p PROPERTIES COMPILE_FLAGS -std=c++14)"),
+        ("3.0.2", "", "target_compile_options(p PRIVATE -std=gnu++14)"),
+        ("3.22", "set(CMAKE_CXX_FLAGS -std=c++20)", ""),
+        ("3.0.2", "add_definitions(-std=c++11)", "target_compile_options(p PRIVATE -std=c++20)"),
+    ],
+)
 def test_an_older_standard_is_raised(tmp_path, minimum, before, after):
     """Where the system's headers need it; here this header does."""
     newer = "20" in before + after
     (tmp_path / "below").mkdir()
     (tmp_path / "below/p.cpp").write_text(
-        f"#include <filesystem>\nstatic_assert(__cplusplus {'>' if newer else '=='} 201703L);\nstd::filesystem::path p;\n")
+        f"#include <filesystem>\nstatic_assert(__cplusplus {'>' if newer else '=='} 201703L);\nstd::filesystem::path p;\n"
+    )
     (tmp_path / "below/CMakeLists.txt").write_text(f"add_library(p SHARED p.cpp)\n{after}\n")
     (tmp_path / "CMakeLists.txt").write_text(
         f"cmake_minimum_required(VERSION {minimum})\nproject(p CXX)\ninclude({HERE}/cmake/old_standards.cmake)\n"
-        f"noetic_raise_standard(17)\n{before}\nadd_subdirectory(below)\n")
+        f"noetic_raise_standard(17)\n{before}\nadd_subdirectory(below)\n"
+    )
     build = tmp_path / "build"
     for command in (["cmake", "-S", tmp_path, "-B", build, "-Wno-dev"], ["cmake", "--build", build, "--verbose"]):
         ended = subprocess.run(command, capture_output=True, text=True, timeout=100)
@@ -228,7 +273,8 @@ def test_of_several_who_ask_for_a_standard_the_highest_counts(tmp_path, asked):
     (tmp_path / "CMakeLists.txt").write_text(
         f"cmake_minimum_required(VERSION 3.5)\nproject(p CXX)\ninclude({HERE}/cmake/old_standards.cmake)\n"
         f"add_compile_options(-std=c++11)\nnoetic_raise_standard({asked[0]})\nnoetic_raise_standard({asked[1]})\n"
-        "add_library(p OBJECT p.cpp)\n")
+        "add_library(p OBJECT p.cpp)\n"
+    )
     build = tmp_path / "build"
     for command in (["cmake", "-S", tmp_path, "-B", build, "-Wno-dev"], ["cmake", "--build", build, "--verbose"]):
         ended = subprocess.run(command, capture_output=True, text=True, timeout=100)
@@ -264,7 +310,9 @@ def test_a_standard_is_raised_no_further_than_needed(tmp_path):
 @pytest.mark.skipif(not Path("/usr/share/pcl_ros").is_dir(), reason="without pcl_ros")
 def test_point_clouds_in_old_packages(package):
     """PCL of Debian 12 asks for C++14, Noetic's packages say C++11; its pointers are std's, Noetic's were boost's as those of roscpp."""
-    ended = package("pcl_ros roscpp", """
+    ended = package(
+        "pcl_ros roscpp",
+        """
         #include <pcl_ros/point_cloud.h>
         #include <pcl/point_types.h>
         #include <ros/ros.h>
@@ -290,13 +338,17 @@ def test_point_clouds_in_old_packages(package):
               nh.subscribe<Cloud>("x", 1, boost::bind(&Node::bound, &node, _1, 3)), nh.subscribe<Cloud>("x", 1, boost::bind(boosted, _1)),
               nh.subscribe<Cloud>("x", 1, [](const Cloud::ConstPtr& cloud) { publisher.publish(cloud); })};
         }
-        """, "add_definitions(-std=c++11)")
+        """,
+        "add_definitions(-std=c++11)",
+    )
     assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
 @pytest.mark.skipif(not Path("/usr/share/pcl_ros").is_dir(), reason="without pcl_ros")
 def test_boost_makes_the_pointers_of_pcl(package, tmp_path):
-    ended = package("pcl_ros roscpp", """
+    ended = package(
+        "pcl_ros roscpp",
+        """
         #include <cstdio>
         #include <boost/make_shared.hpp>
         #include <pcl_ros/point_cloud.h>
@@ -326,41 +378,50 @@ def test_boost_makes_the_pointers_of_pcl(package, tmp_path):
           result.reset();
           return constant.get() == object ? 10 * constant->size() + kept.pcls->size() : -1;
         }
-        """, "add_definitions(-std=c++11)")
+        """,
+        "add_definitions(-std=c++11)",
+    )
     assert ended.returncode == 0, ended.stdout + ended.stderr
     assert ctypes.CDLL(str(next(tmp_path.rglob("libp.so")))).sizes() == 11
 
 
 @pytest.mark.skipif(not Path("/usr/share/pcl_ros").is_dir(), reason="without pcl_ros")
 def test_the_windows_of_pcl_are_found(package):
-    ended = package("pcl_ros roscpp", """
+    ended = package(
+        "pcl_ros roscpp",
+        """
         #include <pcl/visualization/cloud_viewer.h>
         typedef pcl::PointCloud<pcl::PointXYZRGB> Cloud;
         void shows(const Cloud::ConstPtr& cloud, pcl::visualization::CloudViewer& window) { window.showCloud(cloud); }
-        """)
+        """,
+    )
     assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
 @pytest.mark.parametrize("header", ["class_loader.h", "class_loader.hpp"])
 def test_pluginlib_brings_what_noetics_brings(package, header):
-    ended = package("pluginlib roscpp", f"""
+    ended = package(
+        "pluginlib roscpp",
+        f"""
         #include <pluginlib/{header}>
         void told() {{ ROS_INFO("%s", ros::package::getPath("roscpp").c_str()); }}
-        """)
+        """,
+    )
     assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
 def test_packages_of_catkin_make_find_the_old_headers_too(package, tmp_path):
     """catkin_make configures all packages in one run of CMake, with a find_package(catkin) of its own before theirs."""
-    package("roscpp pluginlib", "#include <class_loader/class_loader.h>\n#include <pluginlib/class_list_macros.h>\n",
-            build=False)
+    package("roscpp pluginlib", "#include <class_loader/class_loader.h>\n#include <pluginlib/class_list_macros.h>\n", build=False)
     workspace = tmp_path / "workspace"
     (workspace / "src/p").mkdir(parents=True)
     for file in ("package.xml", "CMakeLists.txt", "p.cpp"):
         (tmp_path / file).rename(workspace / "src/p" / file)
     (workspace / "src/CMakeLists.txt").symlink_to("/usr/share/catkin/cmake/toplevel.cmake")
-    for step in (["-S", workspace / "src", "-B", workspace / "build", "-Wno-dev", f"-DCATKIN_DEVEL_PREFIX={workspace}/devel"],
-                 ["--build", workspace / "build"]):
+    for step in (
+        ["-S", workspace / "src", "-B", workspace / "build", "-Wno-dev", f"-DCATKIN_DEVEL_PREFIX={workspace}/devel"],
+        ["--build", workspace / "build"],
+    ):
         ended = subprocess.run(["cmake", *step], capture_output=True, text=True, timeout=280)
         assert ended.returncode == 0, ended.stdout + ended.stderr
 
@@ -393,8 +454,10 @@ def test_a_package_that_debian_has_is_named_with_its_debian_packages(package):
 
 
 def test_what_is_optional_stays_silent(package, tmp_path):
-    (tmp_path / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.10)\nproject(q)\n"
-                                             "find_package(catkin QUIET COMPONENTS amcl)\nmessage(STATUS \"amcl ${amcl_FOUND}\")\n")
+    (tmp_path / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.10)\nproject(q)\n"
+        'find_package(catkin QUIET COMPONENTS amcl)\nmessage(STATUS "amcl ${amcl_FOUND}")\n'
+    )
     ended = subprocess.run(["cmake", "-S", tmp_path, "-B", tmp_path / "b"], capture_output=True, text=True, timeout=200)
     assert ended.returncode == 0 and "amcl 0" in ended.stdout and ended.stderr == ""
 

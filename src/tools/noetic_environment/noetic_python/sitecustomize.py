@@ -4,6 +4,7 @@ KDL 1.4) has and Debian's has dropped.
 Python imports this when it starts in a shell that is sourced. Nothing else is imported here: what is missing is put into a module
 when a program imports that module (``noetic_names``), and a name that is there stays as it is.
 """
+
 import sys
 import time
 from importlib.machinery import BuiltinImporter
@@ -13,27 +14,40 @@ if TYPE_CHECKING:
     from typing import Any
 
 #: Which module of noetic_names completes which module.
-COMPLETED_BY = {name: group for group, names in {
-    "standard": "array asyncio base64 cgi collections configparser fractions html.parser importlib inspect json locale math plistlib "
-                "random threading unittest xml.etree.ElementTree",
-    "numbers": "numpy numpy.lib scipy scipy.fft scipy.integrate scipy.interpolate scipy.linalg scipy.misc scipy.signal scipy.sparse "
-               "scipy.spatial scipy.spatial.distance scipy.spatial.transform scipy.stats",
-    "drawings": "matplotlib matplotlib.axes matplotlib.axis matplotlib.backend_bases matplotlib.backends.backend_agg matplotlib.cbook "
-                "matplotlib.cm matplotlib.colorbar matplotlib.colors matplotlib.contour matplotlib.dates matplotlib.figure "
-                "matplotlib.lines matplotlib.patches matplotlib.pyplot matplotlib.scale matplotlib.style matplotlib.widgets "
-                "mpl_toolkits.mplot3d.axes3d",
-    "pictures": "PIL.Image PIL.ImageDraw PIL.ImageFont cv2",
-    "files": "yaml PyKDL",
-}.items() for name in names.split()}
+COMPLETED_BY = {
+    name: group
+    for group, names in {
+        "standard": "array asyncio base64 cgi collections configparser fractions html.parser importlib inspect json locale math plistlib "
+        "random threading unittest xml.etree.ElementTree",
+        "numbers": "numpy numpy.lib scipy scipy.fft scipy.integrate scipy.interpolate scipy.linalg scipy.misc scipy.signal scipy.sparse "
+        "scipy.spatial scipy.spatial.distance scipy.spatial.transform scipy.stats",
+        "drawings": "matplotlib matplotlib.axes matplotlib.axis matplotlib.backend_bases matplotlib.backends.backend_agg matplotlib.cbook "
+        "matplotlib.cm matplotlib.colorbar matplotlib.colors matplotlib.contour matplotlib.dates matplotlib.figure "
+        "matplotlib.lines matplotlib.patches matplotlib.pyplot matplotlib.scale matplotlib.style matplotlib.widgets "
+        "mpl_toolkits.mplot3d.axes3d",
+        "pictures": "PIL.Image PIL.ImageDraw PIL.ImageFont cv2",
+        "files": "yaml PyKDL",
+    }.items()
+    for name in names.split()
+}
 
 #: Those that only lack names: nothing that is in them is replaced.
 ONLY_LACKS = {"base64", "collections", "fractions", "importlib", "inspect", "locale", "threading"}
 #: Modules that are gone from Python, and Debian's package that has them.
-GONE = {"asynchat": "python3-pyasynchat", "asyncore": "python3-pyasyncore", "cgi": "python3-legacy-cgi", "cgitb": "python3-legacy-cgi",
-        "distutils": "python3-setuptools", "telnetlib": "python3-zombie-telnetlib"}
+GONE = {
+    "asynchat": "python3-pyasynchat",
+    "asyncore": "python3-pyasyncore",
+    "cgi": "python3-legacy-cgi",
+    "cgitb": "python3-legacy-cgi",
+    "distutils": "python3-setuptools",
+    "telnetlib": "python3-zombie-telnetlib",
+}
 #: Those of which noetic_names has what scripts use.
-REMADE = {"imp": "noetic_names.remade_imp", "numpy.core.umath_tests": "noetic_names.remade_umath_tests",
-          "pipes": "noetic_names.remade_pipes"}
+REMADE = {
+    "imp": "noetic_names.remade_imp",
+    "numpy.core.umath_tests": "noetic_names.remade_umath_tests",
+    "pipes": "noetic_names.remade_pipes",
+}
 
 
 def _add(module, **names):
@@ -44,6 +58,7 @@ def _add(module, **names):
 
 def _complete(name, module):
     from importlib import import_module
+
     try:
         import_module("noetic_names." + COMPLETED_BY[name]).COMPLETE[name](module)
     except (AttributeError, ImportError, LookupError, TypeError):  # another module of that name, or one yet to come: it stays as it is
@@ -52,12 +67,14 @@ def _complete(name, module):
 
 def _complete_when_asked(name, module):
     """For what Python itself has loaded when it starts: at the first name that the module lacks."""
+
     def __getattr__(attribute):
         if not attribute.startswith("__") and vars(module).pop("__getattr__", None):
             _complete(name, module)
             if attribute in vars(module):
                 return vars(module)[attribute]
         raise AttributeError(f"module {name!r} has no attribute {attribute!r}")
+
     if "__getattr__" in vars(module):
         _complete(name, module)
     else:
@@ -101,6 +118,7 @@ class Finder:
         def exec_module(module):
             load(module)
             _complete(name, module)
+
         spec.loader.exec_module = exec_module
         return spec
 
@@ -123,6 +141,7 @@ class Gone:
 def _run_the_next():
     """Runs the file of this name that this one hides: Debian's own, or a tool's."""
     from importlib.machinery import PathFinder
+
     here = __file__.rpartition("/")[0]
     spec: Any = PathFinder.find_spec("sitecustomize", [folder for folder in sys.path if folder.rstrip("/") != here])
     if spec and hasattr(spec.loader, "get_code"):

@@ -1,4 +1,5 @@
 """What ``rosrun noetic_environment vscode`` writes, against what Visual Studio Code's documentation says, and run as it would run it."""
+
 import importlib.machinery
 import json
 import os
@@ -24,33 +25,114 @@ def closed(properties, *required):
 
 
 #: "Schema for tasks.json" and "Variables reference" of the documentation
-INPUTS = {"type": "array", "items": closed({"id": TEXT, "type": {"enum": ["promptString", "pickString", "command"]},
-                                            "description": TEXT, "default": TEXT}, "id", "type", "description")}
-PATTERN = closed({"regexp": TEXT, **{name: {"type": "integer", "minimum": 0}
-                                     for name in ("file", "line", "column", "severity", "message")}}, "regexp")
-MATCHER = closed({"owner": TEXT, "fileLocation": {"anyOf": [TEXT, TEXTS]}, "pattern": PATTERN,
-                  "background": closed({"activeOnStart": TRUTH, "beginsPattern": TEXT, "endsPattern": TEXT})}, "pattern")
-TASK = closed({"label": TEXT, "type": {"enum": ["shell", "process"]}, "command": TEXT, "args": TEXTS, "isBackground": TRUTH,
-               "group": {"anyOf": [{"enum": ["build", "test", "none"]}, closed({"kind": {"enum": ["build", "test"]}, "isDefault": TRUTH})]},
-               "options": closed({"cwd": TEXT, "shell": closed({"executable": TEXT, "args": TEXTS}, "executable")}),
-               "problemMatcher": MATCHER}, "label", "type", "command")
+INPUTS = {
+    "type": "array",
+    "items": closed(
+        {"id": TEXT, "type": {"enum": ["promptString", "pickString", "command"]}, "description": TEXT, "default": TEXT},
+        "id",
+        "type",
+        "description",
+    ),
+}
+PATTERN = closed(
+    {"regexp": TEXT, **{name: {"type": "integer", "minimum": 0} for name in ("file", "line", "column", "severity", "message")}}, "regexp"
+)
+MATCHER = closed(
+    {
+        "owner": TEXT,
+        "fileLocation": {"anyOf": [TEXT, TEXTS]},
+        "pattern": PATTERN,
+        "background": closed({"activeOnStart": TRUTH, "beginsPattern": TEXT, "endsPattern": TEXT}),
+    },
+    "pattern",
+)
+TASK = closed(
+    {
+        "label": TEXT,
+        "type": {"enum": ["shell", "process"]},
+        "command": TEXT,
+        "args": TEXTS,
+        "isBackground": TRUTH,
+        "group": {"anyOf": [{"enum": ["build", "test", "none"]}, closed({"kind": {"enum": ["build", "test"]}, "isDefault": TRUTH})]},
+        "options": closed({"cwd": TEXT, "shell": closed({"executable": TEXT, "args": TEXTS}, "executable")}),
+        "problemMatcher": MATCHER,
+    },
+    "label",
+    "type",
+    "command",
+)
 TASKS = closed({"version": {"const": "2.0.0"}, "tasks": {"type": "array", "items": TASK}, "inputs": INPUTS}, "version", "tasks")
 #: of launch.json: what the extensions Python Debugger and C/C++ say in their package.json
 COMMON = {"name": TEXT, "preLaunchTask": TEXT, "envFile": TEXT, "cwd": TEXT, "program": TEXT}
 PICKED = {"const": "${command:pickProcess}"}
 KINDS = [
-    closed({**COMMON, "type": {"const": "debugpy"}, "request": {"const": "launch"}, "args": {"anyOf": [TEXT, TEXTS]}, "subProcess": TRUTH,
-            "console": {"enum": ["internalConsole", "integratedTerminal", "externalTerminal"]}}, "name", "type", "request", "program"),
-    closed({"name": TEXT, "type": {"const": "debugpy"}, "request": {"const": "attach"}, "processId": PICKED,
-            "connect": closed({"host": TEXT, "port": {"type": "integer"}}, "port")}, "name", "type", "request"),
-    closed({**COMMON, "type": {"const": "cppdbg"}, "request": {"enum": ["launch", "attach"]}, "processId": PICKED, "args": TEXTS,
-            "MIMode": {"enum": ["gdb", "lldb"]}, "setupCommands": {"type": "array", "items": closed(
-                {"description": TEXT, "text": TEXT, "ignoreFailures": TRUTH}, "text")}}, "name", "type", "request", "program")]
-LAUNCH = closed({"version": {"const": "0.2.0"}, "configurations": {"type": "array", "items": {"oneOf": KINDS}}, "inputs": INPUTS},
-                "version", "configurations")
-PROPERTIES = closed({"version": {"const": 4}, "configurations": {"type": "array", "items": closed(
-    {"name": TEXT, "compilerPath": TEXT, "cppStandard": {"enum": ["c++14", "c++17", "c++20"]}, "includePath": TEXTS,
-     "intelliSenseMode": {"enum": ["linux-gcc-x64", "linux-gcc-arm64", "linux-gcc-arm"]}}, "name")}}, "version", "configurations")
+    closed(
+        {
+            **COMMON,
+            "type": {"const": "debugpy"},
+            "request": {"const": "launch"},
+            "args": {"anyOf": [TEXT, TEXTS]},
+            "subProcess": TRUTH,
+            "console": {"enum": ["internalConsole", "integratedTerminal", "externalTerminal"]},
+        },
+        "name",
+        "type",
+        "request",
+        "program",
+    ),
+    closed(
+        {
+            "name": TEXT,
+            "type": {"const": "debugpy"},
+            "request": {"const": "attach"},
+            "processId": PICKED,
+            "connect": closed({"host": TEXT, "port": {"type": "integer"}}, "port"),
+        },
+        "name",
+        "type",
+        "request",
+    ),
+    closed(
+        {
+            **COMMON,
+            "type": {"const": "cppdbg"},
+            "request": {"enum": ["launch", "attach"]},
+            "processId": PICKED,
+            "args": TEXTS,
+            "MIMode": {"enum": ["gdb", "lldb"]},
+            "setupCommands": {"type": "array", "items": closed({"description": TEXT, "text": TEXT, "ignoreFailures": TRUTH}, "text")},
+        },
+        "name",
+        "type",
+        "request",
+        "program",
+    ),
+]
+LAUNCH = closed(
+    {"version": {"const": "0.2.0"}, "configurations": {"type": "array", "items": {"oneOf": KINDS}}, "inputs": INPUTS},
+    "version",
+    "configurations",
+)
+PROPERTIES = closed(
+    {
+        "version": {"const": 4},
+        "configurations": {
+            "type": "array",
+            "items": closed(
+                {
+                    "name": TEXT,
+                    "compilerPath": TEXT,
+                    "cppStandard": {"enum": ["c++14", "c++17", "c++20"]},
+                    "includePath": TEXTS,
+                    "intelliSenseMode": {"enum": ["linux-gcc-x64", "linux-gcc-arm64", "linux-gcc-arm"]},
+                },
+                "name",
+            ),
+        },
+    },
+    "version",
+    "configurations",
+)
 
 
 @pytest.fixture
@@ -64,8 +146,7 @@ def workspace(tmp_path):
 
 def command(*words, cwd):
     program = "import sys; from noetic_environment.editor import main; sys.exit(main())"
-    return subprocess.run([sys.executable, "-c", program, *map(str, words)], cwd=cwd,
-                          capture_output=True, text=True, timeout=60)
+    return subprocess.run([sys.executable, "-c", program, *map(str, words)], cwd=cwd, capture_output=True, text=True, timeout=60)
 
 
 def read(workspace, name):
@@ -86,8 +167,14 @@ def run(workspace, label, seconds=300):
     shell = chosen["options"]["shell"]
     words = chosen["command"].replace("${fileDirname}", str(workspace / "src/my_cpp_controllers/src"))
     place = chosen["options"]["cwd"].replace("${workspaceFolder}", str(workspace))
-    return subprocess.run([shell["executable"], *shell["args"], words], cwd=place, capture_output=True, text=True, timeout=seconds,
-                          env={"HOME": os.environ.get("HOME", "/"), "PATH": "/usr/bin:/bin"})
+    return subprocess.run(
+        [shell["executable"], *shell["args"], words],
+        cwd=place,
+        capture_output=True,
+        text=True,
+        timeout=seconds,
+        env={"HOME": os.environ.get("HOME", "/"), "PATH": "/usr/bin:/bin"},
+    )
 
 
 def test_it_is_what_the_documentation_says(workspace):
@@ -127,8 +214,11 @@ def test_what_is_there_stays(workspace):
 def test_where_nothing_can_be_written(workspace, tmp_path):
     (tmp_path / "empty").mkdir()
     (workspace / ".vscode").write_text("a file")
-    for words, said in (((tmp_path / "empty",), "is in no catkin workspace"), (("/no/such",), "there is no folder"),
-                        ((workspace,), "File exists")):
+    for words, said in (
+        ((tmp_path / "empty",), "is in no catkin workspace"),
+        (("/no/such",), "there is no folder"),
+        ((workspace,), "File exists"),
+    ):
         ended = command(*words, cwd="/")
         assert ended.returncode == 1 and ended.stderr.startswith("vscode: ") and said in ended.stderr and ended.stderr.count("\n") == 1
 
@@ -153,12 +243,18 @@ def test_modules_are_found_where_they_are_written(workspace):
 def test_headers_are_found(workspace):
     """The compiler finds everything that the example includes, with the paths that IntelliSense gets."""
     command(cwd=workspace)
-    configuration, = read(workspace, "c_cpp_properties.json")["configurations"]
-    paths = [path.replace("${workspaceFolder}", str(workspace)).replace("/src/**", "/src/my_cpp_controllers/include")
-             for path in configuration["includePath"]]
+    (configuration,) = read(workspace, "c_cpp_properties.json")["configurations"]
+    paths = [
+        path.replace("${workspaceFolder}", str(workspace)).replace("/src/**", "/src/my_cpp_controllers/include")
+        for path in configuration["includePath"]
+    ]
     for source in (workspace / "src/my_cpp_controllers/src").glob("*.cpp"):
-        ended = subprocess.run([configuration["compilerPath"], f"-std={configuration['cppStandard']}", "-M",
-                                *(f"-I{path}" for path in paths), str(source)], capture_output=True, text=True, timeout=120)
+        ended = subprocess.run(
+            [configuration["compilerPath"], f"-std={configuration['cppStandard']}", "-M", *(f"-I{path}" for path in paths), str(source)],
+            capture_output=True,
+            text=True,
+            timeout=120,
+        )
         assert ended.returncode == 0, ended.stderr
         assert "controller_interface/controller.h" in ended.stdout
 
@@ -173,8 +269,11 @@ def test_the_build_and_its_errors(workspace):
     broken = run(workspace, "build the package of this file")
     matcher = task(workspace, "build")["problemMatcher"]["pattern"]
     lines = re.sub(r"\x1b\[[\d;]*[mK]", "", broken.stdout + broken.stderr).splitlines()
-    places = [(found[matcher["file"]], found[matcher["line"]], found[matcher["severity"]])
-              for found in (re.match(matcher["regexp"], line) for line in lines) if found]
+    places = [
+        (found[matcher["file"]], found[matcher["line"]], found[matcher["severity"]])
+        for found in (re.match(matcher["regexp"], line) for line in lines)
+        if found
+    ]
     assert broken.returncode and (str(source), "1", "error") in places, broken.stdout + broken.stderr
     source.write_text(text)
     assert run(workspace, "build").returncode == 0
@@ -183,6 +282,7 @@ def test_the_build_and_its_errors(workspace):
 
 
 # ---------------------------------------------------------------------------------------------- the debugger
+
 
 class Debugger:
     """As the editor speaks to debugpy: the Debug Adapter Protocol."""

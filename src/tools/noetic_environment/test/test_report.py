@@ -1,36 +1,40 @@
 """The report for somebody who helps: what it holds, and what it must not."""
+
 import os
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-
 from noetic_environment import report
 
 SCRIPT = Path(__file__).resolve().parents[1] / "scripts/report"
 VEIL = report.Veil("/home/ada", "ada", "analytical-engine")
 
 
-@pytest.mark.parametrize("written, veiled", [
-    ("/home/ada/catkin_ws/src", "~/catkin_ws/src"),
-    ("file:///home/ada/x.sdf", "file://~/x.sdf"),
-    ("/home/adam/x and /home/charles/y", "/home/USER/x and /home/USER/y"),
-    ("ROS_MASTER_URI: http://analytical-engine:11311", "ROS_MASTER_URI: http://HOST:11311"),
-    ("started by ada on analytical-engine.", "started by USER on HOST."),
-    ("adapter, canada, ada-core stay", "adapter, canada, ada-core stay"),
-    ("ROS_IP: 192.168.3.14, 127.0.0.1 stays", "ROS_IP: ADDRESS, 127.0.0.1 stays"),
-    ("by ada.lovelace@example.org", "by MAIL"),
-    ("https://user:word@host.org/x", "https://host.org/x"),
-    ("token=abc123 password: hunter2", "token=... password: ..."),
-])
+@pytest.mark.parametrize(
+    "written, veiled",
+    [
+        ("/home/ada/catkin_ws/src", "~/catkin_ws/src"),
+        ("file:///home/ada/x.sdf", "file://~/x.sdf"),
+        ("/home/adam/x and /home/charles/y", "/home/USER/x and /home/USER/y"),
+        ("ROS_MASTER_URI: http://analytical-engine:11311", "ROS_MASTER_URI: http://HOST:11311"),
+        ("started by ada on analytical-engine.", "started by USER on HOST."),
+        ("adapter, canada, ada-core stay", "adapter, canada, ada-core stay"),
+        ("ROS_IP: 192.168.3.14, 127.0.0.1 stays", "ROS_IP: ADDRESS, 127.0.0.1 stays"),
+        ("by ada.lovelace@example.org", "by MAIL"),
+        ("https://user:word@host.org/x", "https://host.org/x"),
+        ("token=abc123 password: hunter2", "token=... password: ..."),
+    ],
+)
 def test_who_and_where_are_taken_out(written, veiled):
     assert VEIL.over(written) == veiled
 
 
 def test_roots_machine_keeps_its_words():
     assert report.Veil("/root", "root", "localhost").over("root of the tree, /root/ws, /rooted, localhost") == (
-        "root of the tree, ~/ws, /rooted, localhost")
+        "root of the tree, ~/ws, /rooted, localhost"
+    )
 
 
 def written(tmp_path, **variables):
@@ -58,6 +62,11 @@ def test_the_report_holds_versions_what_draws_and_the_last_logs(tmp_path):
 
 @pytest.mark.slow
 def test_without_any_log_and_without_a_place_to_write(tmp_path):
-    ended = subprocess.run([sys.executable, SCRIPT, "--output", tmp_path / "no/such/folder"], env={**os.environ, "HOME": str(tmp_path)},
-                           capture_output=True, text=True, timeout=100)
+    ended = subprocess.run(
+        [sys.executable, SCRIPT, "--output", tmp_path / "no/such/folder"],
+        env={**os.environ, "HOME": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        timeout=100,
+    )
     assert (ended.returncode, ended.stderr) == (1, f"{tmp_path}/no/such/folder: No such file or directory\n")

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """rosmon typed at in a real pseudo-terminal, in a pipe, and through its ROS interface."""
+
 import os
 import re
 import signal
@@ -49,8 +50,7 @@ class TerminalTest(unittest.TestCase):
         screen.type("a")
         screen.wait(lambda s: s.on_screen("Actions for 'alpha'") and s.on_screen("k: stop"), "the node's menu")
         screen.type("k")
-        screen.wait(lambda s: "goodbye" in s.history and s.background(" alpha") == "default",
-                    "alpha is stopped and plain")
+        screen.wait(lambda s: "goodbye" in s.history and s.background(" alpha") == "default", "alpha is stopped and plain")
         screen.type("as")
         screen.wait(lambda s: s.background(" alpha") == "green", "alpha runs again")
 
@@ -115,8 +115,7 @@ class TerminalTest(unittest.TestCase):
         screen.type("\x03")
         screen.finish()
         self.assertIn("does not stop within 0.4 s of SIGINT: killed", screen.history)
-        wait_until(lambda: not any(psutil.pid_exists(p) and psutil.Process(p).status() != "zombie" for p in pids),
-                   "all processes are gone")
+        wait_until(lambda: not any(psutil.pid_exists(p) and psutil.Process(p).status() != "zombie" for p in pids), "all processes are gone")
 
     def test_no_start(self):
         screen = self.launch("pair.launch", "--no-start", ROSMON_COLOR_MODE="ansi")
@@ -148,8 +147,9 @@ class WaitingTest(unittest.TestCase):
         self.addCleanup(screen.__exit__)
         screen.wait_for("roscore is not running")
         self.assertIn(uri, screen.history)
-        master = subprocess.Popen(["rosmaster", "--core", "-p", str(port)], env={**os.environ, "ROS_MASTER_URI": uri},
-                                  stdout=subprocess.DEVNULL)
+        master = subprocess.Popen(
+            ["rosmaster", "--core", "-p", str(port)], env={**os.environ, "ROS_MASTER_URI": uri}, stdout=subprocess.DEVNULL
+        )
         self.addCleanup(master.wait)
         self.addCleanup(master.terminate)
         screen.wait_for("no nodes to launch")
@@ -167,9 +167,14 @@ class WaitingTest(unittest.TestCase):
 
 class PlainTest(unittest.TestCase):
     def test_in_a_pipe(self):
-        process = subprocess.Popen([*ROSMON, "rosmon_core", "required.launch", f"--log={self.id()}.log", "--flush-log"],
-                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                                   text=True, cwd=os.environ.get("ROS_TEST_RESULTS_DIR") or "/tmp")
+        process = subprocess.Popen(
+            [*ROSMON, "rosmon_core", "required.launch", f"--log={self.id()}.log", "--flush-log"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            stdin=subprocess.DEVNULL,
+            text=True,
+            cwd=os.environ.get("ROS_TEST_RESULTS_DIR") or "/tmp",
+        )
         output, _ = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 1, "a required node has failed")
         self.assertRegex(output, r"(?m)^   key: hello 10 tty=True$")
@@ -186,23 +191,43 @@ class PlainTest(unittest.TestCase):
             package = os.path.join(folder, "my_displays")
             os.mkdir(package)
             for name, text in (
-                ("package.xml", "<package format='2'><name>my_displays</name><version>0.0.1</version><description>d</description>"
-                 "<maintainer email='a@b.cd'>a</maintainer><license>BSD</license><depend>rviz</depend>"
-                 "<export><rviz plugin='${prefix}/plugins.xml'/></export></package>"),
-                ("plugins.xml", "<library path='lib/libmy_displays'><class name='my_displays/Arc' type='my::Arc' "
-                 "base_class_type='rviz::Display'/></library>"),
-                ("look.launch", "<launch><node name='look' pkg='rviz' type='rviz' required='true'/></launch>")):
+                (
+                    "package.xml",
+                    "<package format='2'><name>my_displays</name><version>0.0.1</version><description>d</description>"
+                    "<maintainer email='a@b.cd'>a</maintainer><license>BSD</license><depend>rviz</depend>"
+                    "<export><rviz plugin='${prefix}/plugins.xml'/></export></package>",
+                ),
+                (
+                    "plugins.xml",
+                    "<library path='lib/libmy_displays'><class name='my_displays/Arc' type='my::Arc' "
+                    "base_class_type='rviz::Display'/></library>",
+                ),
+                ("look.launch", "<launch><node name='look' pkg='rviz' type='rviz' required='true'/></launch>"),
+            ):
                 with open(os.path.join(package, name), "w") as file:
                     file.write(text)
-            environment = {**os.environ, "DISPLAY": "nowhere:77", "ROS_HOME": folder,  # RViz itself gets no further
-                           "ROS_PACKAGE_PATH": f"{folder}:{os.environ['ROS_PACKAGE_PATH']}"}
-            answer = subprocess.run([*ROSMON, "my_displays", "look.launch", "--stop-timeout", "20"], env=environment, cwd=folder, text=True,
-                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, timeout=120)
+            environment = {
+                **os.environ,
+                "DISPLAY": "nowhere:77",
+                "ROS_HOME": folder,  # RViz itself gets no further
+                "ROS_PACKAGE_PATH": f"{folder}:{os.environ['ROS_PACKAGE_PATH']}",
+            }
+            answer = subprocess.run(
+                [*ROSMON, "my_displays", "look.launch", "--stop-timeout", "20"],
+                env=environment,
+                cwd=folder,
+                text=True,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                stdin=subprocess.DEVNULL,
+                timeout=120,
+            )
         self.assertIn("rviz: my_displays/Arc of the package my_displays cannot be added", answer.stdout)
 
     def test_terminate_stops_everything(self):
-        process = subprocess.Popen([*ROSMON, "rosmon_core", "stubborn.launch", "--flush-stdout"],
-                                   stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True)
+        process = subprocess.Popen(
+            [*ROSMON, "rosmon_core", "stubborn.launch", "--flush-stdout"], stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True
+        )
         seen = ""
         while len(children_said(seen)) < 2:
             line = process.stdout.readline()
@@ -211,19 +236,18 @@ class PlainTest(unittest.TestCase):
         pids = children_said(seen)
         process.send_signal(signal.SIGTERM)
         process.communicate(timeout=60)
-        wait_until(lambda: not any(psutil.pid_exists(p) and psutil.Process(p).status() != "zombie" for p in pids),
-                   "all processes are gone")
+        wait_until(lambda: not any(psutil.pid_exists(p) and psutil.Process(p).status() != "zombie" for p in pids), "all processes are gone")
 
 
 class RosInterfaceTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.process = subprocess.Popen([*ROSMON, "--disable-ui", "--name=monitor", "rosmon_core", "lives.launch"],
-                                       stdout=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
+        cls.process = subprocess.Popen(
+            [*ROSMON, "--disable-ui", "--name=monitor", "rosmon_core", "lives.launch"], stdout=subprocess.DEVNULL, stdin=subprocess.DEVNULL
+        )
         cls.states, cls.diagnostics = {}, {}
         rospy.Subscriber("/monitor/state", State, cls.on_state)
-        rospy.Subscriber("/diagnostics", DiagnosticArray,
-                         lambda m: cls.diagnostics.update({s.name: s for s in m.status}))
+        rospy.Subscriber("/diagnostics", DiagnosticArray, lambda m: cls.diagnostics.update({s.name: s for s in m.status}))
         rospy.wait_for_service("/monitor/start_stop", PATIENCE)
         cls.start_stop = staticmethod(rospy.ServiceProxy("/monitor/start_stop", StartStop))
 
@@ -241,8 +265,7 @@ class RosInterfaceTest(unittest.TestCase):
 
     def wait_for_level(self, name, level):
         label = f"monitor:{name}"
-        wait_until(lambda: label in self.diagnostics and self.diagnostics[label].level == level,
-                   f"{label} has level {level}")
+        wait_until(lambda: label in self.diagnostics and self.diagnostics[label].level == level, f"{label} has level {level}")
 
     def test_1_states(self):
         self.assertEqual(rosservice.get_service_type("/monitor/start_stop"), "rosmon_msgs/StartStop")

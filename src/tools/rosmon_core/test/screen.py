@@ -1,4 +1,5 @@
 """A person at a terminal, for tests: starts a command in a pseudo-terminal, reads its screen, types keys."""
+
 import os
 import re
 import signal
@@ -8,7 +9,7 @@ import pexpect
 import pyte
 
 F6, F7, F8, F9, F10 = "\x1b[17~", "\x1b[18~", "\x1b[19~", "\x1b[20~", "\x1b[21~"
-_PATIENCE = 60.0         # s
+_PATIENCE = 60.0  # s
 
 
 class Screen:
@@ -18,8 +19,13 @@ class Screen:
         self._screen = pyte.Screen(columns, rows)
         self._stream = pyte.Stream(self._screen)
         self.history = ""
-        self._child = pexpect.spawn(command[0], command[1:], dimensions=(rows, columns), encoding="utf-8",
-                                    env={**os.environ, "TERM": "xterm-256color", **environment})
+        self._child = pexpect.spawn(
+            command[0],
+            command[1:],
+            dimensions=(rows, columns),
+            encoding="utf-8",
+            env={**os.environ, "TERM": "xterm-256color", **environment},
+        )
 
     def __enter__(self):
         return self

@@ -1,6 +1,6 @@
 """Words of the command line."""
-import pytest
 
+import pytest
 from rosmon_core import RosmonError, cli
 
 
@@ -21,13 +21,28 @@ def test_getopt_long_reads_an_option_in_all_its_forms(form, behind):
     assert (options.stop_timeout, options.arguments) == (3.0, ["answer:=1"])
 
 
-@pytest.mark.parametrize("words, attribute, value", [
-    (["--name", "x"], "name", "x"), (["--na", "x"], "name", "x"), (["--log", "a.log"], "log", "a.log"), (["--log="], "log", None),
-    (["--cpu-limit", "2"], "cpu_limit", 2.0), (["--mem", "1kB"], "memory_limit", 1000), (["--mem", "1KB"], "memory_limit", 1000),
-    (["--out", "obey"], "obey_output", True), (["--auto", "6"], "spawn_increment", 6.0), (["--diagnostics-prefix", "p"],
-     "diagnostics_prefix", "p"), (["--disable-u"], "disable_ui", True), (["--no"], "no_start", True), (["--bench"], "benchmark", True),
-    (["--list"], "list_args", True), (["--flush-s"], "flush_stdout", True), (["--disable-d"], "disable_diagnostics", True),
-    (["--name", "--odd"], "name", "--odd")])
+@pytest.mark.parametrize(
+    "words, attribute, value",
+    [
+        (["--name", "x"], "name", "x"),
+        (["--na", "x"], "name", "x"),
+        (["--log", "a.log"], "log", "a.log"),
+        (["--log="], "log", None),
+        (["--cpu-limit", "2"], "cpu_limit", 2.0),
+        (["--mem", "1kB"], "memory_limit", 1000),
+        (["--mem", "1KB"], "memory_limit", 1000),
+        (["--out", "obey"], "obey_output", True),
+        (["--auto", "6"], "spawn_increment", 6.0),
+        (["--diagnostics-prefix", "p"], "diagnostics_prefix", "p"),
+        (["--disable-u"], "disable_ui", True),
+        (["--no"], "no_start", True),
+        (["--bench"], "benchmark", True),
+        (["--list"], "list_args", True),
+        (["--flush-s"], "flush_stdout", True),
+        (["--disable-d"], "disable_diagnostics", True),
+        (["--name", "--odd"], "name", "--odd"),
+    ],
+)
 def test_every_option_takes_its_value_as_the_next_word_and_may_be_shortened(words, attribute, value):
     assert getattr(cli.parse([*words, "rosmon_core", "pair.launch"]), attribute) == value
 
@@ -54,14 +69,29 @@ def test_memory(text, size):
     assert cli.parse_memory(text) == size
 
 
-@pytest.mark.parametrize("words, remedy", [
-    ([], "PACKAGE FILE"), (["a", "b", "c"], "PACKAGE FILE"), (["no_such_package_here", "x.launch"], "sourced"),
-    (["rosmon_core", "x.launch"], "it has .*pair.launch"), (["nowhere.launch"], "Could not find"),
-    (["rosmon_core", "pair.launch", "a:=1", "b"], "'b' stands behind"), (["--memory-limit=much", "x"], "15MB"),
-    (["--stop-timeout=-1", "x"], "zero or more"), (["--stop-timeout", "x"], "zero or more"), (["--cpu", "nan", "x"], "zero or more"),
-    (["--stop", "-1", "x"], "zero or more"), (["--output-attr=perhaps", "x"], "obey or ignore"),
-    (["--no-start=1", "x"], "must not have an argument"), (["x", "--log"], "requires argument"), (["--f", "x"], "not a unique prefix"),
-    (["--disable", "x"], "not a unique prefix"), (["--wheels", "x"], "--wheels not recognized"), (["-x"], "-x not recognized")])
+@pytest.mark.parametrize(
+    "words, remedy",
+    [
+        ([], "PACKAGE FILE"),
+        (["a", "b", "c"], "PACKAGE FILE"),
+        (["no_such_package_here", "x.launch"], "sourced"),
+        (["rosmon_core", "x.launch"], "it has .*pair.launch"),
+        (["nowhere.launch"], "Could not find"),
+        (["rosmon_core", "pair.launch", "a:=1", "b"], "'b' stands behind"),
+        (["--memory-limit=much", "x"], "15MB"),
+        (["--stop-timeout=-1", "x"], "zero or more"),
+        (["--stop-timeout", "x"], "zero or more"),
+        (["--cpu", "nan", "x"], "zero or more"),
+        (["--stop", "-1", "x"], "zero or more"),
+        (["--output-attr=perhaps", "x"], "obey or ignore"),
+        (["--no-start=1", "x"], "must not have an argument"),
+        (["x", "--log"], "requires argument"),
+        (["--f", "x"], "not a unique prefix"),
+        (["--disable", "x"], "not a unique prefix"),
+        (["--wheels", "x"], "--wheels not recognized"),
+        (["-x"], "-x not recognized"),
+    ],
+)
 def test_mistakes_are_named(words, remedy):
     with pytest.raises(RosmonError, match=remedy):
         cli.parse(words)

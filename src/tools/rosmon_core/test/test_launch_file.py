@@ -1,6 +1,6 @@
 """rosmon's additions to launch files; the rest is roslaunch's loader."""
-import pytest
 
+import pytest
 from rosmon_core import RosmonError
 from rosmon_core.cli import Options
 from rosmon_core.launch_file import list_arguments, load
@@ -14,14 +14,19 @@ def write(tmp_path):
         path = tmp_path / name
         path.write_text(f"<launch {attributes}>{body}</launch>")
         return Options(file=str(path), **options)
+
     return write
 
 
 def test_attributes_are_inherited_from_launch_group_and_include(write, tmp_path):
     write(NODE.format("inner", "") + NODE.format("own", 'rosmon-stop-timeout="3"'), "inner.launch")
-    launch_file = load(write(
-        f'<group rosmon-memory-limit="1kB"><include file="{tmp_path}/inner.launch" rosmon-cpu-limit="0.5"/></group>'
-        + NODE.format("outer", 'rosmon-spawn-delay="0.5"'), attributes='rosmon-stop-timeout="7"'))
+    launch_file = load(
+        write(
+            f'<group rosmon-memory-limit="1kB"><include file="{tmp_path}/inner.launch" rosmon-cpu-limit="0.5"/></group>'
+            + NODE.format("outer", 'rosmon-spawn-delay="0.5"'),
+            attributes='rosmon-stop-timeout="7"',
+        )
+    )
     inner, own, outer = launch_file.nodes
     assert (inner.stop_timeout, inner.memory_limit, inner.cpu_limit) == (7.0, 1000, 0.5)
     assert (own.stop_timeout, own.memory_limit) == (3.0, 1000)
@@ -55,8 +60,9 @@ def test_spawn_delays_increment(write):
 
 
 def test_tests_and_machines_are_skipped(write):
-    launch_file = load(write('<machine name="m" address="elsewhere"/><test test-name="t" pkg="p" type="t"/>'
-                             + NODE.format("n", 'machine="m"')))
+    launch_file = load(
+        write('<machine name="m" address="elsewhere"/><test test-name="t" pkg="p" type="t"/>' + NODE.format("n", 'machine="m"'))
+    )
     assert [n.full_name for n in launch_file.nodes] == ["/n"]
 
 
@@ -71,13 +77,20 @@ def test_launch_attributes(write):
     assert options.disable_ui
 
 
-@pytest.mark.parametrize("body, remedy", [
-    ("<node", "Could not load"), (NODE.format("a", "") * 2, "multiple nodes named"),
-    (NODE.format("a", 'output="x"'), "output"),
-    (NODE.format("a", 'rosmon-memory-limit="x"'), "15MB"), (NODE.format("a", 'rosmon-spawn-delay="x"'), "node 'a'"),
-    ('<param name="p" value="$(arg missing)"/>', "missing"), ('<param name="p" value="$(find no_pkg)"/>', "no_pkg"),
-    ('<include file="x" ns="y" clear_params="true"/>', "not supported"),
-    ('<include file="/no/file.launch"/>', "/no/file")])
+@pytest.mark.parametrize(
+    "body, remedy",
+    [
+        ("<node", "Could not load"),
+        (NODE.format("a", "") * 2, "multiple nodes named"),
+        (NODE.format("a", 'output="x"'), "output"),
+        (NODE.format("a", 'rosmon-memory-limit="x"'), "15MB"),
+        (NODE.format("a", 'rosmon-spawn-delay="x"'), "node 'a'"),
+        ('<param name="p" value="$(arg missing)"/>', "missing"),
+        ('<param name="p" value="$(find no_pkg)"/>', "no_pkg"),
+        ('<include file="x" ns="y" clear_params="true"/>', "not supported"),
+        ('<include file="/no/file.launch"/>', "/no/file"),
+    ],
+)
 def test_mistakes_are_one_line_with_the_file(write, body, remedy):
     options = write(body)
     with pytest.raises(RosmonError, match=remedy) as error:

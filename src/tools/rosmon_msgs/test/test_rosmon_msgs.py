@@ -1,4 +1,5 @@
 """The wire types are upstream's: rqt_rosmon and scripts built against the original messages must connect."""
+
 from rosmon_msgs.msg import NodeState, State
 from rosmon_msgs.srv import StartStop
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The screenshot command on a running system: a cross of coloured boxes whose pixels are known by geometry."""
+
 import math
 import os
 import subprocess
@@ -22,8 +23,9 @@ BACKGROUND = (48, 48, 48)
 
 
 def screenshot(*arguments, **environment):
-    return subprocess.run(["rosrun", "rviz_offscreen", "screenshot", *arguments], capture_output=True, text=True,
-                          env={**os.environ, **environment})
+    return subprocess.run(
+        ["rosrun", "rviz_offscreen", "screenshot", *arguments], capture_output=True, text=True, env={**os.environ, **environment}
+    )
 
 
 def pixel_of(y, z):
@@ -37,8 +39,19 @@ class Screenshot(unittest.TestCase):
 
     def picture(self, backend, *arguments):
         path = os.path.join(self.folder, backend + ".png")
-        result = screenshot("--config", CONFIG, "--output", path, "--size", f"{WIDTH}x{HEIGHT}", "--backend", backend,
-                            "--view", "front:pitch=0,distance=3", *arguments)
+        result = screenshot(
+            "--config",
+            CONFIG,
+            "--output",
+            path,
+            "--size",
+            f"{WIDTH}x{HEIGHT}",
+            "--backend",
+            backend,
+            "--view",
+            "front:pitch=0,distance=3",
+            *arguments,
+        )
         self.assertEqual(result.returncode, 0, result.stderr)
         return np.asarray(PIL.Image.open(path).convert("RGB")).astype(int)
 
@@ -88,8 +101,9 @@ class Screenshot(unittest.TestCase):
 
     def test_window_with_panels_of_images(self):
         """Each image in its own panel in the dock, the 3D view in its place."""
-        config = self.config("Class: rviz/Image, Name: Left eye, Image Topic: /red",
-                             "Class: rviz/Image, Name: Right eye, Image Topic: /yellow")
+        config = self.config(
+            "Class: rviz/Image, Name: Left eye, Image Topic: /red", "Class: rviz/Image, Name: Right eye, Image Topic: /yellow"
+        )
         publishers = []
         for topic, colour in (("/red", (255, 0, 0)), ("/yellow", (255, 255, 0))):
             publishers.append(rospy.Publisher(topic, Image, latch=True, queue_size=1))
@@ -109,19 +123,22 @@ class Screenshot(unittest.TestCase):
             self.assertGreater(abs(rows["/red"] - rows["/yellow"]), 50, "each in a panel of its own; Qt picks the order")
 
     def test_what_nobody_publishes_is_named_and_not_waited_for(self):
-        config = self.config("Class: rviz/Image, Name: Eye, Image Topic: /nothing",
-                             "Class: rviz/LaserScan, Name: Laser, Topic: /none")
+        config = self.config("Class: rviz/Image, Name: Eye, Image Topic: /nothing", "Class: rviz/LaserScan, Name: Laser, Topic: /none")
         path = os.path.join(self.folder, "nothing.png")
         # whoever waited would not be back within the limit of this test
         result = screenshot("-d", config, "-o", path, "--window", "--timeout", "1000", "--grace", "0.5")
         self.assertEqual(result.returncode, 3, result.stderr)
-        self.assertEqual(result.stderr.splitlines(), ["screenshot: nobody publishes /nothing of display 'Eye'",
-                                                      "screenshot: nobody publishes /none of display 'Laser'"])
+        self.assertEqual(
+            result.stderr.splitlines(),
+            ["screenshot: nobody publishes /nothing of display 'Eye'", "screenshot: nobody publishes /none of display 'Laser'"],
+        )
         self.assertTrue(os.path.getsize(path))
 
     def test_the_first_message_is_waited_for(self):
-        config = self.config("Class: rviz/LaserScan, Name: Laser, Topic: /slow, Style: Points, Size (Pixels): 6, "
-                             "Color Transformer: FlatColor, Color: 255; 0; 255")
+        config = self.config(
+            "Class: rviz/LaserScan, Name: Laser, Topic: /slow, Style: Points, Size (Pixels): 6, "
+            "Color Transformer: FlatColor, Color: 255; 0; 255"
+        )
         path = os.path.join(self.folder, "scan.png")
         publisher = rospy.Publisher("/slow", LaserScan, queue_size=1)
         result = screenshot("-d", config, "-o", path, "--timeout", "1")
@@ -152,9 +169,13 @@ class Screenshot(unittest.TestCase):
         not_rviz = os.path.join(self.folder, "x.rviz")
         with open(not_rviz, "w") as file:
             file.write("a: 1\n")
-        for arguments, words in ((("-d", "/nowhere.rviz"), "No such file"), (("-d", not_rviz), "not an RViz configuration"),
-                                 (("--size", "0x5"), "--size 0x5"), (("--view", "bogus"), "--view bogus"),
-                                 (("-o", "/nowhere/a.png"), "no folder /nowhere")):
+        for arguments, words in (
+            (("-d", "/nowhere.rviz"), "No such file"),
+            (("-d", not_rviz), "not an RViz configuration"),
+            (("--size", "0x5"), "--size 0x5"),
+            (("--view", "bogus"), "--view bogus"),
+            (("-o", "/nowhere/a.png"), "no folder /nowhere"),
+        ):
             result = screenshot(*arguments)
             self.assertEqual(result.returncode, 1)
             self.assertIn(words, result.stderr)

@@ -1,4 +1,5 @@
 """RViz that crashes is started once more, and no more than once. Without ROS and without RViz."""
+
 import contextlib
 
 import pytest
@@ -8,6 +9,7 @@ from rviz_offscreen import cli
 @pytest.fixture
 def take(monkeypatch, tmp_path):
     """``take(crashes)``: the runs of RViz that a picture took, the first ``crashes`` of which end by a signal."""
+
     def call(crashes):
         runs = []
 
@@ -23,6 +25,7 @@ def take(monkeypatch, tmp_path):
         monkeypatch.setattr(cli.rosgraph, "is_master_online", lambda: True)
         cli.take(str(tmp_path / "a.rviz"), [], str(tmp_path / "a.png"))
         return len(runs)
+
     return call
 
 

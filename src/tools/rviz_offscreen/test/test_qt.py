@@ -1,4 +1,5 @@
 """Which Qt RViz's Python module is for, told from its file."""
+
 import importlib
 
 import pytest

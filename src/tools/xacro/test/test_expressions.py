@@ -1,10 +1,10 @@
 """Expressions of every kind mean what they mean in Python; what would never end is refused at once."""
+
 import builtins
 import math
 from types import SimpleNamespace
 
 import pytest
-
 from noetic_xacro.expressions import bound_symbols, safe_eval
 
 
@@ -12,9 +12,13 @@ def value(expression):
     """As xacro evaluates it."""
     builtin = vars(builtins)
     symbols = {
-        **{name: builtin[name] for name in (
-            "list dict map len str float int bool min max round sorted range abs all any divmod enumerate filter frozenset hash "
-            "isinstance issubclass ord repr reversed slice set sum tuple type zip complex").split()},
+        **{
+            name: builtin[name]
+            for name in (
+                "list dict map len str float int bool min max round sorted range abs all any divmod enumerate filter frozenset hash "
+                "isinstance issubclass ord repr reversed slice set sum tuple type zip complex"
+            ).split()
+        },
         "math": SimpleNamespace(**vars(math)),
         "prod": math.prod,
         "lcm": math.lcm,

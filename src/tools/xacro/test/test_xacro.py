@@ -1,4 +1,5 @@
 """The xacro commands as a student types them."""
+
 import os
 import re
 import signal
@@ -22,13 +23,15 @@ def write(tmp_path):
         path = tmp_path / name
         path.write_text(header + body + "\n</robot>\n")
         return path
+
     return write_file
 
 
 @pytest.mark.parametrize("command", ["xacro", "xacro.py"])
 def test_expands_macros_arguments_and_expressions(write, command):
-    path = write('<xacro:arg name="n" default="a"/><xacro:macro name="m" params="v"><link name="${v}_$(arg n)"/>'
-                 '</xacro:macro><xacro:m v="${1+1}"/>')
+    path = write(
+        '<xacro:arg name="n" default="a"/><xacro:macro name="m" params="v"><link name="${v}_$(arg n)"/></xacro:macro><xacro:m v="${1+1}"/>'
+    )
     result = run(path, "--inorder", "n:=b", command=command)
     assert result.returncode == 0 and '<link name="2_b"/>' in result.stdout
 
@@ -86,8 +89,9 @@ def test_missing_file(tmp_path):
 
 
 def test_output_option_and_old_namespaces(write, tmp_path):
-    path = write('<xacro:property name="x" value="3"/><link name="${x}"/>',
-                 header='<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">\n')
+    path = write(
+        '<xacro:property name="x" value="3"/><link name="${x}"/>', header='<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">\n'
+    )
     out = tmp_path / "out.urdf"
     assert run(path, "-o", str(out)).returncode == 0
     assert '<link name="3"/>' in out.read_text()
@@ -103,9 +107,11 @@ def test_a_broken_manifest_elsewhere_is_not_blamed_on_the_file(write, tmp_path, 
 
 
 def test_a_macro_without_prefix_is_expanded_with_one_warning(write):
-    path = write('<xacro:macro name="wheel" params="side"><link name="${side}_wheel"/></xacro:macro>\n'
-                 '<xacro:macro name="camera"><link name="never"/></xacro:macro>\n'
-                 '<wheel side="left"/><wheel side="right"/><sensor><camera name="head"/></sensor>')
+    path = write(
+        '<xacro:macro name="wheel" params="side"><link name="${side}_wheel"/></xacro:macro>\n'
+        '<xacro:macro name="camera"><link name="never"/></xacro:macro>\n'
+        '<wheel side="left"/><wheel side="right"/><sensor><camera name="head"/></sensor>'
+    )
     result = run(path)
     assert result.returncode == 0
     assert '<link name="left_wheel"/>' in result.stdout and '<link name="right_wheel"/>' in result.stdout
@@ -114,9 +120,11 @@ def test_a_macro_without_prefix_is_expanded_with_one_warning(write):
 
 
 def test_words_without_prefix_are_understood_with_one_warning(write):
-    path = write('<property name="r" value="0.3"/>\n<macro name="wheel" params="side"><link name="${side}_${r}"/></macro>\n'
-                 '<if value="${r > 1}"><link name="never"/></if>\n<xacro:wheel side="left"/>\n'
-                 '<gazebo><plugin name="p"><property name="kept" value="1"/></plugin></gazebo>')
+    path = write(
+        '<property name="r" value="0.3"/>\n<macro name="wheel" params="side"><link name="${side}_${r}"/></macro>\n'
+        '<if value="${r > 1}"><link name="never"/></if>\n<xacro:wheel side="left"/>\n'
+        '<gazebo><plugin name="p"><property name="kept" value="1"/></plugin></gazebo>'
+    )
     result = run(path)
     assert result.returncode == 0
     assert '<link name="left_0.3"/>' in result.stdout and "never" not in result.stdout
@@ -127,10 +135,16 @@ def test_words_without_prefix_are_understood_with_one_warning(write):
 BOMB = "".join(f'<!ENTITY a{i} "{f"&a{i - 1};" * 10 if i else "ha" * 50}">' for i in range(10))
 
 
-@pytest.mark.parametrize("entities, use", [
-    ('<!ENTITY a "b">', "&a;"), ('<!ENTITY a SYSTEM "file:///etc/hostname">', "&a;"),
-    ('<!ENTITY % a SYSTEM "file:///etc/hostname"> %a;', ""), (BOMB.replace("a0 ", "a ").replace("&a0;", "&a;"), "&a9;")],
-    ids=["internal", "external", "parameter", "bomb"])
+@pytest.mark.parametrize(
+    "entities, use",
+    [
+        ('<!ENTITY a "b">', "&a;"),
+        ('<!ENTITY a SYSTEM "file:///etc/hostname">', "&a;"),
+        ('<!ENTITY % a SYSTEM "file:///etc/hostname"> %a;', ""),
+        (BOMB.replace("a0 ", "a ").replace("&a0;", "&a;"), "&a9;"),
+    ],
+    ids=["internal", "external", "parameter", "bomb"],
+)
 def test_entities_are_refused(write, entities, use):
     path = write(f'<link name="l">{use}</link>', header=f"<!DOCTYPE robot [\n{entities}]>\n{HEADER}")
     result = run(path)
@@ -143,8 +157,11 @@ def test_a_document_type_alone_is_no_harm(write):
     assert result.returncode == 0 and '<link name="l"/>' in result.stdout
 
 
-@pytest.mark.parametrize("body", ['<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>', '<xacro:include filename="r.xacro"/>',
-                                  "<a>" * 3000 + "</a>" * 3000], ids=["macro", "include", "nested"])
+@pytest.mark.parametrize(
+    "body",
+    ['<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>', '<xacro:include filename="r.xacro"/>', "<a>" * 3000 + "</a>" * 3000],
+    ids=["macro", "include", "nested"],
+)
 def test_what_calls_itself_is_a_short_message(write, body):
     result = run(write(body))
     assert result.returncode == 2 and "nests too deep; does a macro or a file include itself?" in result.stderr
@@ -163,17 +180,31 @@ def test_anon_is_one_name_of_its_own_in_the_whole_file(write):
 
 def test_substitutions_of_every_kind(write, monkeypatch):
     monkeypatch.setenv("SIDE", "left")
-    path = write('<xacro:arg name="n" default="2"/><a b="$(env SIDE) $(optenv SIDE x) $(optenv NO_SUCH a b) $(optenv NO_SUCH)|'
-                 '$(arg n) $(eval n * 3) $(eval 2 ** 10)"/>')
+    path = write(
+        '<xacro:arg name="n" default="2"/><a b="$(env SIDE) $(optenv SIDE x) $(optenv NO_SUCH a b) $(optenv NO_SUCH)|'
+        '$(arg n) $(eval n * 3) $(eval 2 ** 10)"/>'
+    )
     result = run(path)
     assert '<a b="left left a b |2 6 1024"/>' in result.stdout, result
 
 
-@pytest.mark.parametrize("written, said", [
-    ("$(env NO_SUCH)", "environment variable 'NO_SUCH' is not set"), ("$(env)", "only accepts one argument"), ("$(arg x)", "argument x"),
-    ("$(anon)", "must specify a name"), ("$(anon a b)", "may only specify one name"), ("$(bogus x)", "there are find, env, optenv"),
-    ("$(find a b)", "exactly one argument"), ("$(eval 1/0)", "division by zero"), ("$(eval nope)", "'nope' is not defined"),
-    ("$(eval 9**9**9)", "9 to the power of 387420489 is too much"), ("$(eval [0]*10**10)", "is too much"), ("$(optenv)", "must specify")])
+@pytest.mark.parametrize(
+    "written, said",
+    [
+        ("$(env NO_SUCH)", "environment variable 'NO_SUCH' is not set"),
+        ("$(env)", "only accepts one argument"),
+        ("$(arg x)", "argument x"),
+        ("$(anon)", "must specify a name"),
+        ("$(anon a b)", "may only specify one name"),
+        ("$(bogus x)", "there are find, env, optenv"),
+        ("$(find a b)", "exactly one argument"),
+        ("$(eval 1/0)", "division by zero"),
+        ("$(eval nope)", "'nope' is not defined"),
+        ("$(eval 9**9**9)", "9 to the power of 387420489 is too much"),
+        ("$(eval [0]*10**10)", "is too much"),
+        ("$(optenv)", "must specify"),
+    ],
+)
 def test_a_substitution_that_fails_is_told_once(write, written, said):
     path = write(f'<link name="a"/>\n<link name="{written}"/>')
     result = run(path)
@@ -188,11 +219,17 @@ def test_a_loop_by_map_is_refused_in_one_line(write):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("body", [
-    "".join(f'<xacro:property name="a{i}" value="{f"${{a{i - 1}}}" * 10 if i else "ha" * 50}"/>' for i in range(12)) + '<a b="${a11}"/>',
-    '<xacro:macro name="m0"><a/></xacro:macro>' + "".join(
-        f'<xacro:macro name="m{i}">{f"<xacro:m{i - 1}/>" * 10}</xacro:macro>' for i in range(1, 12)) + "<xacro:m11/>"],
-        ids=["properties", "macros"])
+@pytest.mark.parametrize(
+    "body",
+    [
+        "".join(f'<xacro:property name="a{i}" value="{f"${{a{i - 1}}}" * 10 if i else "ha" * 50}"/>' for i in range(12))
+        + '<a b="${a11}"/>',
+        '<xacro:macro name="m0"><a/></xacro:macro>'
+        + "".join(f'<xacro:macro name="m{i}">{f"<xacro:m{i - 1}/>" * 10}</xacro:macro>' for i in range(1, 12))
+        + "<xacro:m11/>",
+    ],
+    ids=["properties", "macros"],
+)
 def test_what_doubles_and_doubles_again_is_refused(write, body):
     result = run(write(body))
     assert result.returncode == 2 and ("too much for a robot description" in result.stderr or "expands to more than" in result.stderr)

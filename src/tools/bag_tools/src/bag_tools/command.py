@@ -1,4 +1,5 @@
 """``rosrun bag_tools convert IN OUT``"""
+
 from __future__ import annotations
 
 import argparse
@@ -18,8 +19,12 @@ EXAMPLES = """\
 
 
 def main(arguments: List[str]) -> int:
-    parser = argparse.ArgumentParser(prog="rosrun bag_tools convert", description="One kind of bag into another.", epilog=EXAMPLES,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="rosrun bag_tools convert",
+        description="One kind of bag into another.",
+        epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     parser.add_argument("source", type=Path, metavar="IN", help=".bag, .mcap, or the folder of a bag of ROS 2")
     parser.add_argument("target", type=Path, metavar="OUT", help=".bag, .mcap, or a name without ending for a bag of ROS 2")
     parser.add_argument("--compression", choices=("none", "bz2", "lz4", "zstd"), help="of OUT; zstd for .mcap, else none")

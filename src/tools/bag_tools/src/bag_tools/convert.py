@@ -1,4 +1,5 @@
 """One kind of bag into another."""
+
 from __future__ import annotations
 
 import contextlib
@@ -67,8 +68,11 @@ def _open(path: Path) -> Union[BagSource, McapSource]:
 def _copy(source: Path, target: Path, compression: Optional[str], quiet: bool) -> int:
     count = 0
     chosen = compression or USUAL[target.suffix]
-    with _open(source) as messages, (BagSink(target, chosen) if target.suffix == ".bag" else McapSink(target, chosen)) as sink, \
-            _progress(messages.count, source.name, quiet) as bar:
+    with (
+        _open(source) as messages,
+        BagSink(target, chosen) if target.suffix == ".bag" else McapSink(target, chosen) as sink,
+        _progress(messages.count, source.name, quiet) as bar,
+    ):
         for channel, stamp, data in messages:
             sink.write(channel, stamp, data)
             count += 1
@@ -94,12 +98,26 @@ def _with_ros2(source: Path, target: Path, folder: Path, compression: Optional[s
 
 
 def _by_rosbags(source: Path, target: Path, compression: Optional[str], storage: str) -> None:
-    from rosbags.convert import ConverterError, convert as rosbags_convert
+    from rosbags.convert import ConverterError
+    from rosbags.convert import convert as rosbags_convert
     from rosbags.typesys import Stores, get_typestore
+
     try:
         with contextlib.redirect_stdout(sys.stderr):
-            rosbags_convert([source], target, storage, ROS2_VERSION, None if compression in (None, "none") else compression, "file",
-                            get_typestore(Stores.ROS2_HUMBLE) if source.is_dir() else None, None, (), (), (), ())
+            rosbags_convert(
+                [source],
+                target,
+                storage,
+                ROS2_VERSION,
+                None if compression in (None, "none") else compression,
+                "file",
+                get_typestore(Stores.ROS2_HUMBLE) if source.is_dir() else None,
+                None,
+                (),
+                (),
+                (),
+                (),
+            )
     except (ConverterError, AssertionError) as error:
         raise BagError(f"{source.name} cannot be converted: {' '.join(str(error).split())[:300]}") from None
     if not target.exists():
@@ -109,5 +127,6 @@ def _by_rosbags(source: Path, target: Path, compression: Optional[str], storage:
 @contextlib.contextmanager
 def _progress(count: Optional[int], name: str, quiet: bool) -> Iterator[Any]:
     from tqdm import tqdm
+
     with tqdm(total=count, desc=name, unit=" messages", disable=quiet or not sys.stderr.isatty()) as bar:
         yield bar

@@ -4,6 +4,7 @@ A channel is one publisher of one topic, as a connection is in a bag. In MCAP it
 messages ``ros1``, schemas ``ros1msg``, and ``callerid``, ``latching`` and ``md5sum`` as metadata of the channel
 (https://mcap.dev/spec/registry).
 """
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -73,8 +74,14 @@ class BagSource:
                 if connection.id not in channels:
                     extra: Any = connection.ext
                     channels[connection.id] = Channel(
-                        connection.id, connection.topic, _ros1_name(connection.msgtype), connection.digest, connection.msgdef.data,
-                        extra.callerid, bool(extra.latching))
+                        connection.id,
+                        connection.topic,
+                        _ros1_name(connection.msgtype),
+                        connection.digest,
+                        connection.msgdef.data,
+                        extra.callerid,
+                        bool(extra.latching),
+                    )
                 yield channels[connection.id], stamp, bytes(data)
         except (ReaderError, OSError, ValueError, EOFError, RuntimeError) as error:
             raise BagError(f"{self.path} is damaged: {_line(error)}; 'rosbag reindex' may save what is before that") from None
@@ -98,8 +105,10 @@ class McapSource:
         for channel in self._summary.channels.values() if self._summary else ():
             if channel.message_encoding != "ros1":
                 self._file.close()
-                raise BagError(f"{path}: {channel.topic} holds {channel.message_encoding or 'unnamed'} messages, not those of ROS 1; of "
-                               "a bag of ROS 2 give the folder with its metadata.yaml")
+                raise BagError(
+                    f"{path}: {channel.topic} holds {channel.message_encoding or 'unnamed'} messages, not those of ROS 1; of "
+                    "a bag of ROS 2 give the folder with its metadata.yaml"
+                )
 
     def __enter__(self) -> McapSource:
         return self
@@ -133,8 +142,15 @@ class McapSource:
             raise BagError(f"{self.path}: {channel.topic} has no definition of a ROS 1 message (schema encoding ros1msg)")
         definition = schema.data.decode("utf-8", "replace")
         md5sum = channel.metadata.get("md5sum") or _md5sum(schema.name, definition)
-        return Channel(channel.id, channel.topic, schema.name, md5sum, definition, channel.metadata.get("callerid"),
-                       channel.metadata.get("latching", "").lower() in ("true", "1"))
+        return Channel(
+            channel.id,
+            channel.topic,
+            schema.name,
+            md5sum,
+            definition,
+            channel.metadata.get("callerid"),
+            channel.metadata.get("latching", "").lower() in ("true", "1"),
+        )
 
 
 class BagSink:
@@ -160,8 +176,13 @@ class BagSink:
     def write(self, channel: Channel, stamp: int, data: bytes) -> None:
         if channel not in self._connections:
             self._connections[channel] = self._bag.add_connection(
-                channel.topic, _ros2_name(channel.type), msgdef=channel.definition, md5sum=channel.md5sum, callerid=channel.callerid,
-                latching=1 if channel.latching else None)
+                channel.topic,
+                _ros2_name(channel.type),
+                msgdef=channel.definition,
+                md5sum=channel.md5sum,
+                callerid=channel.callerid,
+                latching=1 if channel.latching else None,
+            )
         self._bag.write(self._connections[channel], stamp, data)
 
 
@@ -214,6 +235,7 @@ def _ros2_name(name: str) -> str:
 def _md5sum(name: str, definition: str) -> str:
     """Where a file has none. :raises BagError: not a definition of ROS 1"""
     from genpy.dynamic import generate_dynamic
+
     try:
         return str(generate_dynamic(name, definition)[name]._md5sum)
     except Exception as error:  # genpy has many

@@ -1,4 +1,5 @@
 """``rosbag record --mcap``: rosbag's own recorder with all its options, whose bags become MCAP files when it ends."""
+
 from __future__ import annotations
 
 import argparse

@@ -1,4 +1,5 @@
 """An RViz set-up for a system whose launch file brings none: all that is published, as seen from the root frame."""
+
 from __future__ import annotations
 
 import math
@@ -10,12 +11,17 @@ import yaml
 
 #: Message type to RViz display and the name of its topic property.
 DISPLAYS = {
-    "sensor_msgs/LaserScan": ("LaserScan", "Topic"), "sensor_msgs/PointCloud2": ("PointCloud2", "Topic"),
-    "sensor_msgs/PointCloud": ("PointCloud", "Topic"), "sensor_msgs/Range": ("Range", "Topic"),
-    "nav_msgs/Odometry": ("Odometry", "Topic"), "nav_msgs/Path": ("Path", "Topic"),
+    "sensor_msgs/LaserScan": ("LaserScan", "Topic"),
+    "sensor_msgs/PointCloud2": ("PointCloud2", "Topic"),
+    "sensor_msgs/PointCloud": ("PointCloud", "Topic"),
+    "sensor_msgs/Range": ("Range", "Topic"),
+    "nav_msgs/Odometry": ("Odometry", "Topic"),
+    "nav_msgs/Path": ("Path", "Topic"),
     "nav_msgs/OccupancyGrid": ("Map", "Topic"),
-    "geometry_msgs/PoseArray": ("PoseArray", "Topic"), "geometry_msgs/PolygonStamped": ("Polygon", "Topic"),
-    "geometry_msgs/WrenchStamped": ("WrenchStamped", "Topic"), "sensor_msgs/Image": ("Image", "Image Topic"),
+    "geometry_msgs/PoseArray": ("PoseArray", "Topic"),
+    "geometry_msgs/PolygonStamped": ("Polygon", "Topic"),
+    "geometry_msgs/WrenchStamped": ("WrenchStamped", "Topic"),
+    "sensor_msgs/Image": ("Image", "Image Topic"),
     "visualization_msgs/Marker": ("Marker", "Marker Topic"),
     "visualization_msgs/MarkerArray": ("MarkerArray", "Marker Topic"),
 }
@@ -66,9 +72,20 @@ def config(topics: List[Tuple[str, str]], description: bool, root: str, reach: f
         shown.append({"Class": f"rviz/{display}", "Name": name.strip("/"), topic_property: name})
         if display == "Odometry":
             shown[-1]["Covariance"] = {"Value": False}  # RViz draws it by default, larger than the world
-    return {"Panels": [{"Class": "rviz/Displays", "Name": "Displays"}],
-            "Visualization Manager": {
-                "Displays": [{**display, "Enabled": True} for display in shown],
-                "Global Options": {"Fixed Frame": root, "Background Color": "48; 48; 48"}, "Tools": [],
-                "Views": {"Current": {"Class": "rviz/Orbit", "Distance": 4 * max(reach, 0.3), "Pitch": 0.5,
-                                      "Yaw": math.pi / 4, "Focal Point": {"X": 0, "Y": 0, "Z": reach / 3}}}}}
+    return {
+        "Panels": [{"Class": "rviz/Displays", "Name": "Displays"}],
+        "Visualization Manager": {
+            "Displays": [{**display, "Enabled": True} for display in shown],
+            "Global Options": {"Fixed Frame": root, "Background Color": "48; 48; 48"},
+            "Tools": [],
+            "Views": {
+                "Current": {
+                    "Class": "rviz/Orbit",
+                    "Distance": 4 * max(reach, 0.3),
+                    "Pitch": 0.5,
+                    "Yaw": math.pi / 4,
+                    "Focal Point": {"X": 0, "Y": 0, "Z": reach / 3},
+                }
+            },
+        },
+    }

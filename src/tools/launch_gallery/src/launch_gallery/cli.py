@@ -3,6 +3,7 @@
 Each launch file runs alone, with a ROS master and a display of its own. When its nodes have come up, pictures are taken of
 the simulated scene, of RViz (with the launch file's own set-up, or one made of all that is published) and of every camera.
 """
+
 from __future__ import annotations
 
 import argparse
@@ -21,18 +22,26 @@ from .page import Entry, render
 
 
 def parser() -> argparse.ArgumentParser:
-    p = argparse.ArgumentParser(prog="gallery", description=__doc__, epilog=main.__doc__,
-                                formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("targets", nargs="+", metavar="PACKAGE | PACKAGE/FILE.launch | PATH | ARG:=VALUE",
-                   help="what to launch; ARG:=VALUE goes to every launch file that declares ARG "
-                        "(windows are off by themselves: gui:=false rviz:=false)")
-    p.add_argument("--output", "-o", default="out/gallery",
-                   help="folder for index.html and the pictures (default out/gallery)")
-    p.add_argument("--drive", nargs=3, type=float, metavar=("SPEED", "TURN", "SECONDS"),
-                   help="drive robots that listen to velocity commands, m/s and rad/s, while RViz watches")
+    p = argparse.ArgumentParser(
+        prog="gallery", description=__doc__, epilog=main.__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    p.add_argument(
+        "targets",
+        nargs="+",
+        metavar="PACKAGE | PACKAGE/FILE.launch | PATH | ARG:=VALUE",
+        help="what to launch; ARG:=VALUE goes to every launch file that declares ARG "
+        "(windows are off by themselves: gui:=false rviz:=false)",
+    )
+    p.add_argument("--output", "-o", default="out/gallery", help="folder for index.html and the pictures (default out/gallery)")
+    p.add_argument(
+        "--drive",
+        nargs=3,
+        type=float,
+        metavar=("SPEED", "TURN", "SECONDS"),
+        help="drive robots that listen to velocity commands, m/s and rad/s, while RViz watches",
+    )
     p.add_argument("--size", default="1280x800", help="WIDTHxHEIGHT of the RViz window (default 1280x800)")
-    p.add_argument("--timeout", type=float, default=60.0,
-                   help="seconds to wait for nodes and for displays (default 60)")
+    p.add_argument("--timeout", type=float, default=60.0, help="seconds to wait for nodes and for displays (default 60)")
     return p
 
 
@@ -48,8 +57,17 @@ def visit(launch: Launch, given: Dict[str, str], folder: str, options: argparse.
     entry.command = shlex.join(["roslaunch", *launch.words, *(f"{name}:={value}" for name, value in values.items())])
     stem = re.sub(r"\W+", "-", launch.name.replace(".launch", ""))
     log = os.path.join(folder, f"{stem}.log")
-    job = {"folder": folder, "stem": stem, "log": log, "config": shown.rviz, "nodes": shown.nodes,
-           "passing": shown.passing, "timeout": options.timeout, "size": options.size, "drive": options.drive}
+    job = {
+        "folder": folder,
+        "stem": stem,
+        "log": log,
+        "config": shown.rviz,
+        "nodes": shown.nodes,
+        "passing": shown.passing,
+        "timeout": options.timeout,
+        "size": options.size,
+        "drive": options.drive,
+    }
     words = [launch.path, *(f"{name}:={value}" for name, value in values.items())]
     outcome = session.look("launch_gallery.visit", words, log, job)
     entry.notes += outcome.notes

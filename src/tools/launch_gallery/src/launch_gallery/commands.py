@@ -1,4 +1,5 @@
 """What a mobile robot is told: the topic that it listens to, and messages that say a speed and a turn."""
+
 from __future__ import annotations
 
 from typing import Callable, Dict, List, Sequence, Tuple
@@ -20,8 +21,10 @@ def _ackermann(message, speed: float, turn: float, _aside: float) -> None:
 
 #: Message type to what fills it; ``.field`` says where in the message the command is.
 KINDS: Dict[str, Tuple[str, Callable]] = {
-    "geometry_msgs/Twist": ("", _twist), "geometry_msgs/TwistStamped": ("twist", _twist),
-    "ackermann_msgs/AckermannDrive": ("", _ackermann), "ackermann_msgs/AckermannDriveStamped": ("drive", _ackermann),
+    "geometry_msgs/Twist": ("", _twist),
+    "geometry_msgs/TwistStamped": ("twist", _twist),
+    "ackermann_msgs/AckermannDrive": ("", _ackermann),
+    "ackermann_msgs/AckermannDriveStamped": ("drive", _ackermann),
 }
 
 
@@ -44,8 +47,7 @@ def choose(heard: Sequence[Tuple[str, str]], published: Sequence[str], wanted: s
     candidates = [topic for topic, kind in heard if kind in KINDS]
     if not candidates:
         raise MeasuringError(f"nobody listens to speeds ({', '.join(sorted(KINDS))})")
-    best = min(candidates, key=lambda topic: (not topic.endswith("cmd_vel"), topic in published, topic.count("/"),
-                                              len(topic), topic))
+    best = min(candidates, key=lambda topic: (not topic.endswith("cmd_vel"), topic in published, topic.count("/"), len(topic), topic))
     return best, topics[best]
 
 

@@ -1,4 +1,5 @@
 """How often sensors speak, by their own stamps if they have any, and whether they say something."""
+
 from __future__ import annotations
 
 import math
@@ -26,8 +27,9 @@ class Ear:
         self._kinds = dict(topics)
         self._stamps: Dict[str, List[float]] = {topic: [] for topic in self._kinds}
         self._last: Dict[str, bytes] = {}
-        self._subscribers = [rospy.Subscriber(topic, rospy.AnyMsg, self._hear, topic, queue_size=100, buff_size=1 << 24)
-                             for topic in self._kinds]
+        self._subscribers = [
+            rospy.Subscriber(topic, rospy.AnyMsg, self._hear, topic, queue_size=100, buff_size=1 << 24) for topic in self._kinds
+        ]
 
     def _hear(self, message: rospy.AnyMsg, topic: str) -> None:
         _, seconds, nanoseconds = struct.unpack_from("<III", message._buff)
@@ -45,8 +47,10 @@ class Ear:
         """
         for subscriber in self._subscribers:
             subscriber.unregister()
-        return [{"topic": topic, "kind": self._kinds[topic], "rate": rate(stamps, seconds), "says": self._says(topic)}
-                for topic, stamps in sorted(self._stamps.items())]
+        return [
+            {"topic": topic, "kind": self._kinds[topic], "rate": rate(stamps, seconds), "says": self._says(topic)}
+            for topic, stamps in sorted(self._stamps.items())
+        ]
 
     def _says(self, topic: str) -> str:
         kind = self._kinds[topic]

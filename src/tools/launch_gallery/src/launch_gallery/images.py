@@ -1,4 +1,5 @@
 """Image messages as PNG files."""
+
 from __future__ import annotations
 
 import cv2

@@ -1,4 +1,5 @@
 """Which launch files there are, what arguments they declare and what they bring up. Reads files only, starts nothing."""
+
 from __future__ import annotations
 
 import os
@@ -48,8 +49,11 @@ def find(target: str) -> List[Launch]:
     found = []
     for base, folders, files in os.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
-        found += [Launch(os.path.join(base, name), f"{package}/{name}", (package, name)) for name in sorted(files)
-                  if name.endswith(".launch") and wanted in ("", name, os.path.relpath(os.path.join(base, name), folder))]
+        found += [
+            Launch(os.path.join(base, name), f"{package}/{name}", (package, name))
+            for name in sorted(files)
+            if name.endswith(".launch") and wanted in ("", name, os.path.relpath(os.path.join(base, name), folder))
+        ]
     if not found:
         raise LaunchError(f"package {package} has no launch file{' ' + wanted if wanted else ''} (folder {folder})")
     return found
@@ -91,8 +95,11 @@ def content(launch: Launch, values: Dict[str, str]) -> Content:
     nodes = _load(launch, values)
     passing = {_name(node) for node in nodes if (node.package, node.type) in _PASSING}
     silent = {_name(node) for node in nodes if (node.package, node.type) in _SILENT}
-    return Content(tuple(sorted({_name(node) for node in nodes} - passing - silent)), tuple(sorted(passing)),
-                   next(filter(None, map(_rviz_config, _load(launch, switched_on))), ""))
+    return Content(
+        tuple(sorted({_name(node) for node in nodes} - passing - silent)),
+        tuple(sorted(passing)),
+        next(filter(None, map(_rviz_config, _load(launch, switched_on))), ""),
+    )
 
 
 def _load(launch: Launch, values: Dict[str, str]) -> list:

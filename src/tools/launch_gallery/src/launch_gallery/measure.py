@@ -3,6 +3,7 @@
 The launch file runs alone, without a window. When the robot has come up it stands for a minute, drives straight and turns,
 and what it did in truth, as the simulator knows it, is set against what it was told. Prints one row of a Markdown table.
 """
+
 from __future__ import annotations
 
 import argparse
@@ -20,42 +21,50 @@ from rviz_offscreen.errors import DisplayError
 from . import row, session
 from .launches import Launch, LaunchError, arguments, content, find
 
-_ERROR = re.compile(r"\[ *(?:ERROR|FATAL)\] *(?:\[[^\]]*\]:? *)*(.*)|(.*process has died.*)"
-                    r"|^((?:ERROR|error|RLException):? .*)")
+_ERROR = re.compile(
+    r"\[ *(?:ERROR|FATAL)\] *(?:\[[^\]]*\]:? *)*(.*)|(.*process has died.*)"
+    r"|^((?:ERROR|error|RLException):? .*)"
+)
 
 
 def parser() -> argparse.ArgumentParser:
-    p = argparse.ArgumentParser(prog="measure", description=__doc__, epilog=main.__doc__,
-                                formatter_class=argparse.RawDescriptionHelpFormatter)
+    p = argparse.ArgumentParser(
+        prog="measure", description=__doc__, epilog=main.__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     add = p.add_argument
-    add("targets", nargs="+", metavar="PACKAGE/FILE.launch | PATH | ARG:=VALUE",
-        help="what to launch, several files together; windows are off by themselves: gui:=false rviz:=false")
+    add(
+        "targets",
+        nargs="+",
+        metavar="PACKAGE/FILE.launch | PATH | ARG:=VALUE",
+        help="what to launch, several files together; windows are off by themselves: gui:=false rviz:=false",
+    )
     add("--output", "-o", default="out/measure", help="folder for picture, figures and log (default out/measure)")
     add("--name", help="of these files (default: the launch file's)")
     add("--model", default="", help="robot in the simulation (default: the movable model with most joints, of several the last)")
     add("--command", default="", help="topic of Twist, TwistStamped or Ackermann messages (default: the best cmd_vel)")
     add("--speed", type=float, default=0.3, help="straight on, m/s (default 0.3; 0: not)")
     add("--aside", type=float, default=0.0, help="to the left, m/s, for robots that can (default 0: not)")
-    add("--turn", type=float, default=0.5,
-        help="rad/s, or steering angle in rad for Ackermann messages (default 0.5; 0: not)")
+    add("--turn", type=float, default=0.5, help="rad/s, or steering angle in rad for Ackermann messages (default 0.5; 0: not)")
     add("--turn-speed", type=float, default=0.0, help="speed while turning, m/s (default 0; cars need one)")
-    add("--wheelbase", type=float, default=0.0,
-        help="m, of a car that is told its steering angle: its turn is set against geometry")
-    add("--drive", type=float, default=10.0,
-        help="seconds of simulation for each motion, after 2 to get going (default 10; 0: none)")
+    add("--wheelbase", type=float, default=0.0, help="m, of a car that is told its steering angle: its turn is set against geometry")
+    add("--drive", type=float, default=10.0, help="seconds of simulation for each motion, after 2 to get going (default 10; 0: none)")
     add("--settle", type=float, default=5.0, help="seconds of simulation before anything counts (default 5)")
     add("--stand", type=float, default=60.0, help="seconds of simulation to stand still (default 60; 0: not)")
     add("--listen", type=float, default=5.0, help="seconds of simulation to listen to the sensors (default 5; 0: not)")
-    add("--slow", type=float, default=0.25,
-        help="simulated seconds per second while listening to sensors (default 0.25)")
-    add("--lockstep", action="store_true",
-        help="physics waits for every picture: rates of cameras are then those of simulated time, however busy the machine")
-    add("--factor", type=float,
-        help="simulated seconds per second while driving (default: the world's own; 0: as fast as it goes)")
-    add("--reach", type=float, default=0.0,
-        help="rad or m that each joint of the trajectory controllers is moved by (default 0: not)")
-    add("--no-display", dest="windows", action="store_false",
-        help="no display for RViz and other windows: they end at once, which saves a slow machine their work")
+    add("--slow", type=float, default=0.25, help="simulated seconds per second while listening to sensors (default 0.25)")
+    add(
+        "--lockstep",
+        action="store_true",
+        help="physics waits for every picture: rates of cameras are then those of simulated time, however busy the machine",
+    )
+    add("--factor", type=float, help="simulated seconds per second while driving (default: the world's own; 0: as fast as it goes)")
+    add("--reach", type=float, default=0.0, help="rad or m that each joint of the trajectory controllers is moved by (default 0: not)")
+    add(
+        "--no-display",
+        dest="windows",
+        action="store_false",
+        help="no display for RViz and other windows: they end at once, which saves a slow machine their work",
+    )
     add("--no-picture", dest="picture", action="store_false", help="no picture of the robot")
     add("--view", default="iso", help="of the picture: iso, front, side, top ... (default iso)")
     add("--timeout", type=float, default=90.0, help="seconds to wait for the nodes (default 90)")
@@ -97,8 +106,9 @@ def measure(launches: List[Launch], given: Dict[str, str], options: argparse.Nam
     with contextlib.suppress(FileNotFoundError):
         os.remove(figures)
     try:
-        outcome = session.look("launch_gallery.measuring", words, log, job, options.windows,
-                               {"ODE_SIM_LOCKSTEP": "1"} if options.lockstep else {})
+        outcome = session.look(
+            "launch_gallery.measuring", words, log, job, options.windows, {"ODE_SIM_LOCKSTEP": "1"} if options.lockstep else {}
+        )
     except KeyboardInterrupt:
         outcome = session.Outcome(notes=["interrupted"])
         if os.path.exists(figures):

@@ -2,6 +2,7 @@
 
 Started by :mod:`.measure` with a JSON job on standard input; answers with one JSON line on standard output.
 """
+
 from __future__ import annotations
 
 import contextlib
@@ -19,11 +20,11 @@ from rosservice import ROSServiceException, get_service_class_by_name
 
 from . import scene, system
 from .commands import Wheel, choose, joint_limits, nominal_rates
+from .errors import MeasuringError
 from .hearing import Ear, is_sensor
 from .motion import Motion, longest_silence, reachable
 from .simulator import find
 from .system import System
-from .errors import MeasuringError
 from .truth import Truth
 
 _ANSWER = 60.0  # s of wall time for one message
@@ -125,11 +126,15 @@ class Measurement:
         def say(time: float, *speeds: float) -> None:
             sent.append(time)
             wheel.send(time, *speeds)
+
         self.found["command"] = {"topic": topic, "kind": kind}
         self.truth.pace(job["factor"])
         try:
-            for name, speed, turn, aside in (("straight", job["speed"], 0.0, 0.0), ("aside", 0.0, 0.0, job["aside"]),
-                                             ("turn", job["turn_speed"], job["turn"], 0.0)):
+            for name, speed, turn, aside in (
+                ("straight", job["speed"], 0.0, 0.0),
+                ("aside", 0.0, 0.0, job["aside"]),
+                ("turn", job["turn_speed"], job["turn"], 0.0),
+            ):
                 if not (speed or turn or aside):
                     continue
                 self.truth.follow(_LEAD, lambda time: say(time, speed, turn, aside))
@@ -141,8 +146,10 @@ class Measurement:
             self.truth.pace(None)
             silence = longest_silence(sent)
             if silence > _PATIENCE:
-                self.note(f"commands came up to {silence:.2f} s of simulation apart, and controllers stop without them: "
-                          "repeat with a smaller --factor")
+                self.note(
+                    f"commands came up to {silence:.2f} s of simulation apart, and controllers stop without them: "
+                    "repeat with a smaller --factor"
+                )
 
     def reach(self) -> None:
         """Every joint of the running trajectory controllers goes a step further; the simulator says where they are."""
@@ -151,7 +158,7 @@ class Measurement:
         tail = "controller_manager/list_controllers"
         for manager in [name for name in self.system.services() if name.endswith(tail)]:
             listed = _service(manager)()
-            namespace = manager[:-len(tail)]
+            namespace = manager[: -len(tail)]
             for controller in listed.controller:
                 if controller.state == "running" and controller.type.endswith("JointTrajectoryController"):
                     joints = [name for claimed in controller.claimed_resources for name in claimed.resources]
@@ -169,8 +176,9 @@ class Measurement:
         step = self.job["reach"]
         targets = [reachable(self._position(joint), step, *limits.get(joint, (None, None))) for joint in joints]
         trajectory = get_message_class("trajectory_msgs/JointTrajectory")(joint_names=joints)
-        trajectory.points = [get_message_class("trajectory_msgs/JointTrajectoryPoint")(
-            positions=targets, time_from_start=rospy.Duration(3.0))]
+        trajectory.points = [
+            get_message_class("trajectory_msgs/JointTrajectoryPoint")(positions=targets, time_from_start=rospy.Duration(3.0))
+        ]
         publisher = rospy.Publisher(topic, type(trajectory), queue_size=1, latch=True)
         publisher.publish(trajectory)
         self.truth.follow(6.0)

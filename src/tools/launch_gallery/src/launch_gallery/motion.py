@@ -1,4 +1,5 @@
 """How a robot moved, from samples of its true pose. Pure arithmetic: no ROS."""
+
 from __future__ import annotations
 
 import math
@@ -23,8 +24,14 @@ def sample(time: float, position: Sequence[float], quaternion: Sequence[float]) 
     """:param position: x, y, z, m. :param quaternion: x, y, z, w, of length 1."""
     x, y, z, w = quaternion
     p_x, p_y, p_z = position
-    return Sample(time, p_x, p_y, p_z, math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)),
-                  math.acos(max(-1.0, min(1.0, 1 - 2 * (x * x + y * y)))))
+    return Sample(
+        time,
+        p_x,
+        p_y,
+        p_z,
+        math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)),
+        math.acos(max(-1.0, min(1.0, 1 - 2 * (x * x + y * y)))),
+    )
 
 
 def turned(samples: Sequence[Sample]) -> float:
@@ -55,8 +62,7 @@ class Motion:
     @staticmethod
     def of(samples: Sequence[Sample]) -> "Motion":
         ahead, left = advanced(samples)
-        return Motion(samples[-1].time - samples[0].time, ahead, left, turned(samples), samples[-1].z - samples[0].z,
-                      samples[-1].tilt)
+        return Motion(samples[-1].time - samples[0].time, ahead, left, turned(samples), samples[-1].z - samples[0].z, samples[-1].tilt)
 
 
 def reachable(angle: float, step: float, lower: Optional[float], upper: Optional[float]) -> float:

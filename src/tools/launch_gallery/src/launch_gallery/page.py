@@ -1,4 +1,5 @@
 """The page that shows the pictures."""
+
 from __future__ import annotations
 
 import html
@@ -25,10 +26,14 @@ def render(title: str, entries: List[Entry]) -> str:
     """HTML that stands beside the pictures."""
     sections = []
     for entry in entries:
-        figures = "\n".join(f'<figure><a href="{name}"><img src="{name}" alt="{caption}"></a><figcaption>{caption}</figcaption></figure>'
-                            for name, caption in (map(html.escape, picture) for picture in entry.pictures))
+        figures = "\n".join(
+            f'<figure><a href="{name}"><img src="{name}" alt="{caption}"></a><figcaption>{caption}</figcaption></figure>'
+            for name, caption in (map(html.escape, picture) for picture in entry.pictures)
+        )
         notes = "\n".join(f'<p class="note">{html.escape(note)}</p>' for note in entry.notes)
         sections.append(f"<h2>{html.escape(entry.name)}</h2>\n<pre>{html.escape(entry.command)}</pre>\n{notes}\n{figures}")
     title = html.escape(title)
-    return (f'<!doctype html>\n<html lang="en"><meta charset="utf-8"><title>{title}</title>\n<style>{_STYLE}</style>\n'
-            f"<h1>{title}</h1>\n" + "\n".join(sections) + "\n</html>\n")
+    return (
+        f'<!doctype html>\n<html lang="en"><meta charset="utf-8"><title>{title}</title>\n<style>{_STYLE}</style>\n'
+        f"<h1>{title}</h1>\n" + "\n".join(sections) + "\n</html>\n"
+    )

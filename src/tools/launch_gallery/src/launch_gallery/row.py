@@ -1,4 +1,5 @@
 """The figures of one robot as a row of a Markdown table."""
+
 from __future__ import annotations
 
 import math
@@ -7,15 +8,16 @@ import re
 import subprocess
 from typing import List
 
-HEADER = ("| robot | launch | straight | turn | drift in 60 s | sensors | notes |\n"
-          "|---|---|---|---|---|---|---|")
+HEADER = "| robot | launch | straight | turn | drift in 60 s | sensors | notes |\n|---|---|---|---|---|---|---|"
 _PLAIN = ("sensor_msgs/JointState", "nav_msgs/Odometry")
 
 
 def source(path: str) -> str:
     """``owner/name@commit`` of the repository that a file is from; the name of its folder where it is from none."""
+
     def git(*words: str) -> str:
         return subprocess.run(["git", "-C", os.path.dirname(path), *words], capture_output=True, text=True).stdout.strip()
+
     commit = git("rev-parse", "--short=7", "HEAD")
     if not commit:
         return os.path.basename(os.path.dirname(path))
@@ -34,8 +36,10 @@ def straight(found: dict) -> str:
         if name in found:
             motion = found[name]
             wanted = motion["speed" if name == "straight" else "aside"] * motion["seconds"]
-            parts.append(f"{'' if name == 'straight' else 'left '}{motion[along]:.3f} of {wanted:.3f} m"
-                         f" (aside {_number(motion[across], 'm')}, {_number(motion['turned'], 'rad')})")
+            parts.append(
+                f"{'' if name == 'straight' else 'left '}{motion[along]:.3f} of {wanted:.3f} m"
+                f" (aside {_number(motion[across], 'm')}, {_number(motion['turned'], 'rad')})"
+            )
     return "<br>".join(parts) or "-"
 
 
@@ -82,6 +86,13 @@ def reach(found: dict) -> List[str]:
 
 
 def row(robot: str, launch: str, found: dict, wheelbase: float) -> str:
-    cells = (robot, f"`{launch}`", straight(found), turn(found, wheelbase), drift(found), sensors(found),
-             "; ".join(reach(found) + found["notes"]) or "-")
+    cells = (
+        robot,
+        f"`{launch}`",
+        straight(found),
+        turn(found, wheelbase),
+        drift(found),
+        sensors(found),
+        "; ".join(reach(found) + found["notes"]) or "-",
+    )
     return f"| {' | '.join(cell.replace('|', '&#124;') for cell in cells)} |"

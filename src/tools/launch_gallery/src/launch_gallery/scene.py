@@ -1,4 +1,5 @@
 """Pictures of the simulated scene, which the simulator draws without a camera in it, also while it is paused."""
+
 from __future__ import annotations
 
 import os

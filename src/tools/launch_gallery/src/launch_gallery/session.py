@@ -1,4 +1,5 @@
 """A launch file that runs alone, with a ROS master and a display of its own, and a process of ours that looks at it."""
+
 from __future__ import annotations
 
 import contextlib
@@ -30,8 +31,9 @@ def free_port() -> int:
 def running(words: List[str], environment: Dict[str, str], log: "str | os.PathLike") -> Iterator[subprocess.Popen]:
     """roslaunch in a process group of its own, which gets Ctrl-C's signal at the end, and SIGKILL if that is in vain."""
     with open(log, "w") as file:
-        process = subprocess.Popen(words, env=environment, stdout=file, stderr=subprocess.STDOUT,
-                                   stdin=subprocess.DEVNULL, start_new_session=True)
+        process = subprocess.Popen(
+            words, env=environment, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, start_new_session=True
+        )
         try:
             yield process
         finally:
@@ -63,8 +65,7 @@ class Outcome:
     notes: List[str] = field(default_factory=list)
 
 
-def look(module: str, words: List[str], log: str, job: dict, windows: bool = True,
-         variables: Optional[Dict[str, str]] = None) -> Outcome:
+def look(module: str, words: List[str], log: str, job: dict, windows: bool = True, variables: Optional[Dict[str, str]] = None) -> Outcome:
     """Launch, have ``module`` look, stop.
 
     :param module: run as ``python3 -m`` with ``job`` as JSON on standard input; answers with a JSON line.
@@ -76,11 +77,24 @@ def look(module: str, words: List[str], log: str, job: dict, windows: bool = Tru
     port = free_port()
     with private_display() if windows else contextlib.nullcontext({"DISPLAY": ""}) as display, tempfile.TemporaryDirectory() as home:
         # the simulator leaves shadows out where no graphics card draws; a picture in a minute can afford them
-        environment = {"ODE_SIM_SHADOWS": "on", **os.environ, **(variables or {}), **display, "ROS_HOME": home,
-                       "ROS_MASTER_URI": f"http://localhost:{port}", "PYTHONUNBUFFERED": "1"}
+        environment = {
+            "ODE_SIM_SHADOWS": "on",
+            **os.environ,
+            **(variables or {}),
+            **display,
+            "ROS_HOME": home,
+            "ROS_MASTER_URI": f"http://localhost:{port}",
+            "PYTHONUNBUFFERED": "1",
+        }
         with running(["roslaunch", "-p", str(port), *words], environment, log) as process:
-            looker = subprocess.Popen([sys.executable, "-m", module], env=environment, text=True,
-                                      stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            looker = subprocess.Popen(
+                [sys.executable, "-m", module],
+                env=environment,
+                text=True,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+            )
             assert looker.stdin is not None  # a pipe, as asked for
             looker.stdin.write(json.dumps(job))
             looker.stdin.close()

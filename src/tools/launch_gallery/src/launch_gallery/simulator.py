@@ -1,4 +1,5 @@
 """The running simulator's services and topics. A launch file that starts it within a group has them below that group's name."""
+
 from __future__ import annotations
 
 from typing import Iterable, Optional
@@ -31,5 +32,5 @@ class Simulator:
 
 def find(services: Iterable[str]) -> Optional[Simulator]:
     """The one among ``services`` (full names) in the outermost namespace; None if nobody simulates."""
-    spaces = [name[:-len(_KNOWN_BY)] for name in services if name.endswith(_KNOWN_BY)]
+    spaces = [name[: -len(_KNOWN_BY)] for name in services if name.endswith(_KNOWN_BY)]
     return Simulator(min(spaces, key=lambda space: (space.count("/"), space))) if spaces else None

@@ -1,4 +1,5 @@
 """What runs under this process's ROS master, and when it has come up."""
+
 from __future__ import annotations
 
 import re

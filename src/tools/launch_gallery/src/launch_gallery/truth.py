@@ -1,4 +1,5 @@
 """The simulated robot as the simulator knows it, and how fast the simulation runs."""
+
 from __future__ import annotations
 
 import time

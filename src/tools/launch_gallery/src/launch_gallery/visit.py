@@ -2,6 +2,7 @@
 
 Started by :mod:`.cli` with a JSON job on standard input; answers with one JSON line on standard output.
 """
+
 from __future__ import annotations
 
 import contextlib
@@ -56,11 +57,20 @@ class Visit:
                 config, whose = os.path.join(folder, "automatic.rviz"), "all that is published"
                 parents = automatic.frames(1.5)
                 with open(config, "w") as file:
-                    yaml.safe_dump(automatic.config(self.system.published(), rospy.has_param("robot_description"),
-                                                    automatic.root_of(parents), 1.0), file)
+                    yaml.safe_dump(
+                        automatic.config(self.system.published(), rospy.has_param("robot_description"), automatic.root_of(parents), 1.0),
+                        file,
+                    )
             try:
-                result = take(config, [], os.path.join(self.job["folder"], name), size=self.job["size"], window=True,
-                              timeout=self.job["timeout"], watch=drive[2] if drive else 0.0)
+                result = take(
+                    config,
+                    [],
+                    os.path.join(self.job["folder"], name),
+                    size=self.job["size"],
+                    window=True,
+                    timeout=self.job["timeout"],
+                    watch=drive[2] if drive else 0.0,
+                )
             except OffscreenError as error:
                 self.notes.append(f"no RViz picture: {error}")
                 return
@@ -88,8 +98,11 @@ class Driving:
     def __enter__(self) -> None:
         master = rosgraph.Master(rospy.get_name())
         listened = {topic for topic, _ in master.getSystemState()[1]}
-        self.publishers = [rospy.Publisher(topic, Twist, queue_size=1) for topic, kind in master.getTopicTypes()
-                           if kind == "geometry_msgs/Twist" and topic in listened]
+        self.publishers = [
+            rospy.Publisher(topic, Twist, queue_size=1)
+            for topic, kind in master.getTopicTypes()
+            if kind == "geometry_msgs/Twist" and topic in listened
+        ]
         self.thread = threading.Thread(target=self._send)
         self.thread.start()
 

@@ -1,4 +1,5 @@
 """What :mod:`sitecustomize` adds to modules. Each of these has ``COMPLETE``: name of a module -> function that completes it."""
+
 import functools
 import gc
 
@@ -24,17 +25,21 @@ def aliases(module, **names):
 
 def without(function, *names):
     """``function``, which no longer takes the keyword arguments ``names``: they are ignored."""
+
     @functools.wraps(function)
     def call(*arguments, **options):
         return function(*arguments, **{name: value for name, value in options.items() if name not in names})
+
     return call
 
 
 def renamed(function, **names):
     """``function``, which calls the keyword argument ``old`` ``new`` now."""
+
     @functools.wraps(function)
     def call(*arguments, **options):
         return function(*arguments, **{names.get(name, name): value for name, value in options.items()})
+
     return call
 
 
@@ -44,6 +49,7 @@ def positional(function, *names):
     :param names: of all parameters, ``self`` among them
     """
     import inspect
+
     kinds = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
     count = sum(one.kind in kinds for one in inspect.signature(function).parameters.values())
 
@@ -52,6 +58,7 @@ def positional(function, *names):
         if len(arguments) <= count or len(arguments) > len(names):
             return function(*arguments, **options)
         return function(*arguments[:count], **dict(zip(names[count:], arguments[count:])), **options)
+
     return call
 
 

@@ -1,4 +1,5 @@
 """PyYAML 6 and KDL 1.5."""
+
 from noetic_names import add
 
 
@@ -15,6 +16,7 @@ def _yaml(module):
     def load_all(stream, Loader=module.FullLoader):
         """All documents of a stream; as in PyYAML 5, without a Loader by FullLoader."""
         return new_load_all(stream, Loader)
+
     module.load, module.load_all = load, load_all
 
 
@@ -25,6 +27,7 @@ def _pykdl(module):
     def getTypeName(self):
         name = new_name(self)
         return "None" if name == "Fixed" else name
+
     module.Joint.getTypeName = getTypeName
 
 

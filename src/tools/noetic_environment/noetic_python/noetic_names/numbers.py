@@ -1,30 +1,88 @@
 """NumPy 1.18 to 2.2, SciPy 1.4 to 1.15."""
+
 import functools
 
 from noetic_names import add, add_to_compiled, aliases, renamed, replace_in_compiled, without
 
 #: Names of NumPy 1.17, by what they stood for; the second half went with NumPy 2.
-_NUMPY = {"cumproduct": "cumprod", "product": "prod", "sometrue": "any", "alltrue": "all", "float_": "float64", "complex_": "complex128",
-          "unicode_": "str_", "string_": "bytes_", "Inf": "inf", "Infinity": "inf", "PINF": "inf", "infty": "inf", "NaN": "nan",
-          "NAN": "nan", "in1d": "isin", "row_stack": "vstack", "trapz": "trapezoid", "mat": "asmatrix", "round_": "round", "bool8": "bool_",
-          "int0": "intp", "uint0": "uintp", "str0": "str_", "bytes0": "bytes_", "object0": "object_", "void0": "void",
-          "cfloat": "complex128", "singlecomplex": "complex64", "clongfloat": "clongdouble", "longcomplex": "clongdouble",
-          "longfloat": "longdouble", "typeDict": "sctypeDict", "rank": "ndim"}
+_NUMPY = {
+    "cumproduct": "cumprod",
+    "product": "prod",
+    "sometrue": "any",
+    "alltrue": "all",
+    "float_": "float64",
+    "complex_": "complex128",
+    "unicode_": "str_",
+    "string_": "bytes_",
+    "Inf": "inf",
+    "Infinity": "inf",
+    "PINF": "inf",
+    "infty": "inf",
+    "NaN": "nan",
+    "NAN": "nan",
+    "in1d": "isin",
+    "row_stack": "vstack",
+    "trapz": "trapezoid",
+    "mat": "asmatrix",
+    "round_": "round",
+    "bool8": "bool_",
+    "int0": "intp",
+    "uint0": "uintp",
+    "str0": "str_",
+    "bytes0": "bytes_",
+    "object0": "object_",
+    "void0": "void",
+    "cfloat": "complex128",
+    "singlecomplex": "complex64",
+    "clongfloat": "clongdouble",
+    "longcomplex": "clongdouble",
+    "longfloat": "longdouble",
+    "typeDict": "sctypeDict",
+    "rank": "ndim",
+}
 
 
 def _numpy(module):
-    add(module, float=float, int=int, bool=bool, complex=complex, object=object, str=str, long=int, unicode=str, NINF=-module.inf,
-        PZERO=0.0, NZERO=-0.0, asscalar=lambda a: a.item(), alen=lambda a: len(module.array(a, ndmin=1)),
+    add(
+        module,
+        float=float,
+        int=int,
+        bool=bool,
+        complex=complex,
+        object=object,
+        str=str,
+        long=int,
+        unicode=str,
+        NINF=-module.inf,
+        PZERO=0.0,
+        NZERO=-0.0,
+        asscalar=lambda a: a.item(),
+        alen=lambda a: len(module.array(a, ndmin=1)),
         asfarray=lambda a, dtype=module.float64: module.asarray(a, dtype if module.issubdtype(dtype, module.inexact) else module.float64),
-        msort=lambda a: module.sort(a, axis=0), issubclass_=lambda a, b: isinstance(a, type) and issubclass(a, b),
+        msort=lambda a: module.sort(a, axis=0),
+        issubclass_=lambda a, b: isinstance(a, type) and issubclass(a, b),
         disp=lambda mesg, device=None, linefeed=True: print(mesg, file=device, end="\n" if linefeed else ""),
         find_common_type=lambda array_types, scalar_types: module.result_type(*array_types, *scalar_types),
         cast=_Casts(module),
-        fromstring=_from_binary(module), ptp=lambda a, *args, **kw: a.max(*args, **kw) - a.min(*args, **kw))
+        fromstring=_from_binary(module),
+        ptp=lambda a, *args, **kw: a.max(*args, **kw) - a.min(*args, **kw),
+    )
     add(module, **{old: getattr(module, new) for old, new in _NUMPY.items() if hasattr(module, new)})
-    add(module, **{name: getattr(module.exceptions, name) for name in (
-        "VisibleDeprecationWarning", "ComplexWarning", "AxisError", "RankWarning", "TooHardError", "ModuleDeprecationWarning")
-        if hasattr(module, "exceptions") and hasattr(module.exceptions, name)})
+    add(
+        module,
+        **{
+            name: getattr(module.exceptions, name)
+            for name in (
+                "VisibleDeprecationWarning",
+                "ComplexWarning",
+                "AxisError",
+                "RankWarning",
+                "TooHardError",
+                "ModuleDeprecationWarning",
+            )
+            if hasattr(module, "exceptions") and hasattr(module.exceptions, name)
+        },
+    )
     for name in ("array", "asarray", "asanyarray"):
         setattr(module, name, _of_lists_of_any_length(module, getattr(module, name)))
     for name in ("linspace", "logspace", "geomspace"):
@@ -51,13 +109,15 @@ class _Casts(dict):
 def _from_binary(module):
     def fromstring(string, dtype=float, count=-1, sep=""):
         if sep:
-            return module.array([float(word) for word in string.split(sep if sep.strip() else None)], dtype=dtype)[:count or None]
+            return module.array([float(word) for word in string.split(sep if sep.strip() else None)], dtype=dtype)[: count or None]
         return module.frombuffer(string.encode() if isinstance(string, str) else string, dtype, count).copy()
+
     return fromstring
 
 
 def _of_lists_of_any_length(module, function):
     """Lists of lists that differ in length become an array of objects; without a copy means: where none is needed."""
+
     @functools.wraps(function)
     def make(*arguments, **options):
         try:
@@ -68,6 +128,7 @@ def _of_lists_of_any_length(module, function):
             if options.get("copy") is False and "avoid copy" in str(error):
                 return function(*arguments, **{**options, "copy": None})
             raise
+
     return make
 
 
@@ -75,12 +136,14 @@ def _of_a_whole_number(function):
     @functools.wraps(function)
     def make(start, stop, num=50, *arguments, **options):
         return function(start, stop, int(num) if isinstance(num, float) else num, *arguments, **options)
+
     return make
 
 
 def _methods_of_arrays(module):
     """NumPy 2 keeps methods that only say that they are gone."""
     import gc
+
     attributes = gc.get_referents(vars(module.ndarray))[0]
 
     def itemset(self, *arguments):
@@ -89,6 +152,7 @@ def _methods_of_arrays(module):
             self.flat[index[0]] = value
         else:
             self[tuple(index[0]) if len(index) == 1 else tuple(index) or ()] = value
+
     attributes["itemset"] = itemset
     attributes["ptp"] = module.ptp
     attributes["newbyteorder"] = lambda self, new_order="S": self.view(self.dtype.newbyteorder(new_order))
@@ -97,6 +161,7 @@ def _methods_of_arrays(module):
 
 def _numpy_lib(module):
     import numpy
+
     add(module, pad=numpy.pad)
 
 
@@ -109,12 +174,15 @@ def _scipy(module):
             return own(name)
         except AttributeError:
             import numpy
+
             place = {"rand": numpy.random, "randn": numpy.random, "ifft": numpy.fft}.get(name, numpy)
             if name.startswith("_") or name not in vars(place):
                 raise
             return getattr(place, name)
+
     module.__getattr__ = __getattr__
     import numpy
+
     types = {"bool", "bytes", "complex", "float", "int", "long", "object", "str", "unicode"}
     kept = {"abs", "max", "min", "pow", "round", "fft", "test", *module.__all__}
     more = {name for name in numpy.__all__ if name[0] != "_"} - types - kept
@@ -123,14 +191,17 @@ def _scipy(module):
 
 def _fft(module):
     """It was a function."""
+
     class Transforms(type(module)):
         def __call__(self, *arguments, **options):
             return self.fft(*arguments, **options)
+
     module.__class__ = Transforms
 
 
 def _integrate(module):
     import numpy
+
     simpson = module.simpson
 
     def simps(y, x=None, dx=1.0, axis=-1, even="avg"):
@@ -143,6 +214,7 @@ def _integrate(module):
 
         def part(rule, start, end):
             return rule(y[..., start:end], x=None if x is None else x[..., start:end], dx=dx)
+
         if count % 2:
             return part(simpson, 0, count)
         trapezium = getattr(numpy, "trapezoid", None) or numpy.trapz
@@ -155,6 +227,7 @@ def _integrate(module):
 
     def romberg(function, a, b, args=(), **_options):
         return module.quad(function, a, b, args)[0]
+
     add(module, simps=simps, quadrature=quadrature, romberg=romberg)
     aliases(module, cumtrapz="cumulative_trapezoid", trapz="trapezoid")
 
@@ -201,11 +274,13 @@ def _interpolate(module):
                 z[:, outside_x] = self.fill_value
                 z[outside_y, :] = self.fill_value
             return z[0] if len(z) == 1 else z
+
     module.interp2d = interp2d
 
 
 def _linalg(module):
     import numpy
+
     aliases(module, pinv2="pinv")
     add(module, tri=numpy.tri, tril=numpy.tril, triu=numpy.triu)
     for name in ("eigh", "eigvalsh"):
@@ -217,6 +292,7 @@ def _linalg(module):
         if isinstance(sym_pos, bool) and sym_pos:
             options.setdefault("assume_a", "pos")
         return new_solve(a, b, *([] if isinstance(sym_pos, bool) else [sym_pos]), *arguments, **options)
+
     module.solve = solve
 
 
@@ -234,30 +310,61 @@ def _misc(module):
         if order < n + 1 or order % 2 == 0:
             raise ValueError("'order', the number of points, must be odd and at least the derivative's order + 1")
         weights = central_diff_weights(order, n)
-        return sum(w * func(x0 + (k - (order >> 1)) * dx, *args) for k, w in enumerate(weights)) / dx ** n
+        return sum(w * func(x0 + (k - (order >> 1)) * dx, *args) for k, w in enumerate(weights)) / dx**n
+
     add(module, central_diff_weights=central_diff_weights, derivative=derivative)
     for name in ("ascent", "electrocardiogram", "face"):
+
         def load(*arguments, _name=name, **options):
             from scipy import datasets
+
             return getattr(datasets, _name)(*arguments, **options)
+
         add(module, **{name: load})
 
 
 def _signal(module):
     from scipy.signal import windows
-    add(module, **{name: getattr(windows, name) for name in (
-        "barthann", "bartlett", "blackman", "blackmanharris", "bohman", "boxcar", "chebwin", "cosine", "exponential", "flattop", "gaussian",
-        "general_gaussian", "hamming", "hann", "kaiser", "nuttall", "parzen", "triang", "tukey")}, hanning=windows.hann)
+
+    add(
+        module,
+        **{
+            name: getattr(windows, name)
+            for name in (
+                "barthann",
+                "bartlett",
+                "blackman",
+                "blackmanharris",
+                "bohman",
+                "boxcar",
+                "chebwin",
+                "cosine",
+                "exponential",
+                "flattop",
+                "gaussian",
+                "general_gaussian",
+                "hamming",
+                "hann",
+                "kaiser",
+                "nuttall",
+                "parzen",
+                "triang",
+                "tukey",
+            )
+        },
+        hanning=windows.hann,
+    )
     import numpy
 
     def ricker(points, a):
         """The Mexican hat of width ``a``."""
-        square = (numpy.arange(points) - (points - 1.0) / 2) ** 2 / a ** 2
-        return 2 / (numpy.sqrt(3 * a) * numpy.pi ** 0.25) * (1 - square) * numpy.exp(-square / 2)
+        square = (numpy.arange(points) - (points - 1.0) / 2) ** 2 / a**2
+        return 2 / (numpy.sqrt(3 * a) * numpy.pi**0.25) * (1 - square) * numpy.exp(-square / 2)
 
     def cwt(data, wavelet, widths):
         """(len(widths), len(data)): the wavelet transform."""
         return numpy.array([module.convolve(data, wavelet(min(10 * width, len(data)), width), mode="same") for width in widths])
+
     add(module, ricker=ricker, cwt=cwt)
     aliases(module, lsim2="lsim", impulse2="impulse", step2="step")
     for name in ("firls", "firwin", "firwin2", "remez"):
@@ -272,6 +379,7 @@ def _of_a_nyquist_frequency(function):
         if options.get("nyq") is not None:
             options["fs"] = 2.0 * options.pop("nyq")
         return function(*arguments, **options)
+
     return design
 
 
@@ -283,18 +391,21 @@ def _sparse(module):
 
 
 def _spatial(module):
-    replace_in_compiled(module.cKDTree, query=lambda new: renamed(new, n_jobs="workers"),
-                        query_ball_point=lambda new: renamed(new, n_jobs="workers"))
+    replace_in_compiled(
+        module.cKDTree, query=lambda new: renamed(new, n_jobs="workers"), query_ball_point=lambda new: renamed(new, n_jobs="workers")
+    )
 
 
 def _distance(module):
     aliases(module, matching="hamming")
     import numpy
+
     add(module, wminkowski=lambda u, v, p, w: module.minkowski(u, v, p, numpy.abs(w) ** p))
 
 
 def _transform(module):
     import numpy
+
     Rotation = module.Rotation
 
     def match_vectors(cls, a, b, weights=None, normalized=False):
@@ -303,12 +414,18 @@ def _transform(module):
             a, b = (v / numpy.linalg.norm(v, axis=-1, keepdims=True) for v in (numpy.asarray(a, float), numpy.asarray(b, float)))
         rotation, _, sensitivity = cls.align_vectors(a, b, weights, return_sensitivity=True)
         return rotation, sensitivity
-    add_to_compiled(Rotation, from_dcm=classmethod(lambda cls, dcm: cls.from_matrix(dcm)), as_dcm=lambda self: self.as_matrix(),
-                    match_vectors=classmethod(match_vectors))
+
+    add_to_compiled(
+        Rotation,
+        from_dcm=classmethod(lambda cls, dcm: cls.from_matrix(dcm)),
+        as_dcm=lambda self: self.as_matrix(),
+        match_vectors=classmethod(match_vectors),
+    )
 
 
 def _stats(module):
     import numpy
+
     new_mode = module.mode
 
     @functools.wraps(new_mode)
@@ -318,6 +435,7 @@ def _stats(module):
             options["keepdims"] = True
             a, axis = (numpy.ravel(a), 0) if axis is None else (a, axis)
         return new_mode(a, axis, *arguments, **options)
+
     module.mode = mode
     distribution = module.rv_continuous.__mro__[1]
     distribution.interval = renamed(distribution.interval, alpha="confidence")
@@ -326,18 +444,38 @@ def _stats(module):
     def itemfreq(a):
         """(n, 2): values and how often each is there"""
         return numpy.array(numpy.unique(a, return_counts=True)).T
+
     add(module, itemfreq=itemfreq)
 
     def binom_test(x, n=None, p=0.5, alternative="two-sided"):
         if n is None:
             x, n = x[0], sum(x)
         return module.binomtest(x, n, p, alternative).pvalue
-    add(module, binom_test=binom_test, median_absolute_deviation=without(
-        lambda x, axis=0, center=None, scale=1.4826, nan_policy="propagate": module.median_abs_deviation(
-            x, axis=axis, scale=1.0 / scale, nan_policy=nan_policy)))
+
+    add(
+        module,
+        binom_test=binom_test,
+        median_absolute_deviation=without(
+            lambda x, axis=0, center=None, scale=1.4826, nan_policy="propagate": module.median_abs_deviation(
+                x, axis=axis, scale=1.0 / scale, nan_policy=nan_policy
+            )
+        ),
+    )
 
 
-COMPLETE = {"numpy": _numpy, "numpy.lib": _numpy_lib, "scipy": _scipy, "scipy.fft": _fft, "scipy.integrate": _integrate,
-            "scipy.interpolate": _interpolate, "scipy.linalg": _linalg, "scipy.misc": _misc, "scipy.signal": _signal,
-            "scipy.sparse": _sparse, "scipy.spatial": _spatial, "scipy.spatial.distance": _distance,
-            "scipy.spatial.transform": _transform, "scipy.stats": _stats}
+COMPLETE = {
+    "numpy": _numpy,
+    "numpy.lib": _numpy_lib,
+    "scipy": _scipy,
+    "scipy.fft": _fft,
+    "scipy.integrate": _integrate,
+    "scipy.interpolate": _interpolate,
+    "scipy.linalg": _linalg,
+    "scipy.misc": _misc,
+    "scipy.signal": _signal,
+    "scipy.sparse": _sparse,
+    "scipy.spatial": _spatial,
+    "scipy.spatial.distance": _distance,
+    "scipy.spatial.transform": _transform,
+    "scipy.stats": _stats,
+}

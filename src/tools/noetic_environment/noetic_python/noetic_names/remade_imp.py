@@ -1,4 +1,5 @@
 """What scripts use of ``imp``, which Python 3.12 dropped."""
+
 import importlib.machinery as _machinery
 import importlib.util as _util
 import os as _os
@@ -16,8 +17,11 @@ def new_module(name):
 
 def get_suffixes():
     """[(suffix, mode, type)]"""
-    kinds = ((_machinery.EXTENSION_SUFFIXES, "rb", C_EXTENSION), (_machinery.SOURCE_SUFFIXES, "r", PY_SOURCE),
-             (_machinery.BYTECODE_SUFFIXES, "rb", PY_COMPILED))
+    kinds = (
+        (_machinery.EXTENSION_SUFFIXES, "rb", C_EXTENSION),
+        (_machinery.SOURCE_SUFFIXES, "r", PY_SOURCE),
+        (_machinery.BYTECODE_SUFFIXES, "rb", PY_COMPILED),
+    )
     return [(suffix, mode, kind) for suffixes, mode, kind in kinds for suffix in suffixes]
 
 

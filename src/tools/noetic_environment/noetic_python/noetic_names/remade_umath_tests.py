@@ -1,4 +1,5 @@
 """Of ``numpy.core.umath_tests`` what scripts use."""
+
 import numpy as _np
 
 

@@ -1,10 +1,14 @@
 """Python 3.9 to 3.13."""
+
 from noetic_names import add, add_to_compiled, aliases, without
 
 
 def _array(module):
-    add_to_compiled(module.array, tostring=lambda self: self.tobytes(), fromstring=lambda self, data: self.frombytes(
-        data.encode() if isinstance(data, str) else data))
+    add_to_compiled(
+        module.array,
+        tostring=lambda self: self.tobytes(),
+        fromstring=lambda self, data: self.frombytes(data.encode() if isinstance(data, str) else data),
+    )
 
 
 def _asyncio(module):
@@ -21,6 +25,7 @@ def _asyncio(module):
         @functools.wraps(func)
         async def call(*arguments, **options):
             return await inner(*arguments, **options)
+
         return call
 
     def of_result(func):
@@ -32,6 +37,7 @@ def _asyncio(module):
             elif hasattr(result, "__await__"):
                 result = yield from result.__await__()
             return result
+
         return call
 
     if hasattr(module, "coroutine"):
@@ -41,6 +47,7 @@ def _asyncio(module):
     @functools.wraps(new_wait)
     async def wait(aws, *, loop=None, **options):
         return await new_wait([module.ensure_future(one) for one in aws], **options)
+
     module.coroutine, module.wait = coroutine, wait
     for name in ("BoundedSemaphore", "Condition", "Event", "Lock", "LifoQueue", "PriorityQueue", "Queue", "Semaphore"):
         cls = getattr(module, name)
@@ -56,11 +63,13 @@ def _base64(module):
 def _cgi(module):
     from html import escape
     from urllib.parse import parse_qs, parse_qsl
+
     add(module, escape=lambda s, quote=None: escape(s, bool(quote)), parse_qs=parse_qs, parse_qsl=parse_qsl)
 
 
 def _collections(module):
     from collections import abc
+
     add(module, **{name: getattr(abc, name) for name in abc.__all__ if name[0].isupper()})
 
 
@@ -69,6 +78,7 @@ def _configparser(module):
 
     def readfp(self, fp, filename=None):
         self.read_file(fp, filename)
+
     add(module.RawConfigParser, readfp=readfp)
 
 
@@ -82,19 +92,23 @@ def _fractions(module):
         while b:
             a, b = b, a % b
         return a
+
     add(module, gcd=gcd)
 
 
 def _html_parser(module):
     from html import unescape
+
     add(module.HTMLParser, unescape=lambda self, s: unescape(s))
 
 
 def _importlib(module):
     def find_loader(name, path=None):
         from importlib.util import find_spec
+
         spec = find_spec(name)
         return spec and spec.loader
+
     add(module, find_loader=find_loader)
 
 
@@ -102,6 +116,7 @@ def _inspect(module):
     if hasattr(module, "getargspec"):
         return
     from collections import namedtuple
+
     ArgSpec = namedtuple("ArgSpec", "args varargs keywords defaults")
 
     def getargspec(func):
@@ -110,6 +125,7 @@ def _inspect(module):
         if spec.kwonlyargs or spec.annotations:
             raise ValueError("Function has keyword-only parameters or annotations, use inspect.signature() API which can support them")
         return ArgSpec(*spec[:4])
+
     add(module, ArgSpec=ArgSpec, getargspec=getargspec)
 
 
@@ -120,6 +136,7 @@ def _json(module):
 def _locale(module):
     def format(percent, value, grouping=False, monetary=False, *additional):
         return module.format_string(percent, (value, *additional) if additional else value, grouping, monetary)
+
     add(module, format=format)
 
 
@@ -135,15 +152,23 @@ def _plistlib(module):
                 return function(value, path)
             with open(path, mode) as file:
                 return function(value, file)
+
         return call
+
     read = on_file(lambda _, file: module.load(file), "rb")
-    add(module, readPlist=lambda path: read(None, path), writePlist=on_file(module.dump, "wb"),
-        readPlistFromBytes=module.loads, writePlistToBytes=module.dumps)
+    add(
+        module,
+        readPlist=lambda path: read(None, path),
+        writePlist=on_file(module.dump, "wb"),
+        readPlistFromBytes=module.loads,
+        writePlistToBytes=module.dumps,
+    )
 
 
 def _random(module):
     import functools
     from collections.abc import Set
+
     new_sample, new_shuffle, new_randrange = module.Random.sample, module.Random.shuffle, module.Random.randrange
     new_seed = module.Random.seed
 
@@ -172,6 +197,7 @@ def _random(module):
     def randint(self, a, b):
         """Random integer in range [a, b], including both end points."""
         return self.randrange(a, b + 1)
+
     for method in (sample, shuffle, randrange, randint, seed):
         setattr(module.Random, method.__name__, method)
         setattr(module, method.__name__, getattr(module._inst, method.__name__))
@@ -182,31 +208,63 @@ def _threading(module):
 
 
 def _unittest(module):
-    aliases(module.TestCase, assertEquals="assertEqual", assertNotEquals="assertNotEqual", assert_="assertTrue", failUnless="assertTrue",
-            failIf="assertFalse", failUnlessEqual="assertEqual", failIfEqual="assertNotEqual", failUnlessRaises="assertRaises",
-            assertAlmostEquals="assertAlmostEqual", assertNotAlmostEquals="assertNotAlmostEqual", assertRegexpMatches="assertRegex",
-            assertNotRegexpMatches="assertNotRegex", assertRaisesRegexp="assertRaisesRegex", failUnlessAlmostEqual="assertAlmostEqual",
-            failIfAlmostEqual="assertNotAlmostEqual")
+    aliases(
+        module.TestCase,
+        assertEquals="assertEqual",
+        assertNotEquals="assertNotEqual",
+        assert_="assertTrue",
+        failUnless="assertTrue",
+        failIf="assertFalse",
+        failUnlessEqual="assertEqual",
+        failIfEqual="assertNotEqual",
+        failUnlessRaises="assertRaises",
+        assertAlmostEquals="assertAlmostEqual",
+        assertNotAlmostEquals="assertNotAlmostEqual",
+        assertRegexpMatches="assertRegex",
+        assertNotRegexpMatches="assertNotRegex",
+        assertRaisesRegexp="assertRaisesRegex",
+        failUnlessAlmostEqual="assertAlmostEqual",
+        failIfAlmostEqual="assertNotAlmostEqual",
+    )
 
     def assertDictContainsSubset(self, subset, dictionary, msg=None):
         self.assertEqual(dictionary, {**dictionary, **subset}, msg)
+
     add(module.TestCase, assertDictContainsSubset=assertDictContainsSubset)
 
     def makeSuite(testCaseClass, prefix="test", sortUsing=None, suiteClass=module.TestSuite):
         loader = module.TestLoader()
         loader.testMethodPrefix, loader.suiteClass = prefix, suiteClass
         return loader.loadTestsFromTestCase(testCaseClass)
+
     add(module, makeSuite=makeSuite)
 
 
 def _element_tree(module):
     def getiterator(self, tag=None):
         return list(self.iter(tag))
+
     add_to_compiled(module.Element, getchildren=lambda self: list(self), getiterator=getiterator)
     add(module.ElementTree, getiterator=getiterator)
 
 
-COMPLETE = {"array": _array, "asyncio": _asyncio, "base64": _base64, "cgi": _cgi, "collections": _collections,
-            "configparser": _configparser, "fractions": _fractions, "html.parser": _html_parser, "importlib": _importlib,
-            "inspect": _inspect, "json": _json, "locale": _locale, "math": _math, "plistlib": _plistlib, "random": _random,
-            "threading": _threading, "unittest": _unittest, "xml.etree.ElementTree": _element_tree}
+COMPLETE = {
+    "array": _array,
+    "asyncio": _asyncio,
+    "base64": _base64,
+    "cgi": _cgi,
+    "collections": _collections,
+    "configparser": _configparser,
+    "fractions": _fractions,
+    "html.parser": _html_parser,
+    "importlib": _importlib,
+    "inspect": _inspect,
+    "json": _json,
+    "locale": _locale,
+    "math": _math,
+    "plistlib": _plistlib,
+    "random": _random,
+    "threading": _threading,
+    "unittest": _unittest,
+    "xml.etree.ElementTree": _element_tree,
+}

@@ -1,4 +1,5 @@
 """``rosrun noetic_environment vscode [WORKSPACE]``: files with which Visual Studio Code builds, runs and debugs a workspace."""
+
 from __future__ import annotations
 
 import argparse
@@ -20,13 +21,23 @@ PORT = 5678  # on which debugpy waits where nobody says otherwise
 CARRIED = ("CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "PATH", "PKG_CONFIG_PATH", "PYTHONPATH")  # and all of ROS and Gazebo
 LIBRARIES = ("eigen3", "opencv4", "pcl-*")
 BASH = {"executable": "/bin/bash", "args": ["-c"]}
-COMPILER = {"owner": "cpp", "fileLocation": ["autoDetect", "${workspaceFolder}"],
-            "pattern": {"regexp": r"^(.*?):(\d+):(\d+):\s+(?:fatal\s+)?(warning|error):\s+(.*)$",
-                        "file": 1, "line": 2, "column": 3, "severity": 4, "message": 5}}
+COMPILER = {
+    "owner": "cpp",
+    "fileLocation": ["autoDetect", "${workspaceFolder}"],
+    "pattern": {
+        "regexp": r"^(.*?):(\d+):(\d+):\s+(?:fatal\s+)?(warning|error):\s+(.*)$",
+        "file": 1,
+        "line": 2,
+        "column": 3,
+        "severity": 4,
+        "message": 5,
+    },
+}
 SETTINGS = {
     "files.associations": {f"*.{end}": "xml" for end in ("launch", "sdf", "srdf", "test", "urdf", "world", "xacro")} | {"*.rviz": "yaml"},
     "files.watcherExclude": {f"**/{name}/**": True for name in ("build", "devel", "install", "logs")},
-    "search.exclude": {f"**/{name}": True for name in ("build", "devel", "install", "logs")}}
+    "search.exclude": {f"**/{name}": True for name in ("build", "devel", "install", "logs")},
+}
 EXTENSIONS = {"recommendations": ["ms-python.python", "ms-python.debugpy", "ms-vscode.cpptools"]}
 
 
@@ -41,7 +52,8 @@ def workspace_of(folder: Path) -> Path:
     """
     for place in (folder, *folder.parents):
         if any((place / name).exists() for name in (".catkin_tools", ".catkin_workspace", "src/CMakeLists.txt")) or (
-                any((place / "src").glob("*/package.xml")) or any((place / "src").glob("*/*/package.xml"))):
+            any((place / "src").glob("*/package.xml")) or any((place / "src").glob("*/*/package.xml"))
+        ):
             return place
     raise EditorError(f"{folder} is in no catkin workspace (a folder with packages in src); rosrun noetic_environment vscode WORKSPACE")
 
@@ -54,8 +66,9 @@ def environment_of(workspace: Path, present: Mapping[str, str]) -> Dict[str, str
     setup = workspace / "devel/setup.bash"
     if not setup.is_file():
         return dict(present)
-    ended = subprocess.run(["/bin/bash", "-c", f"source {shlex.quote(str(setup))} > /dev/null && env -0"], capture_output=True, text=True,
-                           env={**present})
+    ended = subprocess.run(
+        ["/bin/bash", "-c", f"source {shlex.quote(str(setup))} > /dev/null && env -0"], capture_output=True, text=True, env={**present}
+    )
     if ended.returncode:
         raise EditorError(f"{setup} cannot be sourced: {' '.join(ended.stderr.split())[-200:]}")
     return dict(line.split("=", 1) for line in ended.stdout.split("\0") if "=" in line)
@@ -63,44 +76,73 @@ def environment_of(workspace: Path, present: Mapping[str, str]) -> Dict[str, str
 
 def sourcing(workspace: Path, environment: Mapping[str, str]) -> str:
     """The beginning of a task's command: its own setup file, or where that is not built yet the one that it is built on."""
-    below = [prefix for prefix in environment.get("CMAKE_PREFIX_PATH", "").split(":")
-             if prefix and workspace not in Path(prefix).parents and Path(prefix, "setup.bash").is_file()]
+    below = [
+        prefix
+        for prefix in environment.get("CMAKE_PREFIX_PATH", "").split(":")
+        if prefix and workspace not in Path(prefix).parents and Path(prefix, "setup.bash").is_file()
+    ]
     first = f"source {shlex.quote(below[0] + '/setup.bash')}; " if below else ""
     return f"{first}[ ! -f devel/setup.bash ] || source devel/setup.bash; "
 
 
 def uses_catkin_make(workspace: Path) -> bool:
     return not (workspace / ".catkin_tools").exists() and (
-        (workspace / ".catkin_workspace").exists() or (workspace / "build/CMakeCache.txt").is_file())
+        (workspace / ".catkin_workspace").exists() or (workspace / "build/CMakeCache.txt").is_file()
+    )
 
 
 # ---------------------------------------------------------------------------------------------- the files
+
 
 def tasks(workspace: Path, environment: Mapping[str, str]) -> Dict[str, Any]:
     begin = sourcing(workspace, environment)
 
     def task(label: str, command: str, **more: Any) -> Dict[str, Any]:
-        return {"label": label, "type": "shell", "command": begin + command, "options": {"cwd": "${workspaceFolder}", "shell": BASH},
-                "problemMatcher": COMPILER, **more}
+        return {
+            "label": label,
+            "type": "shell",
+            "command": begin + command,
+            "options": {"cwd": "${workspaceFolder}", "shell": BASH},
+            "problemMatcher": COMPILER,
+            **more,
+        }
 
     debug = "-DCMAKE_BUILD_TYPE=Debug -DCMAKE_EXPORT_COMPILE_COMMANDS=ON"
     if uses_catkin_make(workspace):
-        made = [task("build", "catkin_make", group={"kind": "build", "isDefault": True}),
-                task("build for the debugger", f"catkin_make {debug}", group="build"),
-                task("test", "catkin_make run_tests; catkin_test_results build", group={"kind": "test", "isDefault": True})]
+        made = [
+            task("build", "catkin_make", group={"kind": "build", "isDefault": True}),
+            task("build for the debugger", f"catkin_make {debug}", group="build"),
+            task("test", "catkin_make run_tests; catkin_test_results build", group={"kind": "test", "isDefault": True}),
+        ]
     else:
-        made = [task("build", "catkin build --no-status", group={"kind": "build", "isDefault": True}),
-                task("build the package of this file", "[ -d .catkin_tools ] || catkin init; cd \"${fileDirname}\" && "
-                     "catkin build --this --no-status", group="build"),
-                task("build for the debugger", f"catkin build --no-status --cmake-args {debug}", group="build"),
-                task("test", "catkin test --no-status", group={"kind": "test", "isDefault": True})]
-    core = {"owner": "ros", "pattern": {"regexp": "^(.*): (error): (.*)$", "file": 1, "severity": 2, "message": 3},
-            "background": {"activeOnStart": True, "beginsPattern": "^auto-starting new master", "endsPattern": "^started core service"}}
-    launched = {**core, "background": {"activeOnStart": True, "beginsPattern": "^started roslaunch server",
-                                       "endsPattern": r"process\[.*started"}}
-    return {"version": "2.0.0", "tasks": [*made, task("roscore", "roscore", isBackground=True, problemMatcher=core),
-                                          task("roslaunch", "roslaunch ${input:launch}", isBackground=True, problemMatcher=launched)],
-            "inputs": inputs(("launch", "Package and launch file, with arguments as they stand on the command line"))}
+        made = [
+            task("build", "catkin build --no-status", group={"kind": "build", "isDefault": True}),
+            task(
+                "build the package of this file",
+                '[ -d .catkin_tools ] || catkin init; cd "${fileDirname}" && catkin build --this --no-status',
+                group="build",
+            ),
+            task("build for the debugger", f"catkin build --no-status --cmake-args {debug}", group="build"),
+            task("test", "catkin test --no-status", group={"kind": "test", "isDefault": True}),
+        ]
+    core = {
+        "owner": "ros",
+        "pattern": {"regexp": "^(.*): (error): (.*)$", "file": 1, "severity": 2, "message": 3},
+        "background": {"activeOnStart": True, "beginsPattern": "^auto-starting new master", "endsPattern": "^started core service"},
+    }
+    launched = {
+        **core,
+        "background": {"activeOnStart": True, "beginsPattern": "^started roslaunch server", "endsPattern": r"process\[.*started"},
+    }
+    return {
+        "version": "2.0.0",
+        "tasks": [
+            *made,
+            task("roscore", "roscore", isBackground=True, problemMatcher=core),
+            task("roslaunch", "roslaunch ${input:launch}", isBackground=True, problemMatcher=launched),
+        ],
+        "inputs": inputs(("launch", "Package and launch file, with arguments as they stand on the command line")),
+    }
 
 
 def inputs(*asked: Tuple[str, str]) -> List[Dict[str, str]]:
@@ -110,18 +152,42 @@ def inputs(*asked: Tuple[str, str]) -> List[Dict[str, str]]:
 def launch() -> Dict[str, Any]:
     file = f"${{workspaceFolder}}/{FOLDER}/{ENVIRONMENT}"
     node = "${workspaceFolder}/devel/lib/${input:package}/${input:node}"
-    gdb = {"type": "cppdbg", "program": node, "MIMode": "gdb", "setupCommands": [
-        {"description": "containers as what is in them", "text": "-enable-pretty-printing", "ignoreFailures": True}]}
+    gdb = {
+        "type": "cppdbg",
+        "program": node,
+        "MIMode": "gdb",
+        "setupCommands": [{"description": "containers as what is in them", "text": "-enable-pretty-printing", "ignoreFailures": True}],
+    }
     python = {"type": "debugpy", "request": "launch", "console": "integratedTerminal", "cwd": "${workspaceFolder}", "envFile": file}
-    return {"version": "0.2.0", "configurations": [
-        {"name": "Python: this file as a node", **python, "program": "${file}"},
-        {"name": "Python: attach to a node by its process", "type": "debugpy", "request": "attach", "processId": "${command:pickProcess}"},
-        {"name": f"Python: attach to a node that waits (launch-prefix=\"python3 -m debugpy --listen {PORT} --wait-for-client\")",
-         "type": "debugpy", "request": "attach", "connect": {"host": "localhost", "port": PORT}},
-        {"name": "C++: a node", **gdb, "request": "launch", "args": [], "cwd": "${workspaceFolder}", "envFile": file,
-         "preLaunchTask": "build for the debugger"},
-        {"name": "C++: attach to a node", **gdb, "request": "attach", "processId": "${command:pickProcess}"}],
-        "inputs": inputs(("package", "Package of the node"), ("node", "Name of the node's program"))}
+    return {
+        "version": "0.2.0",
+        "configurations": [
+            {"name": "Python: this file as a node", **python, "program": "${file}"},
+            {
+                "name": "Python: attach to a node by its process",
+                "type": "debugpy",
+                "request": "attach",
+                "processId": "${command:pickProcess}",
+            },
+            {
+                "name": f'Python: attach to a node that waits (launch-prefix="python3 -m debugpy --listen {PORT} --wait-for-client")',
+                "type": "debugpy",
+                "request": "attach",
+                "connect": {"host": "localhost", "port": PORT},
+            },
+            {
+                "name": "C++: a node",
+                **gdb,
+                "request": "launch",
+                "args": [],
+                "cwd": "${workspaceFolder}",
+                "envFile": file,
+                "preLaunchTask": "build for the debugger",
+            },
+            {"name": "C++: attach to a node", **gdb, "request": "attach", "processId": "${command:pickProcess}"},
+        ],
+        "inputs": inputs(("package", "Package of the node"), ("node", "Name of the node's program")),
+    }
 
 
 def packages(environment: Mapping[str, str]) -> Iterator[Path]:
@@ -137,8 +203,11 @@ def packages(environment: Mapping[str, str]) -> Iterator[Path]:
 def system_headers() -> List[str]:
     """Folders that packages of Debian add to the compiler's own."""
     system = Path("/usr/include")
-    doubled = [place for place in sorted(system.iterdir()) if (place / place.name).is_dir()
-               and Path("/usr/share", place.name, "package.xml").is_file()]
+    doubled = [
+        place
+        for place in sorted(system.iterdir())
+        if (place / place.name).is_dir() and Path("/usr/share", place.name, "package.xml").is_file()
+    ]
     return [str(place) for place in (*doubled, *(place for name in LIBRARIES for place in sorted(system.glob(name))))]
 
 
@@ -146,35 +215,59 @@ def properties(workspace: Path, environment: Mapping[str, str]) -> Dict[str, Any
     headers = [str(Path(prefix, "include")) for prefix in environment.get("CMAKE_PREFIX_PATH", "").split(":") if prefix]
     headers += [str(place / "include") for place in packages(environment)]
     machine = {"x86_64": "x64", "aarch64": "arm64", "armv7l": "arm"}.get(platform.machine(), "x64")
-    return {"version": 4, "configurations": [{
-        "name": "Linux", "compilerPath": shutil.which("g++") or "/usr/bin/g++", "cppStandard": "c++17",
-        "intelliSenseMode": f"linux-gcc-{machine}",
-        "includePath": ["${workspaceFolder}/src/**", "${workspaceFolder}/devel/include",
-                        *(path for path in headers + system_headers() if Path(path).is_dir() and workspace not in Path(path).parents)]}]}
+    return {
+        "version": 4,
+        "configurations": [
+            {
+                "name": "Linux",
+                "compilerPath": shutil.which("g++") or "/usr/bin/g++",
+                "cppStandard": "c++17",
+                "intelliSenseMode": f"linux-gcc-{machine}",
+                "includePath": [
+                    "${workspaceFolder}/src/**",
+                    "${workspaceFolder}/devel/include",
+                    *(path for path in headers + system_headers() if Path(path).is_dir() and workspace not in Path(path).parents),
+                ],
+            }
+        ],
+    }
 
 
 def settings(environment: Mapping[str, str]) -> Dict[str, Any]:
     """Python's modules lie in source folders, to which the devel space only points."""
     modules = [str(place / "src") for place in packages(environment) if (place / "setup.py").is_file() and (place / "src").is_dir()]
     modules += [path for path in environment.get("PYTHONPATH", "").split(":") if path]
-    return {**SETTINGS, "python.analysis.extraPaths": modules, "python.envFile": f"${{workspaceFolder}}/{FOLDER}/{ENVIRONMENT}",
-            "python.defaultInterpreterPath": shutil.which("python3", path=environment.get("PATH")) or "/usr/bin/python3"}
+    return {
+        **SETTINGS,
+        "python.analysis.extraPaths": modules,
+        "python.envFile": f"${{workspaceFolder}}/{FOLDER}/{ENVIRONMENT}",
+        "python.defaultInterpreterPath": shutil.which("python3", path=environment.get("PATH")) or "/usr/bin/python3",
+    }
 
 
 def variables(environment: Mapping[str, str]) -> str:
     """Of a shell that has sourced the workspace, for programs that are started without one."""
-    return "".join(f"{name}={value}\n" for name, value in sorted(environment.items())
-                   if (name in CARRIED or name.startswith(("ROS", "GAZEBO"))) and "\n" not in value)
+    return "".join(
+        f"{name}={value}\n"
+        for name, value in sorted(environment.items())
+        if (name in CARRIED or name.startswith(("ROS", "GAZEBO"))) and "\n" not in value
+    )
 
 
 def files(workspace: Path, environment: Mapping[str, str]) -> Dict[str, str]:
     """Name -> text of all of them."""
-    made = {"tasks.json": tasks(workspace, environment), "launch.json": launch(), "settings.json": settings(environment),
-            "c_cpp_properties.json": properties(workspace, environment), "extensions.json": EXTENSIONS}
+    made = {
+        "tasks.json": tasks(workspace, environment),
+        "launch.json": launch(),
+        "settings.json": settings(environment),
+        "c_cpp_properties.json": properties(workspace, environment),
+        "extensions.json": EXTENSIONS,
+    }
     return {**{name: json.dumps(content, indent=4) + "\n" for name, content in made.items()}, ENVIRONMENT: variables(environment)}
 
 
 # ---------------------------------------------------------------------------------------------- writing them
+
 
 def write(folder: Path, texts: Mapping[str, str], force: bool) -> List[Tuple[str, Optional[str]]]:
     """
@@ -199,9 +292,12 @@ def write(folder: Path, texts: Mapping[str, str], force: bool) -> List[Tuple[str
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="rosrun noetic_environment vscode", description="Writes .vscode/ of a catkin workspace: tasks "
-                                     "that build and test it, configurations that run nodes under a debugger or attach to them, and where "
-                                     "headers and modules are.")
+    parser = argparse.ArgumentParser(
+        prog="rosrun noetic_environment vscode",
+        description="Writes .vscode/ of a catkin workspace: tasks "
+        "that build and test it, configurations that run nodes under a debugger or attach to them, and where "
+        "headers and modules are.",
+    )
     parser.add_argument("workspace", nargs="?", default=".", help="the workspace, or a folder in it; the present one")
     parser.add_argument("--force", action="store_true", help="write files anew that are there and differ; the old ones become FILE.bak")
     options = parser.parse_args()

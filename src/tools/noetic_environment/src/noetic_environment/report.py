@@ -1,4 +1,5 @@
 """``rosrun noetic_environment report``: what somebody who helps has to know of this machine, in one file without personal data."""
+
 from __future__ import annotations
 
 import argparse
@@ -15,8 +16,20 @@ from xml.etree import ElementTree
 
 import rospkg
 
-PACKAGES = ("libode8", "ros-base", "rviz", "catkin", "catkin-tools", "python3-numpy", "python3-rospkg", "libgl1-mesa-dri", "libqt5gui5*",
-            "libqt6gui6*", "g++", "cmake")
+PACKAGES = (
+    "libode8",
+    "ros-base",
+    "rviz",
+    "catkin",
+    "catkin-tools",
+    "python3-numpy",
+    "python3-rospkg",
+    "libgl1-mesa-dri",
+    "libqt5gui5*",
+    "libqt6gui6*",
+    "g++",
+    "cmake",
+)
 #: names of variables of which the value counts
 VARIABLES = re.compile(r"ROS_|GAZEBO_|ODE_SIM_|CMAKE_PREFIX_PATH|PYTHONPATH|DISPLAY|WAYLAND_|QT_|LIBGL_|MESA_|LANG|LC_ALL|XDG_SESSION")
 LINES = 200  # of each log, from its end
@@ -31,13 +44,18 @@ class Veil:
     def __init__(self, home: str, user: str, host: str) -> None:
         names = [(re.escape(home.rstrip("/")) + r"(?![\w.-])", "~")] if home.strip("/") else []
         names.append((r"/home/[^/\s:'\"]+", "/home/USER"))
-        names += [(rf"(?<![\w-]){re.escape(name)}(?![\w-])", word) for name, word in ((user, "USER"), (host, "HOST"))
-                  if len(name) > 1 and name not in ("root", "localhost")]
+        names += [
+            (rf"(?<![\w-]){re.escape(name)}(?![\w-])", word)
+            for name, word in ((user, "USER"), (host, "HOST"))
+            if len(name) > 1 and name not in ("root", "localhost")
+        ]
         self._rules = [(re.compile(pattern), word) for pattern, word in names]
-        self._rules += [(re.compile(r"(://)[^/\s@]+@"), r"\1"),
-                        (re.compile(r"[\w.+-]+@[\w-]+(?:\.[\w-]+)+"), "MAIL"),
-                        (re.compile(r"\b(?!127\.|0\.0\.0\.0)(?:\d{1,3}\.){3}\d{1,3}\b"), "ADDRESS"),
-                        (re.compile(r"(?i)((?:token|password|secret|key)\w*\s*[=:]\s*)\S+"), r"\1...")]
+        self._rules += [
+            (re.compile(r"(://)[^/\s@]+@"), r"\1"),
+            (re.compile(r"[\w.+-]+@[\w-]+(?:\.[\w-]+)+"), "MAIL"),
+            (re.compile(r"\b(?!127\.|0\.0\.0\.0)(?:\d{1,3}\.){3}\d{1,3}\b"), "ADDRESS"),
+            (re.compile(r"(?i)((?:token|password|secret|key)\w*\s*[=:]\s*)\S+"), r"\1..."),
+        ]
 
     def over(self, text: str) -> str:
         for pattern, word in self._rules:
@@ -115,8 +133,12 @@ def text(environment: Mapping[str, str]) -> str:
     """The whole report, veiled."""
     kept = {name: value for name, value in environment.items() if VARIABLES.match(name) and name != "ROS_PACKAGE_PATH"}
     parts: List[str] = []
-    for title, pairs in (("Machine", machine()), ("Versions", versions()), ("Workspaces", workspaces(environment)),
-                         ("Variables", sorted(kept.items()))):
+    for title, pairs in (
+        ("Machine", machine()),
+        ("Versions", versions()),
+        ("Workspaces", workspaces(environment)),
+        ("Variables", sorted(kept.items())),
+    ):
         parts += [f"## {title}", *(f"{name}: {value}" for name, value in pairs), ""]
     for name, lines in logs(log_folder(environment)):
         parts += [f"## Log {name}", lines, ""]
@@ -128,8 +150,11 @@ def text(environment: Mapping[str, str]) -> str:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="report", description="Writes versions, graphics and the last run's logs into one file, to be "
-                                                                "attached where you ask for help; read it before you do.")
+    parser = argparse.ArgumentParser(
+        prog="report",
+        description="Writes versions, graphics and the last run's logs into one file, to be "
+        "attached where you ask for help; read it before you do.",
+    )
     parser.add_argument("--output", type=Path, default=Path("noetic_report.txt"), help="the file; - prints it")
     output = parser.parse_args().output
     report = text(os.environ)

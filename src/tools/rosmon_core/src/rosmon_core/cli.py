@@ -3,6 +3,7 @@
 Words are taken apart as upstream's ``getopt_long`` does: an option may be shortened as long as it is clear which is meant, its value
 follows after ``=`` or as the next word, and ``--`` ends the options.
 """
+
 from __future__ import annotations
 
 import getopt
@@ -50,13 +51,33 @@ environment:
   ROSMON_DEBUGGER_TERMINAL  command that opens a terminal for gdb (default 'xterm -e')
 """
 
-_UNITS = {"": 1, "B": 1, "kB": 10 ** 3, "MB": 10 ** 6, "GB": 10 ** 9, "TB": 10 ** 12,
-          "KB": 10 ** 3, "mB": 10 ** 6, "gB": 10 ** 9, "tB": 10 ** 12,
-          "KiB": 2 ** 10, "MiB": 2 ** 20, "GiB": 2 ** 30, "TiB": 2 ** 40}
-_FLAGS = ("benchmark", "list-args", "disable-ui", "flush-log", "flush-stdout", "help", "no-start",
-          "disable-diagnostics")
-_WITH_VALUE = ("log", "name", "diagnostics-prefix", "stop-timeout", "cpu-limit", "memory-limit", "output-attr",
-               "auto-increment-spawn-delay")
+_UNITS = {
+    "": 1,
+    "B": 1,
+    "kB": 10**3,
+    "MB": 10**6,
+    "GB": 10**9,
+    "TB": 10**12,
+    "KB": 10**3,
+    "mB": 10**6,
+    "gB": 10**9,
+    "tB": 10**12,
+    "KiB": 2**10,
+    "MiB": 2**20,
+    "GiB": 2**30,
+    "TiB": 2**40,
+}
+_FLAGS = ("benchmark", "list-args", "disable-ui", "flush-log", "flush-stdout", "help", "no-start", "disable-diagnostics")
+_WITH_VALUE = (
+    "log",
+    "name",
+    "diagnostics-prefix",
+    "stop-timeout",
+    "cpu-limit",
+    "memory-limit",
+    "output-attr",
+    "auto-increment-spawn-delay",
+)
 
 
 @dataclass
@@ -78,7 +99,7 @@ class Options:
     diagnostics_prefix: Optional[str] = None
     stop_timeout: float = 5.0
     cpu_limit: float = 0.9
-    memory_limit: int = 500 * 2 ** 20
+    memory_limit: int = 500 * 2**20
     obey_output: bool = False
     spawn_increment: float = 0.0
 
@@ -87,8 +108,7 @@ def parse_memory(text: str) -> int:
     """Bytes from ``15MB``, ``1.5 GiB`` or ``1000``. :raises RosmonError: something else."""
     match = re.fullmatch(r"\s*([0-9]*\.?[0-9]+)\s*([A-Za-z]*)\s*", text)
     if not match or match.group(2) not in _UNITS:
-        raise RosmonError(f"'{text}' is no amount of memory: write for example 15MB or 200MiB "
-                          "(B, kB, MB, GB, TB, KiB, MiB, GiB, TiB)")
+        raise RosmonError(f"'{text}' is no amount of memory: write for example 15MB or 200MiB (B, kB, MB, GB, TB, KiB, MiB, GiB, TiB)")
     return int(float(match.group(1)) * _UNITS[match.group(2)])
 
 
@@ -111,8 +131,9 @@ def find_launch_file(package: str, name: str) -> str:
     try:
         root = rospkg.RosPack().get_path(package)
     except rospkg.ResourceNotFound:
-        raise RosmonError(f"Could not find path of package '{package}': is its workspace built and devel/setup.bash "
-                          "sourced in this terminal?") from None
+        raise RosmonError(
+            f"Could not find path of package '{package}': is its workspace built and devel/setup.bash sourced in this terminal?"
+        ) from None
     found, launch_files = [], []
     for folder, folders, files in os.walk(root):
         folders[:] = sorted(f for f in folders if not f.startswith("."))
@@ -122,8 +143,10 @@ def find_launch_file(package: str, name: str) -> str:
         listed = ", ".join(sorted(set(launch_files))) or "no launch file at all"
         raise RosmonError(f"Could not find launch file '{name}' in package '{package}' ({root}); it has {listed}")
     if len(found) > 1:
-        raise RosmonError(f"Found multiple launch files named '{name}' in package '{package}': "
-                          f"{', '.join(sorted(found))}; give the path of the one that is meant")
+        raise RosmonError(
+            f"Found multiple launch files named '{name}' in package '{package}': "
+            f"{', '.join(sorted(found))}; give the path of the one that is meant"
+        )
     return found[0]
 
 

@@ -1,4 +1,5 @@
 """Label colours of nodes in what the terminal can show."""
+
 from __future__ import annotations
 
 import colorsys

@@ -1,4 +1,5 @@
 """gdb in a terminal of its own, on a running node or on the core file of one that has crashed."""
+
 from __future__ import annotations
 
 import os
@@ -21,7 +22,9 @@ def debug(node: NodeProcess) -> str:
         command = ["gdb", node.executable, core]
     missing = next((program for program in (terminal[0], "gdb") if shutil.which(program) is None), None)
     if missing:
-        return (f"cannot open a debugger: {missing} is not installed (ROSMON_DEBUGGER_TERMINAL names the terminal); "
-                f"by hand: {shlex.join(command)}")
+        return (
+            f"cannot open a debugger: {missing} is not installed (ROSMON_DEBUGGER_TERMINAL names the terminal); "
+            f"by hand: {shlex.join(command)}"
+        )
     subprocess.Popen([*terminal, *command], start_new_session=True, stdin=subprocess.DEVNULL)
     return f"debugging '{node.name}': {shlex.join(command)}"

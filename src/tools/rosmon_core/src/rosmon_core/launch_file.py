@@ -1,4 +1,5 @@
 """Launch files through roslaunch's own loader, with rosmon's additions."""
+
 from __future__ import annotations
 
 import re
@@ -81,8 +82,7 @@ class _Loader(XmlLoader):
         found = dict(self._inherited[-1])
         for element in reversed(chain):
             names = _INHERITED + (_OF_NODE if element is chain[0] else ())
-            found.update({name: self.resolve_args(element.getAttribute(name), context)
-                          for name in names if element.hasAttribute(name)})
+            found.update({name: self.resolve_args(element.getAttribute(name), context) for name in names if element.hasAttribute(name)})
         return found
 
     def _recurse_load(self, ros_config, tags, context, default_machine, is_core, verbose):
@@ -95,8 +95,10 @@ class _Loader(XmlLoader):
 
     def _include_tag(self, tag, context, ros_config, default_machine, is_core, verbose):
         if (self.resolve_args(tag.getAttribute("clear_params"), context) or "false").lower() in _TRUE:
-            raise XmlParseException("<include> with clear_params is not supported by rosmon: clear the parameters with "
-                                    '<rosparam command="delete" param="..."/> or clear_params of the node')
+            raise XmlParseException(
+                "<include> with clear_params is not supported by rosmon: clear the parameters with "
+                '<rosparam command="delete" param="..."/> or clear_params of the node'
+            )
         self._inherited.append(self._attributes_of(tag, context))
         try:
             result = super()._include_tag(tag, context, ros_config, default_machine, is_core, verbose)
@@ -109,7 +111,7 @@ class _Loader(XmlLoader):
 
     def _node_tag(self, tag, context, ros_config, default_machine, is_test=False, verbose=True):
         if tag.hasAttribute("machine"):
-            tag.removeAttribute("machine")       # everything runs here
+            tag.removeAttribute("machine")  # everything runs here
         node = super()._node_tag(tag, context, ros_config, None, is_test, verbose)
         if node is not None and not is_test:
             self.specs.append(self._spec(node, self._attributes_of(tag, context)))
@@ -122,22 +124,23 @@ class _Loader(XmlLoader):
             raise XmlParseException(f"{what}rosmon-restart-warn-threshold is '{threshold}': write a whole number")
         try:
             return NodeSpec(
-                node, show_stdout=node.output == "screen" or (node.output is None and not options.obey_output),
-                stop_timeout=parse_number(given.get("rosmon-stop-timeout", str(options.stop_timeout)),
-                                          what + "rosmon-stop-timeout"),
+                node,
+                show_stdout=node.output == "screen" or (node.output is None and not options.obey_output),
+                stop_timeout=parse_number(given.get("rosmon-stop-timeout", str(options.stop_timeout)), what + "rosmon-stop-timeout"),
                 memory_limit=parse_memory(given.get("rosmon-memory-limit", str(options.memory_limit))),
-                cpu_limit=parse_number(given.get("rosmon-cpu-limit", str(options.cpu_limit)),
-                                       what + "rosmon-cpu-limit"),
+                cpu_limit=parse_number(given.get("rosmon-cpu-limit", str(options.cpu_limit)), what + "rosmon-cpu-limit"),
                 spawn_delay=parse_number(given.get("rosmon-spawn-delay", "0"), what + "rosmon-spawn-delay"),
                 restart_warn_threshold=int(threshold),
-                coredumps=_boolean(given.get("enable-coredumps", "true"), what + "enable-coredumps"))
+                coredumps=_boolean(given.get("enable-coredumps", "true"), what + "enable-coredumps"),
+            )
         except RosmonError as error:
             raise XmlParseException(str(error)) from None
 
     def _load_launch(self, launch, ros_config, is_core=False, filename=None, argv=None, verbose=True):
         super()._load_launch(launch, ros_config, is_core, filename, argv, verbose)
-        self.attributes = {name: self.resolve_args(launch.getAttribute(name), self.root_context)
-                           for name in _OF_LAUNCH if launch.hasAttribute(name)}
+        self.attributes = {
+            name: self.resolve_args(launch.getAttribute(name), self.root_context) for name in _OF_LAUNCH if launch.hasAttribute(name)
+        }
 
 
 def _one_line(error: Exception) -> str:
@@ -154,15 +157,19 @@ def load(options: Options) -> LaunchFile:
         loader.load(options.file, config, argv=["rosmon", *options.arguments], verbose=False)
         disable_ui = _boolean(loader.attributes.get("rosmon-disable-ui", "false"), "rosmon-disable-ui")
     except rospkg.ResourceNotFound as error:
-        raise RosmonError(f"{options.file}: package '{error.args[0]}' was not found: is it built and sourced?"
-                          ) from None
+        raise RosmonError(f"{options.file}: package '{error.args[0]}' was not found: is it built and sourced?") from None
     except _LOAD_ERRORS as error:
         raise RosmonError(f"Could not load launch file {options.file}: {_one_line(error)}") from None
     options.disable_ui = options.disable_ui or disable_ui
     for index, spec in enumerate(spec for spec in loader.specs if spec.spawn_delay == 0.0):
         spec.spawn_delay = index * options.spawn_increment
-    return LaunchFile(loader.specs, {key: param.value for key, param in config.params.items()}, config.clear_params,
-                      [_one_line(p) for p in config.config_errors], loader.attributes)
+    return LaunchFile(
+        loader.specs,
+        {key: param.value for key, param in config.params.items()},
+        config.clear_params,
+        [_one_line(p) for p in config.config_errors],
+        loader.attributes,
+    )
 
 
 def list_arguments(options: Options) -> List[str]:
@@ -170,8 +177,7 @@ def list_arguments(options: Options) -> List[str]:
     loader = XmlLoader(resolve_anon=False, args_only=True)
     loader.ignore_unset_args = True
     try:
-        loader.load(options.file, roslaunch.config.ROSLaunchConfig(), argv=["rosmon", *options.arguments],
-                    verbose=False)
+        loader.load(options.file, roslaunch.config.ROSLaunchConfig(), argv=["rosmon", *options.arguments], verbose=False)
     except _LOAD_ERRORS as error:
         raise RosmonError(f"Could not load launch file {options.file}: {_one_line(error)}") from None
     return list(loader.root_context.resolve_dict.get("arg_doc", {}))

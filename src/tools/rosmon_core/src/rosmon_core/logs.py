@@ -1,4 +1,5 @@
 """rosmon's own log: one line for everything nodes say and everything that happens to them."""
+
 from __future__ import annotations
 
 import logging
@@ -32,8 +33,7 @@ class Log:
             else:
                 self._file = open(self.name, "w", encoding="utf-8")
         except OSError as error:
-            raise RosmonError(f"cannot log to {self.name}: {error.strerror}; choose another place with --log=FILE"
-                              ) from None
+            raise RosmonError(f"cannot log to {self.name}: {error.strerror}; choose another place with --log=FILE") from None
 
     def write(self, label: str, text: str, severity: str) -> None:
         text = without_escapes(text)
@@ -44,8 +44,7 @@ class Log:
             if self._flush:
                 self._file.flush()
         elif self._syslog:
-            self._syslog.emit(logging.LogRecord("rosmon", _LEVELS[severity], "", 0, f"rosmon: {label}: {text}", None,
-                                                None))
+            self._syslog.emit(logging.LogRecord("rosmon", _LEVELS[severity], "", 0, f"rosmon: {label}: {text}", None, None))
 
     def flush(self) -> None:
         if self._file:

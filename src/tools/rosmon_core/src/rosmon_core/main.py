@@ -1,4 +1,5 @@
 """``mon launch``: from the command line to the end of the last node."""
+
 from __future__ import annotations
 
 import asyncio
@@ -14,7 +15,7 @@ from rosmon_core.monitor import OWN_LABEL, Monitor
 from rosmon_core.plain import Plain
 from rosmon_core.terminal import Terminal
 
-_LOG_FLUSH = 1.0         # s
+_LOG_FLUSH = 1.0  # s
 
 
 class _Session:
@@ -25,8 +26,10 @@ class _Session:
         self._interactive = not options.disable_ui and sys.stdin.isatty() and sys.stdout.isatty()
         labels = [OWN_LABEL, *(spec.full_name.lstrip("/") for spec in launch_file.nodes)]
         self._display: Union[Terminal, Plain] = (
-            Terminal(labels, launch_file.attributes.get("rosmon-window-title")) if self._interactive
-            else Plain(labels, options.flush_stdout))
+            Terminal(labels, launch_file.attributes.get("rosmon-window-title"))
+            if self._interactive
+            else Plain(labels, options.flush_stdout)
+        )
         self._monitor: Optional[Monitor] = None
         self._stopping = asyncio.Event()
 
@@ -96,6 +99,7 @@ class _Session:
 
     def _connect(self, monitor: Monitor, loop: asyncio.AbstractEventLoop):
         from rosmon_core.ros_interface import RosInterface
+
         name = self._options.name or self._file.attributes.get("rosmon-name")
         return RosInterface(monitor, self._options, name, loop)
 

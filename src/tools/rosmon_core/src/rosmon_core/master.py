@@ -1,4 +1,5 @@
 """The roscore: waiting for it, and setting parameters on it."""
+
 from __future__ import annotations
 
 import asyncio
@@ -14,7 +15,7 @@ from rosmon_core import RosmonError
 from rosmon_core.launch_file import LaunchFile
 
 _CALLER = "/rosmon"
-_POLL = 0.2              # s
+_POLL = 0.2  # s
 
 
 def _ask_run_id(uri: str) -> Optional[str]:

@@ -1,4 +1,5 @@
 """All nodes of a launch: start, stop, filters, loads, and the end."""
+
 from __future__ import annotations
 
 import asyncio
@@ -14,7 +15,7 @@ from rosmon_core.logs import Log
 from rosmon_core.process import NodeProcess, State
 
 OWN_LABEL = "rosmon"
-_LAST_WORDS = 0.5        # s after SIGKILL in which a process group must be gone
+_LAST_WORDS = 0.5  # s after SIGKILL in which a process group must be gone
 
 
 @dataclass
@@ -32,8 +33,14 @@ class Monitor:
     :param show: called with (label, text, severity, node index or None) for each visible line.
     """
 
-    def __init__(self, launch_file: LaunchFile, master_uri: str, log_dir: Optional[str], log: Log,
-                 show: Callable[[str, str, str, Optional[int]], None]) -> None:
+    def __init__(
+        self,
+        launch_file: LaunchFile,
+        master_uri: str,
+        log_dir: Optional[str],
+        log: Log,
+        show: Callable[[str, str, str, Optional[int]], None],
+    ) -> None:
         self.warnings_only = False
         self.failed = False
         self.done = asyncio.Event()
@@ -43,8 +50,7 @@ class Monitor:
         self._times: Dict[int, tuple] = {}
         self._sampled: Optional[float] = None
         self.usage: Dict[NodeProcess, Usage] = {}
-        self.nodes = [NodeProcess(spec, master_uri, log_dir, self._on_line, self._on_event, self._on_exit)
-                      for spec in launch_file.nodes]
+        self.nodes = [NodeProcess(spec, master_uri, log_dir, self._on_line, self._on_event, self._on_exit) for spec in launch_file.nodes]
 
     @property
     def closing(self) -> bool:
@@ -118,7 +124,7 @@ class Monitor:
                 try:
                     cpu, memory = process.cpu_times(), process.memory_info().rss
                 except psutil.Error:
-                    continue                              # it ended in this moment
+                    continue  # it ended in this moment
                 times[process.pid] = (cpu.user, cpu.system)
                 usage.memory += memory
                 if elapsed > 0.0:

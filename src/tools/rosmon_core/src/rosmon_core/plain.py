@@ -1,4 +1,5 @@
 """Output without keys: lines for a log file, a pipe, or a terminal with --disable-ui."""
+
 from __future__ import annotations
 
 import re
@@ -29,16 +30,14 @@ class Plain:
         sys.stdout.flush()
 
 
-def format_line(label: str, text: str, level: str, index: Optional[int], width: int, count: int, mode: str,
-                columns: int = 0) -> str:
+def format_line(label: str, text: str, level: str, index: Optional[int], width: int, count: int, mode: str, columns: int = 0) -> str:
     """A line with a coloured, right-aligned label of ``width`` columns.
 
     :param columns: of the terminal; longer lines go on in the next one behind a ``~``. 0: never.
     """
     start = "\x1b[7m" if index is None else colors.label_escape(index, count, mode)
     pieces = _wrap(colors.LEVELS[level] + severity.only_colours(text), columns - width - 2)
-    return "\n".join(f"{start}{label if i == 0 else '~':>{width}}:{colors.RESET} {piece}{colors.RESET}"
-                     for i, piece in enumerate(pieces))
+    return "\n".join(f"{start}{label if i == 0 else '~':>{width}}:{colors.RESET} {piece}{colors.RESET}" for i, piece in enumerate(pieces))
 
 
 def _wrap(text: str, width: int) -> List[str]:

@@ -1,4 +1,5 @@
 """One node: starting it on pseudo-terminals, reading what it says, stopping its whole process group."""
+
 from __future__ import annotations
 
 import asyncio
@@ -25,7 +26,7 @@ from rosmon_core.launch_file import NodeSpec
 CONSOLE_FORMAT = "[${function}]: ${message}"
 #: The function is the class and method in C++, and a bare name (``_call``, ``<module>``) in Python.
 CONSOLE_FORMAT_OF_SCRIPTS = "${message}"
-_RESPAWN_DELAY = 1.0     # s, at least: a node that dies at once must not be started a thousand times a second
+_RESPAWN_DELAY = 1.0  # s, at least: a node that dies at once must not be started a thousand times a second
 _LONGEST_LINE = 1 << 16
 
 
@@ -56,8 +57,7 @@ class NodeProcess:
     :param on_exit: called with (process, exit code) after the process has ended.
     """
 
-    def __init__(self, spec: NodeSpec, master_uri: str, log_dir: Optional[str], emit: Callable, event: Callable,
-                 on_exit: Callable) -> None:
+    def __init__(self, spec: NodeSpec, master_uri: str, log_dir: Optional[str], emit: Callable, event: Callable, on_exit: Callable) -> None:
         self.spec = spec
         self.state = State.IDLE
         self.muted = False
@@ -169,7 +169,7 @@ class NodeProcess:
         program, difference = as_it_can_run(self.executable)
         if difference:
             self._event(self, difference, "warn")
-        arguments[at:at + 1] = program
+        arguments[at : at + 1] = program
         arguments, difference = with_what_is_there(arguments)
         if difference:
             self._event(self, difference, "warn")
@@ -183,8 +183,15 @@ class NodeProcess:
             for _, slave in terminals:
                 tty.setraw(slave)
             self._process = subprocess.Popen(
-                arguments, env=environment, cwd=directory, stdin=terminals[0][1], stdout=terminals[0][1],
-                stderr=terminals[1][1], start_new_session=True, preexec_fn=_allow_core if self.spec.coredumps else None)
+                arguments,
+                env=environment,
+                cwd=directory,
+                stdin=terminals[0][1],
+                stdout=terminals[0][1],
+                stderr=terminals[1][1],
+                start_new_session=True,
+                preexec_fn=_allow_core if self.spec.coredumps else None,
+            )
         except BaseException:
             for master, _ in terminals:
                 os.close(master)
@@ -207,7 +214,7 @@ class NodeProcess:
             data = os.read(master, 65536)
         except BlockingIOError:
             return
-        except OSError:             # all of its processes have closed the terminal
+        except OSError:  # all of its processes have closed the terminal
             data = b""
         *lines, stream.rest = (stream.rest + data).split(b"\n")
         if stream.rest and (not data or len(stream.rest) > _LONGEST_LINE):
@@ -227,7 +234,7 @@ class NodeProcess:
         self._loop.remove_reader(self._watch)
         os.close(self._watch)
         self._cancel_timer()
-        for master in list(self._readers):       # its last words
+        for master in list(self._readers):  # its last words
             while master in self._readers and select.select([master], [], [], 0)[0]:
                 self._read(master)
         self.pid = self._process = None
@@ -252,8 +259,7 @@ class NodeProcess:
         self.state = State.IDLE if code == 0 else State.CRASHED
         self._event(self, *_describe(code))
         if code < 0 and self.spec.coredumps:
-            self._event(self, "if it left a core file, press its letter and d to look at it, or type: "
-                        f"gdb {self.executable} core", "info")
+            self._event(self, f"if it left a core file, press its letter and d to look at it, or type: gdb {self.executable} core", "info")
         if self.spec.node.respawn:
             self.restart_count += 1
             delay = max(_RESPAWN_DELAY, self.spec.node.respawn_delay)

@@ -1,4 +1,5 @@
 """rosmon as a ROS node: ``~state``, ``~start_stop`` and ``/diagnostics``."""
+
 from __future__ import annotations
 
 import asyncio
@@ -15,7 +16,7 @@ from rosmon_core.monitor import Monitor, Usage
 from rosmon_core.process import NodeProcess
 from rosmon_core.process import State as ProcessState
 
-_PERIOD = 1.0            # s
+_PERIOD = 1.0  # s
 _ACTIONS = {StartStopRequest.START: "start", StartStopRequest.STOP: "stop", StartStopRequest.RESTART: "restart"}
 
 
@@ -25,8 +26,7 @@ class RosInterface:
     Create it outside the loop's thread: :func:`rospy.init_node` talks to the master.
     """
 
-    def __init__(self, monitor: Monitor, options: Options, name: Optional[str],
-                 loop: asyncio.AbstractEventLoop) -> None:
+    def __init__(self, monitor: Monitor, options: Options, name: Optional[str], loop: asyncio.AbstractEventLoop) -> None:
         self._monitor, self._options, self._loop = monitor, options, loop
         rospy.init_node(name or "rosmon", anonymous=name is None, disable_signals=True)
         self._state = rospy.Publisher("~state", State, queue_size=1, latch=True)
@@ -49,10 +49,20 @@ class RosInterface:
     def publish(self) -> None:
         stamp, nodes = rospy.Time.now(), self._monitor.nodes
         usage = {node: self._monitor.usage.get(node, Usage()) for node in nodes}
-        state = State(nodes=[NodeState(
-            name=node.name, ns=node.namespace.rstrip("/"), state=int(node.state), restart_count=node.restart_count,
-            user_load=usage[node].user_load, system_load=usage[node].system_load, memory=usage[node].memory)
-            for node in nodes])
+        state = State(
+            nodes=[
+                NodeState(
+                    name=node.name,
+                    ns=node.namespace.rstrip("/"),
+                    state=int(node.state),
+                    restart_count=node.restart_count,
+                    user_load=usage[node].user_load,
+                    system_load=usage[node].system_load,
+                    memory=usage[node].memory,
+                )
+                for node in nodes
+            ]
+        )
         state.header.stamp = stamp
         self._state.publish(state)
         if self._diagnostics:
@@ -72,7 +82,7 @@ class RosInterface:
         if 0 <= spec.restart_warn_threshold < node.restart_count:
             complaints.append(f"restart count > {spec.restart_warn_threshold}")
         if usage.memory > spec.memory_limit:
-            complaints.append(f"memory {usage.memory / 2 ** 20:.0f} MiB > {spec.memory_limit / 2 ** 20:.0f} MiB")
+            complaints.append(f"memory {usage.memory / 2**20:.0f} MiB > {spec.memory_limit / 2**20:.0f} MiB")
         if load > spec.cpu_limit:
             complaints.append(f"CPU load {load:.2f} > {spec.cpu_limit:g}")
         level, message = DiagnosticStatus.OK, "Process is " + node.state.name.lower()
@@ -81,10 +91,16 @@ class RosInterface:
         elif complaints:
             level, message = DiagnosticStatus.WARN, "; ".join(complaints)
         return DiagnosticStatus(
-            level=level, message=message, hardware_id=node.name,
+            level=level,
+            message=message,
+            hardware_id=node.name,
             name=f"{prefix if prefix is not None else self.name.lstrip('/')}:{self._monitor.label(node)}",
-            values=[KeyValue("CPU Load", f"{load:.2f}"), KeyValue("used memory", f"{usage.memory / 2 ** 20:.1f} MiB"),
-                    KeyValue("restart count", str(node.restart_count))])
+            values=[
+                KeyValue("CPU Load", f"{load:.2f}"),
+                KeyValue("used memory", f"{usage.memory / 2**20:.1f} MiB"),
+                KeyValue("restart count", str(node.restart_count)),
+            ],
+        )
 
     def _start_stop(self, request: StartStopRequest) -> StartStopResponse:
         if request.action not in _ACTIONS:

@@ -1,4 +1,5 @@
 """How serious a line of a node's output is."""
+
 from __future__ import annotations
 
 import re
@@ -8,8 +9,10 @@ _COLOUR = re.compile(r"\x1b\[(?:0;|1;)?3([1-7])m")
 _LEVEL = {"1": "error", "3": "warn", "2": "debug"}
 _TEXT = re.compile(r"^\s*(?:\x1b\[[0-9;]*m)*\[\s*(DEBUG|INFO|WARN|WARNING|ERROR|FATAL)\]")
 _NAMES = {"DEBUG": "debug", "INFO": "info", "WARN": "warn", "WARNING": "warn", "ERROR": "error", "FATAL": "error"}
-_ESCAPES = re.compile(r"\x1b(?:\[[0-9;?]*[ -/]*[@-~]|\][^\x07\x1b]*(?:\x07|\x1b\\)|[@-Z\\-_])"
-                      r"|[\x00-\x08\x0b-\x1a\x1c-\x1f]")
+_ESCAPES = re.compile(
+    r"\x1b(?:\[[0-9;?]*[ -/]*[@-~]|\][^\x07\x1b]*(?:\x07|\x1b\\)|[@-Z\\-_])"
+    r"|[\x00-\x08\x0b-\x1a\x1c-\x1f]"
+)
 
 
 def of_line(line: str, is_stderr: bool) -> str:

@@ -3,6 +3,7 @@
 prompt_toolkit reads the keys and draws the block at the bottom; lines of nodes are collected and written above it
 twenty times a second, so that a node that prints thousands of lines does not redraw the block thousands of times.
 """
+
 from __future__ import annotations
 
 import asyncio
@@ -25,16 +26,31 @@ from rosmon_core.process import NodeProcess, State
 
 KEYS = string.ascii_lowercase + string.ascii_uppercase + string.digits
 _BOX = 13
-_INTERVAL = 0.05         # s between two bursts of output
-_STYLE = Style.from_dict({
-    "bar": "bg:ansiwhite fg:ansiblack", "bar.key": "bg:ansicyan fg:ansiblack",
-    "idle": "", "running": "bg:ansigreen fg:ansiblack", "crashed": "bg:ansired fg:ansiwhite",
-    "waiting": "bg:ansiyellow fg:ansiblack", "key": "reverse", "muted": "bg:ansiblue fg:ansiwhite",
-    "chosen": "bold underline", "dim": ""})
-_STATE_STYLE = {State.IDLE: "class:idle", State.RUNNING: "class:running", State.CRASHED: "class:crashed",
-                State.WAITING: "class:waiting"}
-_GLOBAL_KEYS = (("A-Z", "Node actions"), ("F6", "Start all"), ("F7", "Stop all"), ("F8", "WARN+ only"),
-                ("F9", "Mute all"), ("F10", "Unmute all"), ("/", "Node search"))
+_INTERVAL = 0.05  # s between two bursts of output
+_STYLE = Style.from_dict(
+    {
+        "bar": "bg:ansiwhite fg:ansiblack",
+        "bar.key": "bg:ansicyan fg:ansiblack",
+        "idle": "",
+        "running": "bg:ansigreen fg:ansiblack",
+        "crashed": "bg:ansired fg:ansiwhite",
+        "waiting": "bg:ansiyellow fg:ansiblack",
+        "key": "reverse",
+        "muted": "bg:ansiblue fg:ansiwhite",
+        "chosen": "bold underline",
+        "dim": "",
+    }
+)
+_STATE_STYLE = {State.IDLE: "class:idle", State.RUNNING: "class:running", State.CRASHED: "class:crashed", State.WAITING: "class:waiting"}
+_GLOBAL_KEYS = (
+    ("A-Z", "Node actions"),
+    ("F6", "Start all"),
+    ("F7", "Stop all"),
+    ("F8", "WARN+ only"),
+    ("F9", "Mute all"),
+    ("F10", "Unmute all"),
+    ("/", "Node search"),
+)
 _NODE_KEYS = (("s", "start"), ("k", "stop"), ("d", "debug"), ("m", "mute"), ("u", "unmute"))
 _ACTIONS = {"s": "start", "k": "stop", "m": "mute", "u": "unmute"}
 
@@ -54,13 +70,18 @@ class Terminal:
         self._search: Optional[str] = None
         self._match = 0
         self._output = Vt100_Output.from_pty(sys.stdout)
-        self._output.enable_cpr = False          # not every terminal answers where its cursor is, and none needs to
+        self._output.enable_cpr = False  # not every terminal answers where its cursor is, and none needs to
         if title:
             self._output.set_title(title)
         self._application: Application = Application(
             Layout(HSplit([Window(FormattedTextControl(self._block), dont_extend_height=True, wrap_lines=True)])),
-            key_bindings=self._bindings(), style=_STYLE, input=create_input(), output=self._output,
-            erase_when_done=True, min_redraw_interval=_INTERVAL)
+            key_bindings=self._bindings(),
+            style=_STYLE,
+            input=create_input(),
+            output=self._output,
+            erase_when_done=True,
+            min_redraw_interval=_INTERVAL,
+        )
 
     @property
     def _monitor(self) -> Monitor:
@@ -103,8 +124,9 @@ class Terminal:
     def _formatted(self) -> List[str]:
         lines, self._lines = self._lines, []
         columns = self._output.get_size().columns
-        return [format_line(label, text, level, index, self._width, self._count, self._colour, columns)
-                for label, text, level, index in lines]
+        return [
+            format_line(label, text, level, index, self._width, self._count, self._colour, columns) for label, text, level, index in lines
+        ]
 
     def _matches(self) -> List[NodeProcess]:
         return [n for n in self._monitor.nodes if (self._search or "") in self._monitor.label(n)]
@@ -145,7 +167,7 @@ class Terminal:
                 style = "class:dim"
             if node is self._selected or (matches and node is matches[self._match % len(matches)]):
                 style += " class:chosen"
-            boxes.append((style, f" {self._monitor.label(node)[:_BOX - 1]:<{_BOX - 1}}"))
+            boxes.append((style, f" {self._monitor.label(node)[: _BOX - 1]:<{_BOX - 1}}"))
         return boxes
 
     # keys
@@ -158,9 +180,13 @@ class Terminal:
             self._monitor.say("killing everything at once" if self._monitor.closing else "Shutting down...")
             self._monitor.shutdown()
 
-        for key, action in (("f6", lambda: self._monitor.start_all()), ("f7", lambda: self._monitor.stop_all()),
-                            ("f8", self._toggle_warnings), ("f9", lambda: self._monitor.mute_all(True)),
-                            ("f10", lambda: self._monitor.mute_all(False))):
+        for key, action in (
+            ("f6", lambda: self._monitor.start_all()),
+            ("f7", lambda: self._monitor.stop_all()),
+            ("f8", self._toggle_warnings),
+            ("f9", lambda: self._monitor.mute_all(True)),
+            ("f10", lambda: self._monitor.mute_all(False)),
+        ):
             bindings.add(key)(lambda event, action=action: action())
         for key in ("tab", "right", "down"):
             bindings.add(key)(lambda event: self._step(1))

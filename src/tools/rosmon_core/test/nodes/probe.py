@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A process for the tests of rosmon: says things, then ends, waits or misbehaves as its arguments ask."""
+
 import argparse
 import os
 import signal

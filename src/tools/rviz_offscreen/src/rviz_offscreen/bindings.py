@@ -1,4 +1,5 @@
 """RViz's Python bindings and the Qt they stand on: 5 on Debian 12, 6 on Debian 13."""
+
 from __future__ import annotations
 
 import contextlib
@@ -29,9 +30,10 @@ else:
                 yield
                 return
         head = 3 * ctypes.sizeof(ctypes.c_ssize_t)  # of a type object: reference count, type, size; then comes its name
-        places = [(ctypes.c_void_p.from_address(id(kind) + head),
-                   ctypes.create_string_buffer(b"sip." + kind.__name__.encode()))
-                  for kind in (sip.simplewrapper, sip.wrapper, sip.wrappertype)]
+        places = [
+            (ctypes.c_void_p.from_address(id(kind) + head), ctypes.create_string_buffer(b"sip." + kind.__name__.encode()))
+            for kind in (sip.simplewrapper, sip.wrapper, sip.wrappertype)
+        ]
         before = [place.value for place, _ in places]
         for place, name in places:
             place.value = ctypes.addressof(name)
@@ -43,8 +45,19 @@ else:
         from rviz import rviz
     rviz = getattr(rviz, "rviz", rviz)
 
-__all__ = ["QApplication", "QDockWidget", "QImage", "QPainter", "QPoint", "QRect", "QWidget", "disable_anti_aliasing",
-           "loaded_library", "rviz", "sip"]
+__all__ = [
+    "QApplication",
+    "QDockWidget",
+    "QImage",
+    "QPainter",
+    "QPoint",
+    "QRect",
+    "QWidget",
+    "disable_anti_aliasing",
+    "loaded_library",
+    "rviz",
+    "sip",
+]
 
 
 def loaded_library(name: str) -> ctypes.CDLL:

@@ -1,4 +1,5 @@
 """``rosrun rviz_offscreen screenshot``: PNG pictures of what RViz shows, without a display."""
+
 from __future__ import annotations
 
 import argparse
@@ -26,19 +27,34 @@ def parser() -> argparse.ArgumentParser:
     p = argparse.ArgumentParser(prog="screenshot", description=__doc__, epilog=main.__doc__)
     p.add_argument("--config", "-d", default="", help="RViz configuration (default: RViz's own default.rviz)")
     p.add_argument("--output", "-o", default="rviz.png", help="PNG to write; with several views -NAME or -NUMBER is added")
-    p.add_argument("--view", action="append", default=[], metavar="VIEW",
-                   help="front, back, left, right, top, iso, or [NAME:]yaw=..,pitch=..,distance=..,x=..,y=..,z=..; repeatable. "
-                        "A name without distance and focal point has the robot fill the frame")
+    p.add_argument(
+        "--view",
+        action="append",
+        default=[],
+        metavar="VIEW",
+        help="front, back, left, right, top, iso, or [NAME:]yaw=..,pitch=..,distance=..,x=..,y=..,z=..; repeatable. "
+        "A name without distance and focal point has the robot fill the frame",
+    )
     p.add_argument("--window", action="store_true", help="the whole window instead of the 3D view alone")
     p.add_argument("--size", default="1280x800", help="WIDTHxHEIGHT in pixels (default 1280x800)")
-    p.add_argument("--backend", choices=["xvfb", "osmesa"], default="xvfb",
-                   help="xvfb: a private X server with Mesa's software OpenGL; osmesa: no X server at all")
+    p.add_argument(
+        "--backend",
+        choices=["xvfb", "osmesa"],
+        default="xvfb",
+        help="xvfb: a private X server with Mesa's software OpenGL; osmesa: no X server at all",
+    )
     p.add_argument("--fixed-frame", "-f", default="", help="fixed frame instead of the configuration's")
     p.add_argument("--timeout", type=float, default=15.0, help="seconds to wait until every display is drawn (default 15)")
-    p.add_argument("--grace", type=float, default=3.0,
-                   help="seconds after which a display is not waited for if nobody publishes its topic (default 3)")
-    p.add_argument("--watch", type=float, default=0.0, metavar="SECONDS",
-                   help="go on for so long after all is drawn before the picture is taken: trails grow")
+    p.add_argument(
+        "--grace", type=float, default=3.0, help="seconds after which a display is not waited for if nobody publishes its topic (default 3)"
+    )
+    p.add_argument(
+        "--watch",
+        type=float,
+        default=0.0,
+        metavar="SECONDS",
+        help="go on for so long after all is drawn before the picture is taken: trails grow",
+    )
     p.add_argument("--anti-aliasing", action="store_true", help="smooth edges (xvfb only; about eight times the work)")
     return p
 
@@ -86,9 +102,20 @@ def backend(name: str, size: str) -> Iterator[Dict[str, str]]:
         yield {"LD_PRELOAD": f"{find_shim()} libOSMesa.so.8", "QT_QPA_PLATFORM": "offscreen", "DISPLAY": ""}
 
 
-def take(config: str, views: List[View], output: str, *, size: str = "1280x800", window: bool = False, fixed_frame: str = "",
-         timeout: float = 15.0, grace: float = 3.0, watch: float = 0.0,
-         backend_name: str = "xvfb", anti_aliasing: bool = False) -> dict:
+def take(
+    config: str,
+    views: List[View],
+    output: str,
+    *,
+    size: str = "1280x800",
+    window: bool = False,
+    fixed_frame: str = "",
+    timeout: float = 15.0,
+    grace: float = 3.0,
+    watch: float = 0.0,
+    backend_name: str = "xvfb",
+    anti_aliasing: bool = False,
+) -> dict:
     """Take the pictures.
 
     :param views: [] for the configuration's own view.
@@ -113,13 +140,20 @@ def take(config: str, views: List[View], output: str, *, size: str = "1280x800",
     if not rosgraph.is_master_online():
         # RViz itself would open a dialog that ignores Ctrl-C.
         raise ScreenshotError(f"no ROS master at {os.environ.get('ROS_MASTER_URI')}: start roscore or a launch file first")
-    job = {"config": config, "window": window, "size": [width, height], "fixed_frame": fixed_frame, "timeout": timeout,
-           "grace": grace, "watch": watch, "anti_aliasing": anti_aliasing,
-           "pictures": [{"path": p, "view": v.values, "fit": v.fits} for p, v in zip(paths, views)]}
+    job = {
+        "config": config,
+        "window": window,
+        "size": [width, height],
+        "fixed_frame": fixed_frame,
+        "timeout": timeout,
+        "grace": grace,
+        "watch": watch,
+        "anti_aliasing": anti_aliasing,
+        "pictures": [{"path": p, "view": v.values, "fit": v.fits} for p, v in zip(paths, views)],
+    }
     with tempfile.TemporaryDirectory(prefix="rviz_offscreen_") as home, backend(backend_name, f"{width}x{height}") as variables:
         # RViz writes ~/.rviz on exit; a picture must neither read nor change the user's.
-        environment = {**os.environ, **variables, "HOME": home, "ROS_LOG_DIR": home, "XDG_RUNTIME_DIR": home,
-                       "QT_LOGGING_RULES": "*=false"}
+        environment = {**os.environ, **variables, "HOME": home, "ROS_LOG_DIR": home, "XDG_RUNTIME_DIR": home, "QT_LOGGING_RULES": "*=false"}
         try:
             result = run_grabber(job, environment, timeout + watch + 45)
         except RvizCrashed:  # once in some dozens of runs RViz with image panels damages its heap; a second one starts afresh
@@ -135,8 +169,15 @@ def run_grabber(job: dict, environment: Dict[str, str], limit: float) -> dict:
         die_with_parent()
         os.dup2(writing, 3)
 
-    process = subprocess.Popen([sys.executable, "-m", "rviz_offscreen.grab"], stdin=subprocess.PIPE, env=environment,
-                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, preexec_fn=prepare, close_fds=False)
+    process = subprocess.Popen(
+        [sys.executable, "-m", "rviz_offscreen.grab"],
+        stdin=subprocess.PIPE,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        preexec_fn=prepare,
+        close_fds=False,
+    )
     os.close(writing)
     try:
         output, _ = process.communicate(json.dumps(job).encode(), timeout=limit)
@@ -156,8 +197,10 @@ def run_grabber(job: dict, environment: Dict[str, str], limit: float) -> dict:
     lines = [line for line in text.splitlines() if line.strip()]
     if process.returncode < 0:
         name = signal.Signals(-process.returncode).name
-        raise RvizCrashed(f"RViz crashed ({name}); its last line: {lines[-1] if lines else 'none'} - is OpenGL there? "
-                          f"(Debian packages libgl1-mesa-dri, libosmesa6)")
+        raise RvizCrashed(
+            f"RViz crashed ({name}); its last line: {lines[-1] if lines else 'none'} - is OpenGL there? "
+            f"(Debian packages libgl1-mesa-dri, libosmesa6)"
+        )
     raise ScreenshotError(f"RViz ended with code {process.returncode}; its last line: {lines[-1] if lines else 'none'}")
 
 
@@ -168,9 +211,19 @@ def main(argv: Optional[List[str]] = None) -> int:
     options = parser().parse_args(rospy.myargv(sys.argv if argv is None else argv)[1:])
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     try:
-        result = take(options.config, [parse_view(text) for text in options.view], options.output, size=options.size,
-                      window=options.window, fixed_frame=options.fixed_frame, timeout=options.timeout, grace=options.grace,
-                      watch=options.watch, backend_name=options.backend, anti_aliasing=options.anti_aliasing)
+        result = take(
+            options.config,
+            [parse_view(text) for text in options.view],
+            options.output,
+            size=options.size,
+            window=options.window,
+            fixed_frame=options.fixed_frame,
+            timeout=options.timeout,
+            grace=options.grace,
+            watch=options.watch,
+            backend_name=options.backend,
+            anti_aliasing=options.anti_aliasing,
+        )
     except OffscreenError as error:
         print(f"screenshot: {error}", file=sys.stderr)
         return 1
@@ -186,8 +239,10 @@ def main(argv: Optional[List[str]] = None) -> int:
 
 def missing_lines(result: dict, timeout: float) -> List[str]:
     """What the pictures of :func:`take` lack; none if all displays drew something."""
-    lines = [f"nobody publishes {topics} of display '{name}'" if topics else f"display '{name}' has no topic set"
-             for name, topics in sorted(result["unpublished"].items())]
+    lines = [
+        f"nobody publishes {topics} of display '{name}'" if topics else f"display '{name}' has no topic set"
+        for name, topics in sorted(result["unpublished"].items())
+    ]
     if result["not_ok"]:
         waiting = ", ".join(f"{name} ({status})" for name, status in sorted(result["not_ok"].items()))
         lines.append(f"not ready after {timeout:g} s: {waiting}; is their topic published and their frame in tf?")

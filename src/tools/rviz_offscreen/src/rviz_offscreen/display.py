@@ -1,4 +1,5 @@
 """A private virtual display: Xvfb on a free number, gone when its owner is. No ROS in here; scripts/offscreen uses it too."""
+
 from __future__ import annotations
 
 import contextlib
@@ -34,7 +35,11 @@ def private_display(size: str = "1280x800x24") -> Iterator[Dict[str, str]]:
     reading, writing = os.pipe()
     server = subprocess.Popen(
         ["Xvfb", "-displayfd", str(writing), "-screen", "0", size, "-nolisten", "tcp", "-noreset", "+extension", "GLX"],
-        pass_fds=[writing], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=die_with_parent)
+        pass_fds=[writing],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        preexec_fn=die_with_parent,
+    )
     os.close(writing)
     try:
         # Xvfb writes the number it found free once it accepts clients, and closes the pipe if it gives up.
@@ -47,8 +52,7 @@ def private_display(size: str = "1280x800x24") -> Iterator[Dict[str, str]]:
         if not number.strip():
             raise DisplayError(f"Xvfb did not start with a screen of {size} (WIDTHxHEIGHTxDEPTH)")
         # Smoothed edges make three times the work of RViz's pictures where the processor draws; DRI_NO_MSAA=0 wants them.
-        yield {"DISPLAY": f":{number.decode().strip()}", "LIBGL_ALWAYS_SOFTWARE": "1",
-               "DRI_NO_MSAA": os.environ.get("DRI_NO_MSAA", "1")}
+        yield {"DISPLAY": f":{number.decode().strip()}", "LIBGL_ALWAYS_SOFTWARE": "1", "DRI_NO_MSAA": os.environ.get("DRI_NO_MSAA", "1")}
     finally:
         os.close(reading)
         server.terminate()

@@ -1,4 +1,5 @@
 """What RViz's displays say of themselves: the properties that its Displays panel shows. Runs in RViz's own process."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -49,8 +50,9 @@ def _state(display) -> State:
             silent = not children["Namespaces"].numChildren()
         elif "Topic" in children:
             silent = lines.get("Topic") == "OK"  # later '5 messages received'
-    return State(str(display.getName()), level, silent,
-                 tuple(rosgraph.names.resolve_name(topic, _RVIZ) if topic else "" for topic in topics))
+    return State(
+        str(display.getName()), level, silent, tuple(rosgraph.names.resolve_name(topic, _RVIZ) if topic else "" for topic in topics)
+    )
 
 
 def _enabled(group) -> Iterator:
@@ -85,6 +87,7 @@ class Robot:
 
 def robots(manager) -> Iterator[Robot]:
     """Those that RViz shows."""
+
     def numbers(prop) -> Tuple[float, ...]:
         return tuple(float(word) for word in str(prop.getValue()).split(";"))
 
@@ -93,9 +96,14 @@ def robots(manager) -> Iterator[Robot]:
         if "Robot Description" not in children or "Links" not in children:
             continue
         links = {name: _children(prop) for name, prop in _children(children["Links"]).items()}
-        yield Robot(str(children["Robot Description"].getValue()),
-                    {name: (numbers(inner["Position"]), numbers(inner["Orientation"])) for name, inner in links.items()
-                     if "Position" in inner and "Orientation" in inner})
+        yield Robot(
+            str(children["Robot Description"].getValue()),
+            {
+                name: (numbers(inner["Position"]), numbers(inner["Orientation"]))
+                for name, inner in links.items()
+                if "Position" in inner and "Orientation" in inner
+            },
+        )
 
 
 def published_topics() -> frozenset:
@@ -110,4 +118,5 @@ def nobody_publishes(state: State, published: frozenset) -> bool:
     """
     return bool(state.topics) and not any(
         topic and any(name == topic or name.startswith(topic + "/") and name != topic + "/mouse_click" for name in published)
-        for topic in state.topics)
+        for topic in state.topics
+    )

@@ -1,4 +1,5 @@
 """How large the robots in RViz are, and the orbit view that has them in its frame. Runs in RViz's own process."""
+
 from __future__ import annotations
 
 import itertools
@@ -25,8 +26,13 @@ def _numbers(text: Optional[str], default: Tuple[float, ...]) -> np.ndarray:
 
 def _turned_by_rpy(points: np.ndarray, rpy: np.ndarray) -> np.ndarray:
     (cr, cp, cy), (sr, sp, sy) = np.cos(rpy), np.sin(rpy)
-    rotation = np.array([[cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-                         [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr], [-sp, cp * sr, cp * cr]])
+    rotation = np.array(
+        [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+    )
     return points @ rotation.T
 
 
@@ -46,6 +52,7 @@ def _bounds(geometry: Optional[ET.Element], packages: rospkg.RosPack) -> Tuple[n
         half = np.array([radius, radius, float(shape.get("length", 2 * radius)) / 2])
     elif shape is not None and shape.tag == "mesh":
         import trimesh
+
         scheme, _, rest = (shape.get("filename") or "").partition("://")
         name, _, inside = rest.partition("/")
         path = f"{packages.get_path(name)}/{inside}" if scheme == "package" else rest
@@ -66,8 +73,7 @@ def _link_boxes(description: str) -> Dict[str, List[np.ndarray]]:
                 low, high = _bounds(geometry, packages)
                 corners = np.array(list(itertools.product(*zip(low, high))))
                 if origin is not None:
-                    corners = (_turned_by_rpy(corners, _numbers(origin.get("rpy"), (0.0,) * 3))
-                               + _numbers(origin.get("xyz"), (0.0,) * 3))
+                    corners = _turned_by_rpy(corners, _numbers(origin.get("rpy"), (0.0,) * 3)) + _numbers(origin.get("xyz"), (0.0,) * 3)
                 found.append(corners)
             except Exception:  # a mesh that is missing or broken: RViz says so, the picture is taken all the same
                 found.append(np.zeros((1, 3)))

@@ -3,6 +3,7 @@
 Started by :mod:`rviz_offscreen.cli` with a JSON job on standard input; answers with one JSON line on descriptor 3. The
 3D picture is read from OGRE's frame buffer, so it needs no X server; the whole window is painted by Qt around it.
 """
+
 from __future__ import annotations
 
 import ctypes
@@ -17,8 +18,7 @@ for _name in ("QtWebEngine", "QtWebEngineCore", "QtWebEngineWidgets"):
     sys.modules[f"PyQt5.{_name}"] = None  # type: ignore[assignment]  # None is how Python knows what is not to be imported
 
 from . import displays, extent  # noqa: E402
-from .bindings import (  # noqa: E402
-    QApplication, QDockWidget, QImage, QPainter, QPoint, QRect, QWidget, disable_anti_aliasing, loaded_library, rviz, sip)
+from .bindings import QApplication, QDockWidget, QImage, QPainter, QPoint, QRect, QWidget, disable_anti_aliasing, loaded_library, rviz, sip  # noqa: E402
 
 _SETTLE_FRAMES = 3  # frames to draw after a change before the picture is taken: OGRE shows it one or two frames later
 
@@ -92,8 +92,10 @@ class Grabber:
                 waiting = [state for state in waiting if state not in unpublished]
             if not waiting or time.monotonic() - start > self.job["timeout"]:
                 self._draw(_SETTLE_FRAMES)
-                return {"not_ok": {state.name: state.problem for state in waiting},
-                        "unpublished": {state.name: ", ".join(filter(None, state.topics)) for state in unpublished}}
+                return {
+                    "not_ok": {state.name: state.problem for state in waiting},
+                    "unpublished": {state.name: ", ".join(filter(None, state.topics)) for state in unpublished},
+                }
             self._run(0.03)
 
     def watch(self, seconds: float) -> None:
@@ -111,8 +113,7 @@ class Grabber:
             return
         points = extent.corners(self.manager) if fit else None
         if points is not None and len(points):
-            panel = next(panel for panel in self.frame.findChildren(QWidget)
-                         if panel.metaObject().className() == "rviz::RenderPanel")
+            panel = next(panel for panel in self.frame.findChildren(QWidget) if panel.metaObject().className() == "rviz::RenderPanel")
             aspect = panel.width() / max(panel.height(), 1)
             values = {**extent.fitting_view(points, values["yaw"], values["pitch"], aspect), **values}
         views = self.manager.getViewManager()
@@ -151,6 +152,7 @@ class Grabber:
 
 # ---------------------------------------------------------------------------------------------- OGRE
 # The bindings do not expose OGRE; the symbols below are those of OGRE 1.12's stable C++ ABI (Itanium mangling).
+
 
 def render_windows() -> List[int]:
     """Addresses of the OGRE windows of RViz, in the order of their making: the 3D view, then those of Image displays."""

@@ -3,6 +3,7 @@
 For RViz and other windows on a machine with neither screen nor GPU. The display is Xvfb's on a free number; it goes when
 COMMAND ends, however that happens. OFFSCREEN_SIZE sets the screen (default 1280x800x24). The exit code is COMMAND's.
 """
+
 from __future__ import annotations
 
 import os

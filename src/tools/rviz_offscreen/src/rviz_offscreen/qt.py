@@ -1,4 +1,5 @@
 """Which Python binding of Qt RViz's own stands on: a process can load one version of Qt only, so this is asked before."""
+
 from __future__ import annotations
 
 import importlib.util

@@ -1,4 +1,5 @@
 """Camera views for RViz, as the command line writes them."""
+
 from __future__ import annotations
 
 import math
@@ -44,8 +45,9 @@ def parse_view(text: str) -> View:
         name, rest = "", name
     values = dict(NAMED.get(name, {}))
     if not rest and name not in NAMED:
-        raise ViewError(f"--view {text}: no view of that name; there are {', '.join(NAMED)}, or write "
-                        f"NAME:yaw=..,pitch=..,distance=..,x=..,y=..,z=..")
+        raise ViewError(
+            f"--view {text}: no view of that name; there are {', '.join(NAMED)}, or write NAME:yaw=..,pitch=..,distance=..,x=..,y=..,z=.."
+        )
     for item in filter(None, (part.strip() for part in rest.split(","))):
         key, _, value = item.partition("=")
         try:

@@ -3,6 +3,7 @@
 PyPI's xacro reads with minidom, which forgets line numbers. ``reading`` notes file and line on each element; a failing run
 reports the innermost element that was being expanded.
 """
+
 from __future__ import annotations
 
 import os

@@ -4,6 +4,7 @@
 for ever. Each operation that can make much out of little looks at what it would make first, and all that one expression does is
 counted: rounds of loops, calls of lambdas, items that builtins and methods go through or make. No robot comes near the bounds.
 """
+
 from __future__ import annotations
 
 import ast
@@ -111,7 +112,7 @@ def _counted(items: Iterable[Any]) -> Iterator[Any]:
 def _power(a: Any, b: Any) -> Any:
     if isinstance(a, int) and isinstance(b, int) and a.bit_length() > 1 and a.bit_length() * b > MOST_BITS:
         _refuse(f"{_shown(a)} to the power of {_shown(b)}")
-    return a ** b
+    return a**b
 
 
 def _shift(a: Any, b: Any) -> Any:
@@ -248,19 +249,23 @@ def _map(function: Callable[..., Any], *lists: Any) -> Iterator[Any]:
 
 def _small(function: Callable[..., Any], most: int) -> Callable[..., Any]:
     """Of whole numbers up to ``most``."""
+
     @functools.wraps(function)
     def bounded(*arguments: Any) -> Any:
         if any(isinstance(x, int) and x > most for x in arguments):
             _refuse(f"{function.__name__}({', '.join(map(_shown, arguments))})")
         return function(*arguments)
+
     return bounded
 
 
 def _going_through(function: Callable[..., Any], prepare: Callable[[Any], Any]) -> Callable[..., Any]:
     """A builtin whose arguments are counted."""
+
     @functools.wraps(function)
     def bounded(*arguments: Any, **named: Any) -> Any:
         return _made(function(*map(prepare, arguments), **named))
+
     return bounded
 
 
@@ -297,10 +302,20 @@ _REPLACED: Dict[str, Any] = {
     **{function.__name__: _going_through(function, _each) for function in (any, all, math.fsum)},
     **{function.__name__: _going_through(function, _compared) for function in (sorted, min, max)},
     **{function.__name__: _going_through(function, _shown_whole) for function in (repr, hash)},
-    "range": _range, "round": _round, "zip": _zip, "map": _map, "sum": _sum, "prod": _product, "lcm": _multiple, "type": _type,
+    "range": _range,
+    "round": _round,
+    "zip": _zip,
+    "map": _map,
+    "sum": _sum,
+    "prod": _product,
+    "lcm": _multiple,
+    "type": _type,
     "isinstance": lambda value, kinds: isinstance(value, _types(kinds)),
     "issubclass": lambda kind, kinds: issubclass(_types(kind), _types(kinds)),
-    "factorial": _small(math.factorial, 3000), "comb": _small(math.comb, 3000), "perm": _small(math.perm, 3000)}
+    "factorial": _small(math.factorial, 3000),
+    "comb": _small(math.comb, 3000),
+    "perm": _small(math.perm, 3000),
+}
 
 
 _OPERATORS: Dict[type, str] = {
@@ -310,10 +325,20 @@ _OPERATORS: Dict[type, str] = {
     ast.Add: "__plus__",
     ast.Mod: "__modulo__",
 }
-_HELPERS: Dict[str, Any] = {"__power__": _power, "__shift__": _shift, "__times__": _times, "__plus__": _plus, "__modulo__": _modulo,
-                            "__format__": _format, "__member__": _member, "__rounds__": _counted, "__each__": _each, "__spend__": _spend,
-                            "__made__": _made,
-                            "__whole__": _whole}
+_HELPERS: Dict[str, Any] = {
+    "__power__": _power,
+    "__shift__": _shift,
+    "__times__": _times,
+    "__plus__": _plus,
+    "__modulo__": _modulo,
+    "__format__": _format,
+    "__member__": _member,
+    "__rounds__": _counted,
+    "__each__": _each,
+    "__spend__": _spend,
+    "__made__": _made,
+    "__whole__": _whole,
+}
 
 
 class _Bounded(ast.NodeTransformer):

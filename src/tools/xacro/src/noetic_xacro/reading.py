@@ -1,6 +1,7 @@
 """What replaces functions of PyPI's xacro: a parser that notes file and line on each element, clones that keep them, words
 and macros without prefix. Does not import ``xacro``, which imports this and hands itself over.
 """
+
 from __future__ import annotations
 
 import importlib
@@ -37,8 +38,10 @@ class _PlacedBuilder(xml.dom.expatbuilder.ExpatBuilderNS):
 
     def _refuse_entity(self, name, *_declaration):
         """An entity may hold another file, or gigabytes; robots have properties."""
-        raise xacro.XacroException(f"{self._file_name}:{self.getParser().CurrentLineNumber}: declares the entity "
-                                   f"'{shortened(name, 60)}'; entities are not read, use a property")
+        raise xacro.XacroException(
+            f"{self._file_name}:{self.getParser().CurrentLineNumber}: declares the entity "
+            f"'{shortened(name, 60)}'; entities are not read, use a property"
+        )
 
     def start_element_handler(self, name, attributes):
         super().start_element_handler(name, attributes)
@@ -70,8 +73,15 @@ def _parse(inp, filename: Optional[str] = None) -> xml.dom.minidom.Document:
 
 
 # Words of xacro that robots from before Noetic write without prefix, and the attribute by which they are told from others.
-_WORDS = {"property": "name", "macro": "name", "arg": "default", "include": "filename", "insert_block": "name", "if": "value",
-          "unless": "value"}
+_WORDS = {
+    "property": "name",
+    "macro": "name",
+    "arg": "default",
+    "include": "filename",
+    "insert_block": "name",
+    "if": "value",
+    "unless": "value",
+}
 
 
 def _prefix_words(root: xml.dom.minidom.Element, path: str) -> None:
@@ -88,8 +98,11 @@ def _prefix_words(root: xml.dom.minidom.Element, path: str) -> None:
             todo.append(child)
     if found and xacro.verbosity > 0:
         word, place = min(found, key=lambda entry: int(entry[1].rsplit(":", 1)[1]))
-        print(f"xacro: warning: {place}: <{word}> is written without prefix; write <xacro:{word}> (Noetic ignores the old form, "
-              f"here it is understood; {len(found)} such in {os.path.basename(path)})", file=sys.stderr)
+        print(
+            f"xacro: warning: {place}: <{word}> is written without prefix; write <xacro:{word}> (Noetic ignores the old form, "
+            f"here it is understood; {len(found)} such in {os.path.basename(path)})",
+            file=sys.stderr,
+        )
 
 
 def _keep_place_in_clones() -> None:
@@ -135,8 +148,11 @@ def _accept_macros_without_prefix() -> None:
                 return False
             if name not in warned and xacro.verbosity > 0:
                 warned.add(name)
-                print(f"xacro: warning: {getattr(node, PLACE, '')}: macro '{name}' is called without prefix; write "
-                      f"<xacro:{name}> (Noetic ignores the old form, here it is expanded)", file=sys.stderr)
+                print(
+                    f"xacro: warning: {getattr(node, PLACE, '')}: macro '{name}' is called without prefix; write "
+                    f"<xacro:{name}> (Noetic ignores the old form, here it is expanded)",
+                    file=sys.stderr,
+                )
             node.tagName = node.nodeName = f"xacro:{name}"
         return original(node, macros, symbols)
 
@@ -171,7 +187,7 @@ def _eval_extension(text: str) -> str:
 
 
 def shortened(text: str, most: int = 300) -> str:
-    return text if len(text) <= most else f"{text[:most - most // 3]} ... {text[-(most // 3):]}"
+    return text if len(text) <= most else f"{text[: most - most // 3]} ... {text[-(most // 3) :]}"
 
 
 def install(module: Any) -> None:

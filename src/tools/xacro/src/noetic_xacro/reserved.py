@@ -1,6 +1,7 @@
 """Element names of URDF and SDF (and of old xacro itself): no macro calls even if a macro has the same name."""
 
-RESERVED = frozenset("""
+RESERVED = frozenset(
+    """
     robot link joint material transmission gazebo sensor plugin arg param property macro include insert_block if unless
     inertial visual collision origin geometry mass inertia box cylinder sphere mesh color texture parent child axis
     limit dynamics mimic safety_controller calibration actuator type hardwareInterface mechanicalReduction role offset
@@ -15,4 +16,5 @@ RESERVED = frozenset("""
     min max angular_velocity linear_acceleration x y z xyz lower upper effort velocity stiffness dissipation damping
     spring_reference spring_stiffness provide_feedback cfm_damping implicit_spring_damper fudge_factor erp cfm
     suspension projector fov sky shadows background grid
-""".split())
+""".split()
+)

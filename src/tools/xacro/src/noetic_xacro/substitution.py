@@ -1,4 +1,5 @@
 """``$(env X)``, ``$(anon x)``, ``$(eval ...)`` and their kin, as roslaunch has them in Noetic."""
+
 from __future__ import annotations
 
 from types import ModuleType
@@ -17,7 +18,7 @@ def substituted(text: str, context: Dict[str, Any], upstream: ModuleType) -> str
     inside = text[2:-1]
     words = inside.split()
     if inside.startswith("eval "):
-        return _evaluated(inside[len("eval "):], context, upstream)
+        return _evaluated(inside[len("eval ") :], context, upstream)
     if words[:1] == ["anon"]:
         if len(words) != 2:
             what = "may only specify one name" if words[1:] else "must specify a name"
@@ -27,8 +28,7 @@ def substituted(text: str, context: Dict[str, Any], upstream: ModuleType) -> str
         return upstream.resolve_args(text, context=context)
     except upstream.SubstitutionException as error:
         if str(error).startswith("Unknown substitution command"):
-            raise upstream.SubstitutionException(
-                "unknown; there are find, env, optenv, dirname, anon, arg, eval") from None
+            raise upstream.SubstitutionException("unknown; there are find, env, optenv, dirname, anon, arg, eval") from None
         raise
 
 
@@ -47,8 +47,11 @@ def _evaluated(expression: str, context: Dict[str, Any], upstream: ModuleType) -
         raise upstream.SubstitutionException("$(eval ...) may not contain double underscore expressions")
     arguments = context.setdefault("arg", {})
     offered = dict(upstream._eval_dict)
-    symbols = {**{name: upstream.convert_value(value, "auto") for name, value in arguments.items() if isinstance(value, str)},
-               **offered.pop("__builtins__"), **offered}
+    symbols = {
+        **{name: upstream.convert_value(value, "auto") for name, value in arguments.items() if isinstance(value, str)},
+        **offered.pop("__builtins__"),
+        **offered,
+    }
     symbols["arg"] = lambda name: upstream.convert_value(upstream._eval_arg(name, args=arguments), "auto")
     symbols["anon"] = lambda name: _anonymous(name, context)
     symbols["dirname"] = lambda: upstream._eval_dirname(context.get("filename"))
