@@ -1,4 +1,5 @@
 """Debian's Chromium, with real clicks and keys, for tests that look at the page as a user does."""
+
 import contextlib
 import io
 import math
@@ -57,10 +58,21 @@ class Browser:
 
         self._folder = tempfile.TemporaryDirectory(prefix="chromium_", ignore_cleanup_errors=True)
         options = Options()
-        for word in ("--headless=new", "--no-first-run", "--disable-background-networking",
-                     "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage", "--use-angle=swiftshader", "--disable-quic",
-                     "--enable-unsafe-swiftshader", "--webgl-antialiasing-mode=none", f"--window-size={size[0]},{size[1]}",
-                     f"--user-data-dir={self._folder.name}", *(["--no-sandbox"] if os.geteuid() == 0 else [])):
+        for word in (
+            "--headless=new",
+            "--no-first-run",
+            "--disable-background-networking",
+            "--disable-component-update",
+            "--disable-sync",
+            "--disable-dev-shm-usage",
+            "--use-angle=swiftshader",
+            "--disable-quic",
+            "--enable-unsafe-swiftshader",
+            "--webgl-antialiasing-mode=none",
+            f"--window-size={size[0]},{size[1]}",
+            f"--user-data-dir={self._folder.name}",
+            *(["--no-sandbox"] if os.geteuid() == 0 else []),
+        ):
             options.add_argument(word)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         options.add_experimental_option("prefs", {"download.default_directory": self._folder.name})
@@ -69,9 +81,14 @@ class Browser:
         self.driver.set_page_load_timeout(PATIENCE)
         self.driver.set_script_timeout(PATIENCE)
         if frames:
-            self.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": f"""
+            self.driver.execute_cdp_cmd(
+                "Page.addScriptToEvaluateOnNewDocument",
+                {
+                    "source": f"""
                 window.requestAnimationFrame = f => setTimeout(() => f(performance.now()), {1000 // frames});
-                window.cancelAnimationFrame = clearTimeout;"""})
+                window.cancelAnimationFrame = clearTimeout;"""
+                },
+            )
         self._open = True
         self.address = address
         self.driver.get(address)
@@ -104,23 +121,28 @@ class Browser:
     def scene(self):
         """The picture of the scene, as PNG."""
         from selenium.webdriver.common.by import By
+
         return self.driver.find_element(By.CSS_SELECTOR, "canvas").screenshot_as_png
 
     def settled(self, before):
         """Wait until the scene looks otherwise than in the picture ``before`` and does not change any more."""
+
         def still():
             first = self.scene()
             time.sleep(2.0 / FRAMES)
             return first == self.scene()
+
         wait(lambda: self.scene() != before, "a scene that looks otherwise")
         wait(still, "a scene at rest")
 
     def downloaded(self, ending):
         """The whole content of a file of that ending, once it has come."""
+
         def whole():
             names = os.listdir(self._folder.name)
             found = [name for name in names if name.endswith(ending)]
             return found and not any(name.endswith(".crdownload") for name in names) and found[0]
+
         file = os.path.join(self._folder.name, wait(whole, f"a download {ending}"))
         with open(file, "rb") as stream:
             content = stream.read()
@@ -129,8 +151,9 @@ class Browser:
 
     def complaints(self):
         """Lines of the page's console that are errors."""
-        return [line["message"] for line in self.driver.get_log("browser")
-                if line["level"] == "SEVERE" and "favicon" not in line["message"]]
+        return [
+            line["message"] for line in self.driver.get_log("browser") if line["level"] == "SEVERE" and "favicon" not in line["message"]
+        ]
 
     # ------------------------------------------------------------------------------------------ doing
 
@@ -145,12 +168,16 @@ class Browser:
                 return next((element for element in elements[:-1] if element.is_displayed()), elements[-1] if elements else None)
             except StaleElementReferenceException:
                 return None
+
         return wait(found, what)
 
     def _press(self, path, what):
         """Where it is, with the mouse; again when it was drawn anew under the hand."""
-        from selenium.common.exceptions import (ElementClickInterceptedException, ElementNotInteractableException,
-                                                StaleElementReferenceException)
+        from selenium.common.exceptions import (
+            ElementClickInterceptedException,
+            ElementNotInteractableException,
+            StaleElementReferenceException,
+        )
 
         def pressed():
             element = self._find(path, what)
@@ -160,13 +187,13 @@ class Browser:
                 return True
             except (StaleElementReferenceException, ElementClickInterceptedException, ElementNotInteractableException):
                 return False
+
         wait(pressed, f"a click on {what}")
 
     def click(self, label):
         """A button or tab of that label."""
         quoted = _quoted(label)
-        self._press(f"//button[normalize-space(.)={quoted}]|//*[@role='tab'][normalize-space(.)={quoted}]",
-                    f"button {label}")
+        self._press(f"//button[normalize-space(.)={quoted}]|//*[@role='tab'][normalize-space(.)={quoted}]", f"button {label}")
 
     def button(self, label):
         """A button of that label, where a tab has it as well."""
@@ -176,6 +203,7 @@ class Browser:
         """The notice with these words, once it is there; a click on one that still slides in may miss it."""
         from selenium.common.exceptions import WebDriverException
         from selenium.webdriver.common.by import By
+
         path = f"//*[contains(@class, 'Notification-root')][contains(., {_quoted(words)})]//button"
         self.see(words)
 
@@ -184,6 +212,7 @@ class Browser:
                 for button in self.driver.find_elements(By.XPATH, path):
                     button.click()
             return words not in self.text()
+
         wait(away, f"the notice {words} is gone")
 
     def check(self, label):
@@ -200,6 +229,7 @@ class Browser:
         :param part: of a vector, from 1
         """
         from selenium.webdriver.common.keys import Keys
+
         self._press(self._input(label, part=part), f"field {label}")  # once a folder that unfolds shows it
         element = self._find(self._input(label, part=part), f"field {label}")
         # a field that was entered puts its caret right a turn later: keys that come before, sooner than a hand's, lose their minus to it
@@ -214,10 +244,12 @@ class Browser:
 
     def place(self, label):
         """(x, y) in CSS pixels of the middle of a button, which is scrolled to."""
-        return self.driver.execute_script("""
+        return self.driver.execute_script(
+            """
             arguments[0].scrollIntoView({block: "center"});
             const r = arguments[0].getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2];""",
-                                          self._find(f"//button[normalize-space(.)='{label}']", f"button {label}"))
+            self._find(f"//button[normalize-space(.)='{label}']", f"button {label}"),
+        )
 
     def value(self, label):
         """What a field shows."""
@@ -225,6 +257,7 @@ class Browser:
 
     def choose(self, label, value):
         """An entry of the list of that label; again when the list was still folding up from an earlier choice."""
+
         def chosen():
             self._press(self._input(label), f"list {label}")
             self._press(f"//*[@role='option'][normalize-space(.)={_quoted(value)}]", f"entry {value}")
@@ -232,6 +265,7 @@ class Browser:
             while self.value(label) != value and time.monotonic() < until:
                 time.sleep(0.05)
             return self.value(label) == value
+
         wait(chosen, f"{value} as what list {label} shows")
 
     @staticmethod
@@ -247,18 +281,19 @@ class Browser:
         :param field: of view, from the lower to the upper edge, rad
         """
         box = self.driver.execute_script(
-            "const r = document.querySelector('canvas').getBoundingClientRect(); return [r.x, r.y, r.width, r.height]")
+            "const r = document.querySelector('canvas').getBoundingClientRect(); return [r.x, r.y, r.width, r.height]"
+        )
         ahead = np.subtract(target, eye) / np.linalg.norm(np.subtract(target, eye))
         right = np.cross(ahead, (0.0, 0.0, 1.0))
         right /= np.linalg.norm(right)
         away = np.subtract(point, eye)
         scale = 0.5 * box[3] / (math.tan(field / 2) * (away @ ahead))
-        return (box[0] + box[2] / 2 + scale * (away @ right),
-                box[1] + box[3] / 2 - scale * (away @ np.cross(right, ahead)))
+        return (box[0] + box[2] / 2 + scale * (away @ right), box[1] + box[3] / 2 - scale * (away @ np.cross(right, ahead)))
 
     def hover(self, point):
         """Move the pointer there (CSS pixels), without a click."""
         from selenium.webdriver.common.action_chains import ActionChains
+
         actions = ActionChains(self.driver, duration=20)
         actions.w3c_actions.pointer_action.move_to_location(*(int(round(v)) for v in point))
         actions.perform()
@@ -266,12 +301,14 @@ class Browser:
     def canvas(self, x, y):
         """(x, y) in CSS pixels of a part of the scene's picture, 0 to 1 from the upper left corner."""
         box = self.driver.execute_script(
-            "const r = document.querySelector('canvas').getBoundingClientRect(); return [r.x, r.y, r.width, r.height]")
+            "const r = document.querySelector('canvas').getBoundingClientRect(); return [r.x, r.y, r.width, r.height]"
+        )
         return box[0] + x * box[2], box[1] + y * box[3]
 
     def mouse(self, *points, drag=False, keys=(), hold=0.2):
         """Click at a point (CSS pixels), or drag from the first through all to the last, and stay there for ``hold`` s."""
         from selenium.webdriver.common.action_chains import ActionChains
+
         for key in keys:  # of their own: the keys' steps and the pointer's would be taken side by side
             ActionChains(self.driver).key_down(key).perform()
         actions = ActionChains(self.driver, duration=20)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """gzclient as a user starts it, and Debian's Chromium: real clicks, and what they did is asked by ROS."""
+
 import json
 import math
 import os
@@ -24,9 +25,15 @@ from browser import Browser, share, wait  # noqa: E402
 from session import FIELD, HERE, Session, call, material, names, paused, position, sides, sim_time, streams, world, yaw  # noqa: E402
 
 EVIL = "<img src=x onerror=document.title='owned'>"
-OLD = "<sdf version='1.6'><model name='old'><static>1</static>" + "".join(f"""<link name='{name}'><collision name='{name}_Collision'>
+OLD = (
+    "<sdf version='1.6'><model name='old'><static>1</static>"
+    + "".join(
+        f"""<link name='{name}'><collision name='{name}_Collision'>
     <pose>0 0 1.25 0 -0 0</pose><geometry><box><size>4 0.15 2.5</size></box></geometry></collision></link>"""
-    for name in ("Wall_0", "Roof_0")) + "</model></sdf>"
+        for name in ("Wall_0", "Roof_0")
+    )
+    + "</model></sdf>"
+)
 # of mbot_gazebo's room.world, between the middles of its walls; one stands askew
 CORNERS = ((-2.75, -2.45), (5.6, -2.45), (5.6, 2.4), (-0.75, 2.4), (-0.75, 0.05), (-5.6, 0.05), (-5.6, -1.8), (-5.6, -2.4))
 
@@ -84,6 +91,7 @@ class Clicks(Session):
 
     def test_1b_a_body_is_pulled_and_filmed(self):
         from selenium.webdriver.common.keys import Keys
+
         page = self.page
         page.click("box")
         page.see("Mass (kg)")
@@ -111,8 +119,10 @@ class Clicks(Session):
 
     def test_1c_a_frame_that_is_over_may_be_called_off(self):
         """The browser counts its frames itself: what the page calls off by its own number is another frame."""
-        script, = re.findall("<script>(.*)</script>", entitled(b"<title>Viser</title>", "t").decode(), re.DOTALL)
-        self.assertEqual(self.page.driver.execute_script("""
+        (script,) = re.findall("<script>(.*)</script>", entitled(b"<title>Viser</title>", "t").decode(), re.DOTALL)
+        self.assertEqual(
+            self.page.driver.execute_script(
+                """
             const frames = [], told = [], ends = [];
             const browser = {requestAnimationFrame: f => frames.push(f), cancelAnimationFrame: key => { delete frames[key - 1]; },
                              Worker: class {}};
@@ -128,7 +138,11 @@ class Clicks(Session):
             ends.splice(0).forEach(f => f());
             browser.cancelAnimationFrame(frames.length);
             turn();
-            return told;""", script), ["a", "b", "c"])
+            return told;""",
+                script,
+            ),
+            ["a", "b", "c"],
+        )
 
     def test_1d_a_hand_moves_and_turns_a_body_by_the_gizmo(self):
         page, begin = self.page, position("box")
@@ -149,6 +163,7 @@ class Clicks(Session):
 
         def drag(*offsets):
             page.mouse(*(page.pixel(begin + offset, eye, begin, FIELD) for offset in offsets), drag=True)
+
         drag((0.0, 0.62, 0.0), (0.0, 0.3, 0.0), (0.0, -0.1, 0.0))  # the arrow behind the box, seen and gripped through it
         wait(lambda: position("box")[1] < begin[1] - 0.1, "moved along y")
         np.testing.assert_allclose(position("box"), begin - (0.0, 0.75, 0.0), atol=1e-3)
@@ -196,6 +211,7 @@ class Clicks(Session):
 
         def drag(*offsets):
             page.mouse(*(page.pixel(begin + offset, eye, begin, FIELD) for offset in offsets), drag=True)
+
         page.fill("Snap to (m)", 0.25)
         before = page.scene()
         page.check("Resize by hand")
@@ -316,16 +332,23 @@ class Clicks(Session):
     def test_5b_controllers_are_listed_stopped_and_commanded(self):
         """The controller manager is the test's; so are the names."""
         asked, told = [], []
-        state = ControllerState(name="door_controller", type="position_controllers/JointPositionController", state="running",
-                                claimed_resources=[HardwareInterfaceResources("position", ["hinge"])])
+        state = ControllerState(
+            name="door_controller",
+            type="position_controllers/JointPositionController",
+            state="running",
+            claimed_resources=[HardwareInterfaceResources("position", ["hinge"])],
+        )
         other = ControllerState(name=EVIL, type="x/Y", state="stopped")
 
         def switch(request):
             asked.append((request.start_controllers, request.stop_controllers))
             state.state = "running" if request.start_controllers else "stopped"
             return SwitchControllerResponse(ok=True)
-        services = [rospy.Service("/lab/controller_manager/list_controllers", ListControllers, lambda _: [[state, other]]),
-                    rospy.Service("/lab/controller_manager/switch_controller", SwitchController, switch)]
+
+        services = [
+            rospy.Service("/lab/controller_manager/list_controllers", ListControllers, lambda _: [[state, other]]),
+            rospy.Service("/lab/controller_manager/switch_controller", SwitchController, switch),
+        ]
         rospy.Subscriber("/lab/door_controller/command", Float64, lambda message: told.append(message.data))
         page = self.page
         page.click("Controllers")
@@ -358,6 +381,7 @@ class Clicks(Session):
 
         def at(x, y):  # seen from above; see BuildingPanel._look
             return page.pixel((x, y, 0.0), (0.0, -0.01, 13.0), (0.0, 0.0, 0.0), FIELD)
+
         page.settled(before)
         page.mouse(at(*CORNERS[0]), at(*CORNERS[1]), drag=True)
         page.see("1 wall on 1 level")
@@ -370,10 +394,10 @@ class Clicks(Session):
         page.click("Save")
         page.see("saved in")
         folder = os.path.join(self.home.name, "building_editor_models", "room")
-        self.assertEqual(sorted(os.listdir(folder)), ["model.config", "model.sdf", "plan.yaml", "preview.png",
-                                                      "room.world"])
+        self.assertEqual(sorted(os.listdir(folder)), ["model.config", "model.sdf", "plan.yaml", "preview.png", "room.world"])
         from building_editor.building import read_plan
-        level, = read_plan(os.path.join(folder, "plan.yaml")).levels
+
+        (level,) = read_plan(os.path.join(folder, "plan.yaml")).levels
         np.testing.assert_allclose([wall.start for wall in level.walls], CORNERS, atol=1e-6)
         np.testing.assert_allclose([wall.end for wall in level.walls], [*CORNERS[1:], CORNERS[0]], atol=1e-6)
         np.testing.assert_allclose([wall.length for wall in level.walls], (8.35, 4.85, 6.35, 2.35, 4.85, 1.85, 0.6, 2.8504), atol=1e-4)
@@ -408,16 +432,24 @@ class Clicks(Session):
         """Another user of this machine, by http and by the websocket that all of the page goes through, and a browser of his."""
         address, token = self.page.address.split("?token=")
         place = urlsplit(address)
-        upgrade = {"Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13",
-                   "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ=="}
-        asked = [(path, {**more, **words}) for path in ("/", "/?token=", f"/?token={token[:-1]}", "/index.html", "//", "/x/../")
-                 for more in ({}, upgrade) for words in ({}, {"Origin": address.rstrip("/")}, {"Cookie": "viewer_0=x"})]
+        upgrade = {
+            "Connection": "Upgrade",
+            "Upgrade": "websocket",
+            "Sec-WebSocket-Version": "13",
+            "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ==",
+        }
+        asked = [
+            (path, {**more, **words})
+            for path in ("/", "/?token=", f"/?token={token[:-1]}", "/index.html", "//", "/x/../")
+            for more in ({}, upgrade)
+            for words in ({}, {"Origin": address.rstrip("/")}, {"Cookie": "viewer_0=x"})
+        ]
         asked += [(f"/?token={token}", {"Host": "evil.example"}), (f"/?token={token}", {**upgrade, "Origin": "http://evil.example"})]
         self.assertEqual(strangers(place.port, asked), [403] * len(asked))
         with Browser(address, frames=2) as other:
             other.see("open this page with the address that the terminal printed")
             self.assertNotIn("Iterations", other.text())
-        (status, cookie), = strangers(place.port, [(f"/?token={token}", {})], cookies=True)
+        ((status, cookie),) = strangers(place.port, [(f"/?token={token}", {})], cookies=True)
         self.assertEqual(status, 303)
         self.assertEqual(strangers(place.port, [("/", {"Cookie": cookie}), ("/", {"Cookie": cookie, **upgrade})]), [200, 101])
         shown = [words for words in map(command_line, filter(str.isdigit, os.listdir("/proc"))) if "gzclient" in words and token in words]

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The simulator as its window sees it: stream and services."""
+
 import time
 import unittest
 
@@ -9,6 +10,7 @@ import rospy
 import rostest
 from gazebo_msgs.srv import GetModelState, GetWorldProperties
 from gazebo_ros.srv import CommandJoint, CommandJointRequest
+from gzclient.ros_simulation import RosSimulation
 from ode_sim import World, math3
 from ode_sim.description import model as d
 from ode_sim.description.sdf_writer import light_text
@@ -16,8 +18,6 @@ from ode_sim.math3 import Pose
 from ode_sim.viewer import Refused
 from ode_sim.viewer.simulation import SurfaceProperties
 from std_srvs.srv import Empty
-
-from gzclient.ros_simulation import RosSimulation
 
 PATIENCE = 180.0  # s, on a machine that does other things too
 EVIL = "<img src=x onerror=document.title='owned'>"
@@ -115,6 +115,7 @@ class Stream(unittest.TestCase):
 
     def test_mass_physics_and_light_are_set(self):
         from dataclasses import replace
+
         now = self.simulation.link_properties("box", "link")
         self.assertEqual(now.mass, 2.0)
         self.simulation.set_link_properties("box", "link", replace(now, mass=3.0, gravity=True))
@@ -122,8 +123,7 @@ class Stream(unittest.TestCase):
         physics, gravity = self.simulation.physics()
         self.simulation.set_physics(replace(physics, iters=77, max_contacts=9, contact_surface_layer=0.002), (0.0, 0.0, -5.0))
         now = self.simulation.physics()
-        self.assertEqual((now[0].iters, now[0].max_contacts, now[0].contact_surface_layer, now[1]),
-                         (77, 9, 0.002, (0.0, 0.0, -5.0)))
+        self.assertEqual((now[0].iters, now[0].max_contacts, now[0].contact_surface_layer, now[1]), (77, 9, 0.002, (0.0, 0.0, -5.0)))
         self.simulation.set_physics(physics, gravity)
         light = self.simulation.describe().lights[0]
         self.simulation.set_light(replace(light, diffuse=(1.0, 0.0, 0.0, 1.0)))
@@ -156,13 +156,12 @@ class Stream(unittest.TestCase):
         self.frame(lambda frame: frame.iterations == before.iterations and frame.paused)
         self.simulation.step(300)
         with self.assertRaisesRegex(Refused, "not kept"):
-            self.simulation.go_back(10 ** 6)
+            self.simulation.go_back(10**6)
         self.simulation.record(0.1)
         self.simulation.step(500)
         self.simulation.record(0.0)
         self.assertGreaterEqual(len(self.simulation.moments()), 5)
-        self.simulation.insert("late", "<sdf version='1.6'><model name='x'><static>1</static><link name='l'/></model>"
-                               "</sdf>", Pose())
+        self.simulation.insert("late", "<sdf version='1.6'><model name='x'><static>1</static><link name='l'/></model></sdf>", Pose())
         self.assertEqual(self.simulation.moments(), ())
         self.simulation.delete("late")
 
@@ -175,6 +174,7 @@ class Stream(unittest.TestCase):
         def borne():
             found = self.simulation.contacts()
             return abs(np.abs(found[:, 5]).sum() - 9.8 * mass) < 0.2 * mass
+
         wait(borne, "contacts that bear the box")
         self.simulation.watch_contacts(False)
         wait(lambda: not streams("/gazebo/view_contacts"), "the end of the stream of contacts")
@@ -190,11 +190,14 @@ class Stream(unittest.TestCase):
         self.assertEqual(self.simulation.describe().model("box").description.links[0].visuals, look)
         self.simulation.set_surface("box", "link", SurfaceProperties(0.3, 0.4, 0.1))
         self.assertEqual(self.simulation.surface("box", "link"), SurfaceProperties(0.3, 0.4, 0.1))
-        for wrong in (lambda: self.simulation.paint("nobody", "", (1.0, 0.0, 0.0, 1.0)),
-                      lambda: self.simulation.set_looks("nobody", {}), lambda: self.simulation.set_looks("box", {"link": (1.0,)}),
-                      lambda: self.simulation.set_surface("box", "link", SurfaceProperties(-1.0, 0.0, 0.0)),
-                      lambda: self.simulation.set_surface("box", "link", SurfaceProperties(float("nan"), 0.0, 0.0)),
-                      lambda: self.simulation.surface("door", "frame")):
+        for wrong in (
+            lambda: self.simulation.paint("nobody", "", (1.0, 0.0, 0.0, 1.0)),
+            lambda: self.simulation.set_looks("nobody", {}),
+            lambda: self.simulation.set_looks("box", {"link": (1.0,)}),
+            lambda: self.simulation.set_surface("box", "link", SurfaceProperties(-1.0, 0.0, 0.0)),
+            lambda: self.simulation.set_surface("box", "link", SurfaceProperties(float("nan"), 0.0, 0.0)),
+            lambda: self.simulation.surface("door", "frame"),
+        ):
             with self.assertRaises(Refused):
                 wrong()
 

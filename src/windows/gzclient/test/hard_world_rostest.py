@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The window under what it has to bear: broken meshes, malicious names, reconnects, three pages, a slow network, and a server that comes
 back with a world of a million triangles. By clicks in a real browser."""
+
 import contextlib
 import os
 import shutil
@@ -37,8 +38,9 @@ class HardWorld(Session):
         cls.folder = tempfile.mkdtemp(prefix="hard_world_")
         cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
         named = NAMED.format(escape(EVIL, quote=True))
-        cls.WORLD = write_world(os.path.join(cls.folder, "hard.world"), RED + named + broken_bodies(cls.folder) + swinging_balls(12),
-                                escape(EVIL, quote=True))
+        cls.WORLD = write_world(
+            os.path.join(cls.folder, "hard.world"), RED + named + broken_bodies(cls.folder) + swinging_balls(12), escape(EVIL, quote=True)
+        )
         super().setUpClass()
 
     def not_owned(self):
@@ -118,8 +120,10 @@ class HardWorld(Session):
             for page in pages:
                 wait(lambda page=page: "red" not in page.text().split("\n"), "a world without the red ball")
             second.close()  # it takes the controls along with it
-            wait(lambda: not third.driver.execute_script("return [...document.querySelectorAll('input[type=checkbox]')][0].checked"),
-                 "the controls are free, and the box says so")
+            wait(
+                lambda: not third.driver.execute_script("return [...document.querySelectorAll('input[type=checkbox]')][0].checked"),
+                "the controls are free, and the box says so",
+            )
             third.click("Undo")
             for page in (first, third):
                 wait(lambda page=page: "red" in page.text().split("\n"), "the red ball again")
@@ -130,8 +134,7 @@ class HardWorld(Session):
 
     def test_5_a_slow_network(self):
         address = urlsplit(self.page.address)
-        with SlowNetwork(address.port) as network, \
-                Browser(f"http://localhost:{network.port}/?{address.query}", frames=2) as page:
+        with SlowNetwork(address.port) as network, Browser(f"http://localhost:{network.port}/?{address.query}", frames=2) as page:
             page.see("real-time factor", "b9")
             for _ in range(3):
                 page.click("Pause")

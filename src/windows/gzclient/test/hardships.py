@@ -1,4 +1,5 @@
 """What a page has to bear: meshes that are broken, worlds that are large, networks that are slow."""
+
 import contextlib
 import math
 import os
@@ -7,19 +8,30 @@ import struct
 import threading
 import time
 
-WORLD = ("<sdf version='1.6'><world name='{name}'><include><uri>model://sun</uri></include>"
-         "<include><uri>model://ground_plane</uri></include>{models}</world></sdf>")
-LINK = ("<model name='{name}'><pose>{x} {y} {z} 0 0 0</pose><link name='l'><inertial><mass>1</mass><inertia><ixx>0.01</ixx>"
-        "<iyy>0.01</iyy><izz>0.01</izz></inertia></inertial><collision name='c'><geometry><sphere><radius>0.3</radius></sphere>"
-        "</geometry></collision><visual name='v'><geometry>{shape}</geometry></visual></link></model>")
+WORLD = (
+    "<sdf version='1.6'><world name='{name}'><include><uri>model://sun</uri></include>"
+    "<include><uri>model://ground_plane</uri></include>{models}</world></sdf>"
+)
+LINK = (
+    "<model name='{name}'><pose>{x} {y} {z} 0 0 0</pose><link name='l'><inertial><mass>1</mass><inertia><ixx>0.01</ixx>"
+    "<iyy>0.01</iyy><izz>0.01</izz></inertia></inertial><collision name='c'><geometry><sphere><radius>0.3</radius></sphere>"
+    "</geometry></collision><visual name='v'><geometry>{shape}</geometry></visual></link></model>"
+)
 BALL = "<sphere><radius>0.3</radius></sphere>"
-PENDULUM = ("<model name='{name}'><pose>{x} {y} 2 0 0 0</pose><link name='l'><inertial><pose>0.8 0 0 0 0 0</pose><mass>1</mass><inertia>"
-            "<ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia></inertial><visual name='v'><pose>0.8 0 0 0 0 0</pose><geometry>"
-            "{shape}</geometry></visual></link><joint name='j' type='revolute'><parent>world</parent><child>l</child><axis>"
-            "<xyz>0 1 0</xyz></axis></joint></model>")
-BROKEN = {"cut.stl": bytes(80) + struct.pack("<I", 4_000_000) + b"x" * 500, "text.dae": b"<COLLADA><open>", "none.obj": b"",
-          "nan.stl": bytes(80) + struct.pack("<I", 1) + struct.pack("<12fH", *[float("nan")] * 12, 0),
-          "far.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99\n", "missing.dae": None}
+PENDULUM = (
+    "<model name='{name}'><pose>{x} {y} 2 0 0 0</pose><link name='l'><inertial><pose>0.8 0 0 0 0 0</pose><mass>1</mass><inertia>"
+    "<ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia></inertial><visual name='v'><pose>0.8 0 0 0 0 0</pose><geometry>"
+    "{shape}</geometry></visual></link><joint name='j' type='revolute'><parent>world</parent><child>l</child><axis>"
+    "<xyz>0 1 0</xyz></axis></joint></model>"
+)
+BROKEN = {
+    "cut.stl": bytes(80) + struct.pack("<I", 4_000_000) + b"x" * 500,
+    "text.dae": b"<COLLADA><open>",
+    "none.obj": b"",
+    "nan.stl": bytes(80) + struct.pack("<I", 1) + struct.pack("<12fH", *[float("nan")] * 12, 0),
+    "far.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99\n",
+    "missing.dae": None,
+}
 
 
 def write_world(file, models, name="default"):
@@ -62,10 +74,12 @@ def heavy_bodies(folder):
 
 def sphere_file(file, rows, columns):
     """A binary STL of rows x columns x 2 triangles."""
+
     def point(row, column):
         polar, turn = math.pi * row / rows, 2 * math.pi * column / columns
         radius = 0.3 * (1 + 0.1 * math.sin(9 * turn) * math.sin(7 * polar))
         return (radius * math.sin(polar) * math.cos(turn), radius * math.sin(polar) * math.sin(turn), radius * math.cos(polar))
+
     with open(file, "wb") as stream:
         stream.write(bytes(80) + struct.pack("<I", 2 * rows * columns))
         for row in range(rows):

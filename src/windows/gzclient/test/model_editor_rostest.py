@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The model editor in a real browser: a pendulum on a post is made by clicks, saved, spawned from its folder, and swings."""
+
 import os
 import shutil
 import sys
@@ -95,6 +96,7 @@ class Editor(Session):
             self.page.click("Save model")
             self.page.see("saved in")
             return os.path.exists(self.folder("swing", "model.sdf"))
+
         wait(there, "swing saved")
         return ET.parse(self.folder("swing", "model.sdf")).getroot().find("model")
 
@@ -108,6 +110,7 @@ class Editor(Session):
 
         def place():
             return np.array(self.saved().find("link[@name='flag']/pose").text.split(), float)
+
         wait(lambda: place()[2] > 0.7, "the flag moved up")
         np.testing.assert_allclose(place(), (1.0, 0.0, 0.8, 0.0, 0.0, 0.0), atol=0.01)
         page.click("Undo")
@@ -124,10 +127,12 @@ class Editor(Session):
         page.see("1 plugin")
         model = self.saved()
         self.assertEqual([link.get("name") for link in model.findall("link")], ["post", "flag"])
-        self.assertEqual([(joint.get("type"), joint.findtext("parent"), joint.findtext("child")) for joint in model.findall("joint")],
-                         [("revolute", "post", "flag"), ("fixed", "world", "post")])
+        self.assertEqual(
+            [(joint.get("type"), joint.findtext("parent"), joint.findtext("child")) for joint in model.findall("joint")],
+            [("revolute", "post", "flag"), ("fixed", "world", "post")],
+        )
         self.assertEqual(model.findtext("plugin/topicName"), "flag_truth")
-        self.assertAlmostEqual(float(model.findtext("link[@name='post']/inertial/inertia/ixx")), (0.2 ** 2 + 1.0) / 12, places=6)
+        self.assertAlmostEqual(float(model.findtext("link[@name='post']/inertial/inertia/ixx")), (0.2**2 + 1.0) / 12, places=6)
         self.assertEqual([float(part) for part in model.findtext("link[@name='flag']/inertial/pose").split()[:3]], [0.3, 0.0, 0.0])
         self.assertEqual({uri.text for uri in model.iter("uri") if uri.text.endswith(".stl")}, {"model://swing/meshes/flag.stl"})
         wait(lambda: sorted(os.listdir(self.folder("swing"))) == ["meshes", "model.config", "model.sdf"], "three files")
@@ -156,8 +161,9 @@ class Editor(Session):
             answer = call("spawn_sdf_model", SpawnModel, "moved", stream.read(), "/moved", Pose(), "world")
         self.assertTrue(answer.success, answer.status_message)
         flag = next(link for link in world().model("moved").description.links if link.name == "flag")
-        self.assertEqual([part.geometry.path for part in (*flag.visuals, *flag.collisions)],
-                         2 * [os.path.join(elsewhere, "meshes", "flag.stl")])
+        self.assertEqual(
+            [part.geometry.path for part in (*flag.visuals, *flag.collisions)], 2 * [os.path.join(elsewhere, "meshes", "flag.stl")]
+        )
         shutil.copytree(elsewhere, self.folder("swing"))
         page.click("Model")
         page.check("Edit a model")

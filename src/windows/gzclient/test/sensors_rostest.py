@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """What the window shows of sensors, topics and physics, and what it keeps of the scene: in a real browser, by clicks."""
+
 import os
 import sys
 import time
@@ -19,8 +20,14 @@ from browser import Browser, pixels, share, wait  # noqa: E402
 from session import Session, call, paused, sim_time  # noqa: E402
 
 EVIL = "/<img/src='x'/onerror=document.title='owned'>"  # a topic that the master takes
-KINDS = {"Laser scans": ("/scan", (30, 60, 255)), "Sonars": ("/sonar", (255, 140, 0)), "Bumpers": ("/bumper", (220, 30, 160)),
-         "Wrenches": ("/wrench", (120, 60, 220)), "Cameras": ("/cam/image_raw", None), "Depth clouds": ("/deep/points", None)}
+KINDS = {
+    "Laser scans": ("/scan", (30, 60, 255)),
+    "Sonars": ("/sonar", (255, 140, 0)),
+    "Bumpers": ("/bumper", (220, 30, 160)),
+    "Wrenches": ("/wrench", (120, 60, 220)),
+    "Cameras": ("/cam/image_raw", None),
+    "Depth clouds": ("/deep/points", None),
+}
 
 
 def physics():
@@ -37,7 +44,7 @@ def coarse(png):
     """Means of squares of 16 pixels: the page draws edges and lines finer when it has time to."""
     seen = pixels(png)
     rows, columns = seen.shape[0] // 16, seen.shape[1] // 16
-    return seen[:16 * rows, :16 * columns].reshape(rows, 16, columns, 16, 3).mean(axis=(1, 3))
+    return seen[: 16 * rows, : 16 * columns].reshape(rows, 16, columns, 16, 3).mean(axis=(1, 3))
 
 
 def differ(one, other):
@@ -81,6 +88,7 @@ class Sensors(Session):
 
         def drawn(since, now):
             return differ(now, since) if colour is None else share(now, colour) - share(since, colour)
+
         page.check(kind)
         wait(lambda: listened(topic), f"{topic} is listened to")
         wait(lambda: drawn(before, page.scene()) > (4 if colour is None else 30), kind)
@@ -94,14 +102,17 @@ class Sensors(Session):
             """It looks more as before than as with what was drawn."""
             now = page.scene()
             return abs(drawn(before, now)) < 0.5 * abs(drawn(shown, now))
+
         wait(gone, f"a view without {kind}")
 
     def at_rest(self):
         """The scene, once it is drawn as the simulation is now."""
+
         def still():
             first = self.page.scene()
             time.sleep(1.5)
             return first if differ(first, self.page.scene()) < 2 else None
+
         return wait(still, "a scene at rest")
 
     def test_3_topics_as_picture_text_and_plot(self):
@@ -114,8 +125,12 @@ class Sensors(Session):
         page.click("Look for topics")
         page.choose("Topic", "/cam/image_raw")
         page.see("/cam/image_raw (sensor_msgs/Image)")
-        wait(lambda: page.driver.execute_script(
-            "return [...document.images].filter(i => i.naturalWidth === 160 && i.naturalHeight === 120).length"), "the picture")
+        wait(
+            lambda: page.driver.execute_script(
+                "return [...document.images].filter(i => i.naturalWidth === 160 && i.naturalHeight === 120).length"
+            ),
+            "the picture",
+        )
         page.choose("Topic", "/sonar")
         page.see("radiation_type: 0", "range: ")
         page.fill("Plot", "rnage")
@@ -162,6 +177,7 @@ class Sensors(Session):
 
     def test_6_a_film_shows_what_moved(self):
         import cv2
+
         self.page.click("Film")
         film, pictures = cv2.VideoCapture(self.kept("Stop and keep the film", ".mp4")), []
         while (read := film.read())[0]:

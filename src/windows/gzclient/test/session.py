@@ -1,4 +1,5 @@
 """A simulator and its window as a user starts them, for tests by real clicks; what a click did is asked by ROS."""
+
 import contextlib
 import os
 import signal
@@ -68,8 +69,10 @@ def streams(topic="/gazebo/view"):
 
 def errors(page):
     """Lines of its console that say that something is wrong."""
-    usual = ("Unable to preventDefault inside passive event listener",  # three.js's own, at every press on the scene
-             "Tried to update non-existent component")  # viser's own, of a control that goes while it is set
+    usual = (
+        "Unable to preventDefault inside passive event listener",  # three.js's own, at every press on the scene
+        "Tried to update non-existent component",
+    )  # viser's own, of a control that goes while it is set
     return [line for line in page.complaints() if not any(word in line for word in usual)]
 
 
@@ -101,8 +104,7 @@ class Session(unittest.TestCase):
     def start(cls, *words, stdout=subprocess.DEVNULL):
         """Without a display, in a home folder of the test's, to the end of the tests at most."""
         environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
-        process = subprocess.Popen(words, text=True, start_new_session=True, env={**environment, "HOME": cls.home.name},
-                                   stdout=stdout)
+        process = subprocess.Popen(words, text=True, start_new_session=True, env={**environment, "HOME": cls.home.name}, stdout=stdout)
         cls.addClassCleanup(cls.end, process)
         return process
 
@@ -122,6 +124,7 @@ class Session(unittest.TestCase):
             return
         if os.environ.get("BROWSER_SHOTS"):
             from selenium.common.exceptions import WebDriverException
+
             with contextlib.suppress(WebDriverException):  # the browser is busy: the test was about something else
                 self.page.shot(os.path.join(os.environ["BROWSER_SHOTS"], f"{self._testMethodName}.png"))
         self.assertEqual(errors(self.page), [])

@@ -1,4 +1,5 @@
 """The building editor in a page without a browser: the events that a hand makes, what is drawn, saved, put into the world."""
+
 import io
 import os
 import types
@@ -10,16 +11,23 @@ from ode_sim.description import model as d
 
 pytest.importorskip("viser")
 
+from gzclient.building.plan import Element  # noqa: E402
+from gzclient.panels.building import BuildingPanel  # noqa: E402
 from ode_sim.viewer import LocalSimulation, Page  # noqa: E402
 from PIL import Image  # noqa: E402
 
-from gzclient.building.plan import Element  # noqa: E402
-from gzclient.panels.building import BuildingPanel  # noqa: E402
-
 # the room of the mobile robot's course: where its walls meet; and of each wall length, middle x and y, yaw
 CORNERS = ((-3.17, -4.17), (5.18, -4.17), (5.18, 0.68), (-1.17, 0.68), (-1.17, -1.67), (-6.02, -1.67), (-6.02, -3.52), (-6.02, -4.12))
-ROOM = ((8.5, 1.005, -4.17, 0.0), (5.0, 5.18, -1.745, 90.0), (6.5, 2.005, 0.68, 180.0), (2.5, -1.17, -0.495, -90.0),
-        (5.0, -3.595, -1.67, 180.0), (2.0, -6.02, -2.595, -90.0), (0.75, -6.02, -3.82, -90.0), (3.00044, -4.595, -4.145, -1.00508))
+ROOM = (
+    (8.5, 1.005, -4.17, 0.0),
+    (5.0, 5.18, -1.745, 90.0),
+    (6.5, 2.005, 0.68, 180.0),
+    (2.5, -1.17, -0.495, -90.0),
+    (5.0, -3.595, -1.67, 180.0),
+    (2.0, -6.02, -2.595, -90.0),
+    (0.75, -6.02, -3.82, -90.0),
+    (3.00044, -4.595, -4.145, -1.00508),
+)
 
 
 class Client:
@@ -110,7 +118,10 @@ def test_a_number_moves_what_was_there_when_it_was_picked(editor):
         use(panel._place._to, client, typed)
         turn(page)
     assert [(wall.start, wall.end) for wall in panel._plan.building().levels[0].walls] == [
-        ((0.0, 0.0), (1.5, 0.5)), ((1.5, 0.5), (4.0, 3.0)), ((1.0, 5.0), (2.0, 5.0))]
+        ((0.0, 0.0), (1.5, 0.5)),
+        ((1.5, 0.5), (4.0, 3.0)),
+        ((1.0, 5.0), (2.0, 5.0)),
+    ]
     use(panel._place._to, client, (0.0, 0.0))
     turn(page)
     assert "two different ends" in panel._note.content
@@ -135,7 +146,7 @@ def test_clicks_make_a_path_that_a_click_on_its_end_ends(editor):
     for x, y in ((0.0, 0.0), (3.1, 0.1), (3.0, 2.1), (3.02, 1.95)):
         click(page, panel, client, x, y)
     assert panel._start is None and "/plan_ghost" not in nodes(page)
-    level, = panel._plan.building().levels
+    (level,) = panel._plan.building().levels
     assert [wall.end for wall in level.walls] == [(3.0, 0.0), (3.0, 2.0)]
     assert {"/plan/w0_0", "/plan/w0_1", "/plan/sheet"} <= nodes(page)
 

@@ -1,18 +1,21 @@
 """What the sliders of a controller send."""
+
 import numpy as np
 import pytest
 from control_msgs.msg import GripperCommandActionGoal
 from four_wheel_steering_msgs.msg import FourWheelSteering
 from geometry_msgs.msg import Twist
-from ode_sim.description import model as d, read_model
+from gzclient.controller_commands import command_of, joints_of
+from ode_sim.description import model as d
+from ode_sim.description import read_model
 from ode_sim.viewer.simulation import Frame, ModelRecord, WorldRecord
 from std_msgs.msg import Float64, Float64MultiArray
 
-from gzclient.controller_commands import command_of, joints_of
-
 NAMES = ("lift", "turn")
-JOINTS = (d.Joint("turn", "revolute", "base", "arm", axes=(d.Axis(lower=-1.0, upper=2.0, effort=30.0, velocity=4.0),)),
-          d.Joint("lift", "prismatic", "arm", "hand", axes=(d.Axis(lower=0.0, upper=0.5, effort=200.0),)))
+JOINTS = (
+    d.Joint("turn", "revolute", "base", "arm", axes=(d.Axis(lower=-1.0, upper=2.0, effort=30.0, velocity=4.0),)),
+    d.Joint("lift", "prismatic", "arm", "hand", axes=(d.Axis(lower=0.0, upper=0.5, effort=200.0),)),
+)
 KNOWN = {"turn": (JOINTS[0], 0.5), "lift": (JOINTS[1], 0.1)}
 
 
@@ -65,9 +68,15 @@ def test_a_gripper_is_sent_to_a_place_with_the_force_of_its_joint():
     assert (goal.position, goal.max_effort) == (0.7, 30.0)
 
 
-@pytest.mark.parametrize("kind, names", (("joint_state_controller/JointStateController", ()), ("x/Y", NAMES),
-                                         ("position_controllers/JointPositionController", ("gone",)),
-                                         ("position_controllers/GripperActionController", ("gone",))))
+@pytest.mark.parametrize(
+    "kind, names",
+    (
+        ("joint_state_controller/JointStateController", ()),
+        ("x/Y", NAMES),
+        ("position_controllers/JointPositionController", ("gone",)),
+        ("position_controllers/GripperActionController", ("gone",)),
+    ),
+)
 def test_others_have_no_sliders(kind, names):
     assert command_of(kind, names, KNOWN) is None
 
@@ -76,6 +85,7 @@ def robot(name, namespace, rows):
     text = f"""<sdf version='1.6'><model name='{name}'><link name='l'/><plugin name='c' filename='libgazebo_ros_control.so'>
         <robotNamespace>{namespace}</robotNamespace></plugin></model></sdf>"""
     from dataclasses import replace
+
     return ModelRecord(name, replace(read_model(text)[0], joints=JOINTS), joints=dict(zip(("turn", "lift"), rows)))
 
 

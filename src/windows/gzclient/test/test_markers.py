@@ -1,4 +1,5 @@
 """RViz's markers in a page without a browser: every type, changed and taken away; those that nobody can draw."""
+
 import types
 
 import numpy as np
@@ -33,8 +34,9 @@ LINE = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0))
 
 @pytest.fixture
 def page():
-    page = Page(LocalSimulation(World(d.World(models=(shape_model("box", d.Box()),))), paused=True), port=0,
-                panels=(panel_module.MarkersPanel,))
+    page = Page(
+        LocalSimulation(World(d.World(models=(shape_model("box", d.Box()),))), paused=True), port=0, panels=(panel_module.MarkersPanel,)
+    )
     while page.frame is None:
         page.turn()
     yield page
@@ -55,8 +57,9 @@ def test_every_type_is_drawn_and_deleted(page, drawn, kind, tmp_path):
     made = marker(kind, points=LINE if kind not in (0, 1, 2, 3, 9, 10) else (), text="a <b>label</b>")
     if kind == Marker.MESH_RESOURCE:
         made.mesh_resource = "package://p/a.stl"
-        (tmp_path / "a.stl").write_text("solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 2 0 0\nvertex 0 1 0\n"
-                                        "endloop\nendfacet\nendsolid t\n")
+        (tmp_path / "a.stl").write_text(
+            "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 2 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid t\n"
+        )
         drawn = Markers(page.server.scene, "/mk", lambda uri: str(tmp_path / "a.stl"))
     drawn.take(made, 0.0)
     assert nodes(page)[:2] == ["/mk_f0", "/mk_f0/1"]
@@ -69,6 +72,7 @@ def test_sizes_are_diameters_and_lines_join_points(page, drawn):
         drawn.take(marker(3, action=3), 0.0)
         drawn.take(marker(kind, points=points), 0.0)
         return next(iter(drawn._kept.values())).node
+
     assert node(Marker.SPHERE).scale == (0.5, 1.0, 1.5) and node(Marker.CYLINDER).scale == (0.5, 1.0, 3.0)
     assert node(Marker.CUBE).scale == (1.0, 2.0, 3.0)
     np.testing.assert_allclose(node(Marker.LINE_STRIP, LINE).points, [LINE[:2], LINE[1:]])
@@ -102,12 +106,19 @@ def test_frames_carry_their_markers_and_lifetimes_end(page, drawn):
     assert not len(drawn)
 
 
-@pytest.mark.parametrize("wrong, said", [
-    (marker(99), "no type 99"), (marker(action=7), "no action 7"), (marker(Marker.LINE_STRIP), "0 points"),
-    (marker(points=((NAN, 0.0, 0.0),)), "nan"), (marker(scale=Vector3(NAN, 1.0, 1.0)), "nan"),
-    (marker(Marker.POINTS, points=LINE, colors=[ColorRGBA()]), "1 colours for 3"),
-    (marker(Marker.MESH_RESOURCE, mesh_resource="file:///etc/passwd"), "package://"),
-    (marker(Marker.MESH_RESOURCE, mesh_resource="package://nobody/x.stl"), "no mesh")])
+@pytest.mark.parametrize(
+    "wrong, said",
+    [
+        (marker(99), "no type 99"),
+        (marker(action=7), "no action 7"),
+        (marker(Marker.LINE_STRIP), "0 points"),
+        (marker(points=((NAN, 0.0, 0.0),)), "nan"),
+        (marker(scale=Vector3(NAN, 1.0, 1.0)), "nan"),
+        (marker(Marker.POINTS, points=LINE, colors=[ColorRGBA()]), "1 colours for 3"),
+        (marker(Marker.MESH_RESOURCE, mesh_resource="file:///etc/passwd"), "package://"),
+        (marker(Marker.MESH_RESOURCE, mesh_resource="package://nobody/x.stl"), "no mesh"),
+    ],
+)
 def test_what_cannot_be_drawn_says_why_and_leaves_nothing(page, drawn, wrong, said):
     drawn.take(marker(), 0.0)
     with pytest.raises(Unfit, match=said):
@@ -127,8 +138,11 @@ def test_a_file_outside_is_never_asked_for(page):
 def test_the_tab_shows_topics_that_are_chosen(page, monkeypatch):
     subscribed = {}
     ended = []
-    monkeypatch.setattr(rospy, "Subscriber", lambda topic, cls, take, **_: subscribed.update({topic: take}) or (
-        types.SimpleNamespace(unregister=lambda: ended.append(topic))))
+    monkeypatch.setattr(
+        rospy,
+        "Subscriber",
+        lambda topic, cls, take, **_: subscribed.update({topic: take}) or (types.SimpleNamespace(unregister=lambda: ended.append(topic))),
+    )
     panel = page.panels[-1]
     panel.list({"/many": MarkerArray, "/<b>one": Marker})
     client = types.SimpleNamespace(add_notification=lambda *_, **__: None)
@@ -139,6 +153,7 @@ def test_the_tab_shows_topics_that_are_chosen(page, monkeypatch):
         for callback in list(box._impl.update_cb):
             callback(types.SimpleNamespace(client=client, client_id=1, target=box))
         page._do_jobs()
+
     check("/many", True)
     assert {"/many", "/tf", "/tf_static"} == set(subscribed)
     on_link, lost = marker(number=1), marker(number=2)

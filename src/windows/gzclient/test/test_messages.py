@@ -1,17 +1,18 @@
 """What the tabs make of messages: pictures, plots, scans; options and the window's command. No master."""
+
 import math
 
 import numpy as np
 import pytest
-from ode_sim.description import model as d, read_model
-from ode_sim.math3 import Pose
-from ode_sim.viewer import ModelRecord, Refused, WorldRecord
-from sensor_msgs.msg import CompressedImage, Image, JointState, LaserScan, Range
-
 from gzclient import command_line, desktop
 from gzclient.images import picture_of
 from gzclient.panels.topics import number_at
 from gzclient.sensor_frames import field_of_view, find_frame, optical, range_cone, scan_points
+from ode_sim.description import model as d
+from ode_sim.description import read_model
+from ode_sim.math3 import Pose
+from ode_sim.viewer import ModelRecord, Refused, WorldRecord
+from sensor_msgs.msg import CompressedImage, Image, JointState, LaserScan, Range
 
 ROBOT = """<robot name="r"><link name="base"/><link name="eye"><inertial><mass value="1"/>
 <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
@@ -25,10 +26,16 @@ def image(encoding, data, width, height, step):
     return Image(encoding=encoding, data=data, width=width, height=height, step=step)
 
 
-@pytest.mark.parametrize("encoding, data, first", [
-    ("rgb8", [1, 2, 3, 4, 5, 6], (1, 2, 3)), ("bgr8", [1, 2, 3, 4, 5, 6], (3, 2, 1)),
-    ("8UC3", [1, 2, 3, 4, 5, 6], (3, 2, 1)),
-    ("mono8", [9, 8], (9, 9, 9)), ("rgba8", [1, 2, 3, 255, 4, 5, 6, 255], (1, 2, 3))])
+@pytest.mark.parametrize(
+    "encoding, data, first",
+    [
+        ("rgb8", [1, 2, 3, 4, 5, 6], (1, 2, 3)),
+        ("bgr8", [1, 2, 3, 4, 5, 6], (3, 2, 1)),
+        ("8UC3", [1, 2, 3, 4, 5, 6], (3, 2, 1)),
+        ("mono8", [9, 8], (9, 9, 9)),
+        ("rgba8", [1, 2, 3, 255, 4, 5, 6, 255], (1, 2, 3)),
+    ],
+)
 def test_pictures(encoding, data, first):
     assert tuple(picture_of(image(encoding, bytes(data), 2, 1, len(data)))[0, 0]) == first
 
@@ -48,10 +55,17 @@ def test_depth_without_a_value_is_black():
     assert not picture_of(image("32FC1", np.full((1, 2), np.nan, "<f4").tobytes(), 2, 1, 8)).any()
 
 
-@pytest.mark.parametrize("message, said", [
-    (image("rgb8", b"123", 2, 1, 6), "3 bytes of data"), (image("rgb8", b"123456", 2, 1, 3), "step is 3"),
-    (image("yuv9", b"1234", 2, 1, 4), "yuv9"), (image("rgb8", b"", 0, 0, 0), "0x0"),
-    (image("rgb8", b"", 100_000, 100_000, 300_000), "pixels"), (CompressedImage(format="jpeg", data=b"no"), "jpeg")])
+@pytest.mark.parametrize(
+    "message, said",
+    [
+        (image("rgb8", b"123", 2, 1, 6), "3 bytes of data"),
+        (image("rgb8", b"123456", 2, 1, 3), "step is 3"),
+        (image("yuv9", b"1234", 2, 1, 4), "yuv9"),
+        (image("rgb8", b"", 0, 0, 0), "0x0"),
+        (image("rgb8", b"", 100_000, 100_000, 300_000), "pixels"),
+        (CompressedImage(format="jpeg", data=b"no"), "jpeg"),
+    ],
+)
 def test_broken_pictures_are_refused(message, said):
     with pytest.raises(ValueError, match=said):
         picture_of(message)
@@ -84,13 +98,15 @@ def test_frames_of_sensors_are_found_also_when_their_link_was_merged(world):
 
 def test_an_optical_frame_looks_along_z():
     from ode_sim.math3 import rotate
+
     np.testing.assert_allclose(rotate(optical(Pose()), (0.0, 0.0, 1.0)), (1.0, 0.0, 0.0), atol=1e-12)
     np.testing.assert_allclose(rotate(optical(Pose()), (1.0, 0.0, 0.0)), (0.0, -1.0, 0.0), atol=1e-12)
 
 
 def test_scan_and_cone():
-    scan = LaserScan(angle_min=0.0, angle_increment=math.pi / 2, range_min=0.1, range_max=5.0,
-                     ranges=[1.0, 2.0, float("inf"), float("nan"), 0.01, 9.0])
+    scan = LaserScan(
+        angle_min=0.0, angle_increment=math.pi / 2, range_min=0.1, range_max=5.0, ranges=[1.0, 2.0, float("inf"), float("nan"), 0.01, 9.0]
+    )
     np.testing.assert_allclose(scan_points(scan), [[1, 0, 0], [0, 2, 0]], atol=1e-6)
     many = LaserScan(angle_increment=1e-4, range_max=5.0, ranges=[1.0] * 50_000)
     assert 1000 < len(scan_points(many)) <= 4000

@@ -1,17 +1,17 @@
 """The model editor: what a hand does to a model, files that Gazebo opens, and the tab in a page without a browser."""
+
 import os
 import shutil
 import types
 
 import numpy as np
 import pytest
+from gzclient.modelling import draft
+from gzclient.modelling.draft import Draft
 from ode_sim import World, math3
 from ode_sim.description import model as d
 from ode_sim.math3 import Pose
 from ode_sim.viewer import LocalSimulation, Page, Refused
-
-from gzclient.modelling import draft
-from gzclient.modelling.draft import Draft
 
 STL = b"""solid t
 facet normal 0 0 1
@@ -39,7 +39,7 @@ def test_links_joints_and_inertias_are_those_of_a_robot(tmp_path, monkeypatch):
     monkeypatch.setenv("HOME", str(tmp_path))
     made = pendulum()
     made.add_plugin("truth", "libgazebo_ros_p3d.so", "<bodyName>link_0</bodyName>")
-    assert made.link("link").inertial.ixx == pytest.approx(5.0 * (0.2 ** 2 + 1.0) / 12)
+    assert made.link("link").inertial.ixx == pytest.approx(5.0 * (0.2**2 + 1.0) / 12)
     target = made.save("swing")
     assert target == str(tmp_path / "model_editor_models" / "swing") and draft.names() == ["swing"]
     world = World()
@@ -50,13 +50,14 @@ def test_links_joints_and_inertias_are_those_of_a_robot(tmp_path, monkeypatch):
     for _ in range(500):
         joint.add_force(0.02)
         world.step()
-    assert joint.position() == pytest.approx(0.5 * 0.02 / 0.0539 * 0.5 ** 2, rel=0.02)
+    assert joint.position() == pytest.approx(0.5 * 0.02 / 0.0539 * 0.5**2, rel=0.02)
     assert model.links["link"].pose.p == pytest.approx((0.0, 0.0, 0.5))
     again = Draft.load("swing")
     assert [link.name for link in again.model.links] == ["link", "link_0"]
     assert again.model.plugins[0].element.findtext("bodyName") == "link_0"
     assert [(j.type, j.parent, j.child, j.axes) for j in again.model.joints] == [
-        (j.type, j.parent, j.child, j.axes) for j in made.model.joints]
+        (j.type, j.parent, j.child, j.axes) for j in made.model.joints
+    ]
 
 
 def test_a_joint_is_where_its_anchor_is(tmp_path, monkeypatch):
@@ -72,7 +73,8 @@ def test_a_joint_is_where_its_anchor_is(tmp_path, monkeypatch):
     for _ in range(100):
         world.step()
     assert joint.position() < 0.1 and math3.transform(world.models["rod"].links["link"].pose, (0.0, 0.0, 0.4)) == pytest.approx(
-        (0.0, 0.0, 0.9), abs=1e-4)
+        (0.0, 0.0, 0.9), abs=1e-4
+    )
     assert Draft.load("rod").model.joints[0].pose.p == (0.0, 0.0, 0.4)
 
 
@@ -93,17 +95,29 @@ def test_every_change_is_one_step_back():
     assert made.link("rod")
 
 
-@pytest.mark.parametrize("wrong", [
-    lambda m: m.add_joint("revolute", "link", "link"), lambda m: m.add_joint("revolute", "link_0", "link"),
-    lambda m: m.add_joint("revolute", "world", "link_0"), lambda m: m.add_joint("glue", "link", "link_0"),
-    lambda m: m.add_joint("revolute", "link", "nobody"),
-    lambda m: m.add_joint("ball", "world", "link", anchor=(float("nan"), 0.0, 0.0)),
-    lambda m: m.set_shape("link", d.Box((1.0, 1.0, -1.0)), 1.0),
-    lambda m: m.set_shape("link", d.Box(), float("nan")), lambda m: m.rename_link("link", "link_0"),
-    lambda m: m.rename_link("link", "<b>"), lambda m: m.add_plugin("p", "lib.so", "<open>"),
-    lambda m: m.add_plugin("", "", ""), lambda m: Draft().text("empty"), lambda m: m.save("../evil"),
-    lambda m: Draft.load("nowhere"), lambda m: draft.keep_mesh("m", "a.exe", b""),
-    lambda m: draft.keep_mesh("m", "a.stl", b"no mesh"), lambda m: draft.keep_mesh("../m", "a.stl", STL)])
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        lambda m: m.add_joint("revolute", "link", "link"),
+        lambda m: m.add_joint("revolute", "link_0", "link"),
+        lambda m: m.add_joint("revolute", "world", "link_0"),
+        lambda m: m.add_joint("glue", "link", "link_0"),
+        lambda m: m.add_joint("revolute", "link", "nobody"),
+        lambda m: m.add_joint("ball", "world", "link", anchor=(float("nan"), 0.0, 0.0)),
+        lambda m: m.set_shape("link", d.Box((1.0, 1.0, -1.0)), 1.0),
+        lambda m: m.set_shape("link", d.Box(), float("nan")),
+        lambda m: m.rename_link("link", "link_0"),
+        lambda m: m.rename_link("link", "<b>"),
+        lambda m: m.add_plugin("p", "lib.so", "<open>"),
+        lambda m: m.add_plugin("", "", ""),
+        lambda m: Draft().text("empty"),
+        lambda m: m.save("../evil"),
+        lambda m: Draft.load("nowhere"),
+        lambda m: draft.keep_mesh("m", "a.exe", b""),
+        lambda m: draft.keep_mesh("m", "a.stl", b"no mesh"),
+        lambda m: draft.keep_mesh("../m", "a.stl", STL),
+    ],
+)
 def test_what_cannot_be_is_refused_and_changes_nothing(wrong, tmp_path, monkeypatch):
     monkeypatch.setenv("HOME", str(tmp_path))
     made = pendulum()
@@ -124,7 +138,9 @@ def test_a_model_with_its_meshes_is_one_folder_that_can_be_moved(tmp_path, monke
     made.add_link(draft.keep_mesh("my_model", "../../a b.stl", STL), 2.0)
     other = made.add_link(draft.keep_mesh("my_model", "a b.stl", STL.replace(b"vertex 2", b"vertex 3")))
     assert made.add_link(draft.keep_mesh("my_model", "a b.stl", STL)) and folder_of(tmp_path, "my_model", "meshes") == [
-        "a b.stl", "a b_0.stl"]
+        "a b.stl",
+        "a b_0.stl",
+    ]
     target = made.save("thing")
     made.save("thing")
     assert folder_of(tmp_path, "thing", "meshes") == ["a b.stl", "a b_0.stl"]
@@ -141,11 +157,15 @@ def test_a_model_with_its_meshes_is_one_folder_that_can_be_moved(tmp_path, monke
 
 def test_a_model_that_is_saved_under_another_name_takes_along_what_its_meshes_name(tmp_path, monkeypatch):
     monkeypatch.setenv("HOME", str(tmp_path))
-    files = {"meshes/cup.obj": "mtllib cup.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n",
-             "meshes/cup.mtl": "newmtl m\nmap_Kd ../materials/textures/cup.png\n", "materials/textures/cup.png": "picture",
-             "meshes/unused.stl": "", "model.sdf": """<sdf version='1.6'><model name='old'><link name='l'>
+    files = {
+        "meshes/cup.obj": "mtllib cup.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n",
+        "meshes/cup.mtl": "newmtl m\nmap_Kd ../materials/textures/cup.png\n",
+        "materials/textures/cup.png": "picture",
+        "meshes/unused.stl": "",
+        "model.sdf": """<sdf version='1.6'><model name='old'><link name='l'>
         <visual name='v'><geometry><mesh><uri>model://old/meshes/cup.obj</uri></mesh></geometry></visual>
-        <visual name='w'><geometry><mesh><uri>model://stock/meshes/cup.obj</uri></mesh></geometry></visual></link></model></sdf>"""}
+        <visual name='w'><geometry><mesh><uri>model://stock/meshes/cup.obj</uri></mesh></geometry></visual></link></model></sdf>""",
+    }
     for name, content in files.items():
         file = tmp_path / "model_editor_models" / "old" / name
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -179,8 +199,7 @@ def test_the_inertia_of_a_mesh_is_that_of_the_solid_or_of_its_box(tmp_path, monk
     cone = made.add_link(draft.keep_mesh("m", "cone.stl", solid.export(file_type="stl")), 2.0)
     inertial = made.link(cone).inertial
     assert inertial.pose.p == pytest.approx((0.5, 0.0, 0.25), abs=1e-4)
-    assert (inertial.mass, inertial.ixx, inertial.izz) == pytest.approx(
-        (2.0, 2.0 * (3 / 20 * 0.09 + 3 / 80), 2.0 * 0.3 * 0.09), rel=2e-3)
+    assert (inertial.mass, inertial.ixx, inertial.izz) == pytest.approx((2.0, 2.0 * (3 / 20 * 0.09 + 3 / 80), 2.0 * 0.3 * 0.09), rel=2e-3)
     sheet = made.link(made.add_link(draft.keep_mesh("m", "sheet.stl", STL), 3.0)).inertial
     assert sheet.pose.p == pytest.approx((1.0, 0.5, 0.0)) and sheet.izz == pytest.approx(3.0 * (4.0 + 1.0) / 12)
 
@@ -188,6 +207,7 @@ def test_the_inertia_of_a_mesh_is_that_of_the_solid_or_of_its_box(tmp_path, monk
 def test_the_tab(tmp_path, monkeypatch):
     pytest.importorskip("viser")
     from gzclient.panels.model import ModelPanel
+
     monkeypatch.setenv("HOME", str(tmp_path))
     page = Page(LocalSimulation(World(d.World()), paused=True), port=0, panels=(ModelPanel,))
     panel, told = page.panels[-1], []
@@ -200,6 +220,7 @@ def test_the_tab(tmp_path, monkeypatch):
             callback(types.SimpleNamespace(client=client, client_id=1, target=handle))
         page._do_jobs()
         page._do_jobs()
+
     try:
         use(panel._on, True)
         use(panel._shapes, "Box")

@@ -1,14 +1,14 @@
 """What a hand draws with the building editor: snapping, changes and back, files that are opened again. No window."""
+
 import math
 import os
 
 import pytest
 from building_editor.building import building_of, read_plan
-from ode_sim import World
-from ode_sim.viewer import Refused
-
 from gzclient.building import files
 from gzclient.building.plan import Element, Plan, snapped
+from ode_sim import World
+from ode_sim.viewer import Refused
 
 ROOM = ((0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0), (0.0, 0.0))
 
@@ -38,7 +38,7 @@ def test_walls_doors_windows_stairs_and_back():
     door = plan.add_opening("doors", 0, (2.1, 0.05), width=0.9, height=2.0)
     plan.add_opening("windows", 1, (4.0, 2.95), width=0.8, height=0.8, sill=0.5)
     plan.add_stairs((1.1, 1.4), math.radians(80.0), width=1.0, depth=2.0, height=2.5, steps=10)
-    level, = plan.building().levels
+    (level,) = plan.building().levels
     assert [(o.kind, o.at) for wall in level.walls for o in wall.openings] == [("door", 2.0), ("window", 2.6)]
     assert level.stairs[0].at == (1.0, 1.5) and math.degrees(level.stairs[0].yaw) == pytest.approx(75.0)
     plan.move(door, "", (2.0, 0.0), (99.0, 0.0))
@@ -81,11 +81,13 @@ def test_levels_stand_on_each_other():
 def test_what_cannot_be_built_is_taken_back():
     plan = room()
     before = plan.building()
-    for wrong in (lambda: plan.add_wall((1.0, 1.0), (1.0, 1.0)),
-                  lambda: plan.add_opening("doors", 0, (1.0, 0.0), width=0.9, height=9.0),
-                  lambda: plan.add_opening("doors", 0, (1.0, 0.0), width=5.0, height=2.0),
-                  lambda: plan.change(Element(0, "walls", 0), thickness=-1.0),
-                  lambda: plan.delete(Element(0, "walls", 17))):
+    for wrong in (
+        lambda: plan.add_wall((1.0, 1.0), (1.0, 1.0)),
+        lambda: plan.add_opening("doors", 0, (1.0, 0.0), width=0.9, height=9.0),
+        lambda: plan.add_opening("doors", 0, (1.0, 0.0), width=5.0, height=2.0),
+        lambda: plan.change(Element(0, "walls", 0), thickness=-1.0),
+        lambda: plan.delete(Element(0, "walls", 17)),
+    ):
         with pytest.raises(Refused):
             wrong()
         assert plan.building() == before
@@ -114,8 +116,11 @@ def test_saved_and_opened_again(tmp_path, monkeypatch):
 
 
 def test_a_plan_of_paths_is_opened_wall_by_wall():
-    document = {"name": "p", "wall": {"height": 2.2}, "walls": [
-        {"path": [list(point) for point in ROOM], "doors": [{"at": 5.5}], "color": [0.1, 0.2, 0.3]}]}
+    document = {
+        "name": "p",
+        "wall": {"height": 2.2},
+        "walls": [{"path": [list(point) for point in ROOM], "doors": [{"at": 5.5}], "color": [0.1, 0.2, 0.3]}],
+    }
     plan = Plan(document)
     assert plan.building() == building_of(document) and len(plan.document["walls"]) == 4
     plan.delete(Element(0, "doors", 0, 1))

@@ -1,4 +1,5 @@
 """What is drawn of the messages of sensors, in a page without a browser; and what the tab of topics says of them. No master."""
+
 import types
 
 import numpy as np
@@ -46,9 +47,16 @@ def shown(page, kind, topic, message):
 
 def touch(first, second, z):
     """A bumper's message: ``z`` N on ``first`` in the frame of its link."""
-    return ContactsState(states=[ContactState(collision1_name=f"{first}::{second}", collision2_name="ground::l::c"
-                                              if first == "box" else "box::link::c", wrenches=[Wrench(force=Vector3(z=z))],
-                                              contact_positions=[Vector3(x=0.5)])])
+    return ContactsState(
+        states=[
+            ContactState(
+                collision1_name=f"{first}::{second}",
+                collision2_name="ground::l::c" if first == "box" else "box::link::c",
+                wrenches=[Wrench(force=Vector3(z=z))],
+                contact_positions=[Vector3(x=0.5)],
+            )
+        ]
+    )
 
 
 @pytest.mark.parametrize("first, link, z", [("box", "link::c", -50.0), ("ground", "l::c", -50.0)])

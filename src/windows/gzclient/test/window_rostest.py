@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """gzclient on a desktop: a window of its own, used and closed as a person does; the simulator goes on. A private X server."""
+
 import os
 import shutil
 import signal
@@ -40,8 +41,13 @@ class Window(unittest.TestCase):
         rospy.ServiceProxy("/gazebo/unpause_physics", Empty)()
         self.desktop = Desktop().__enter__()
         self.addCleanup(self.desktop.__exit__)
-        self.client = subprocess.Popen(["rosrun", "gazebo_ros", "gzclient", "--port", "0"], env=self.desktop.environment,
-                                       stdout=subprocess.PIPE, text=True, start_new_session=True)
+        self.client = subprocess.Popen(
+            ["rosrun", "gazebo_ros", "gzclient", "--port", "0"],
+            env=self.desktop.environment,
+            stdout=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
         self.addCleanup(self.client.stdout.close)
         self.addCleanup(self.end)
         self.window = wait(self.find, "a window named Gazebo")
@@ -58,8 +64,9 @@ class Window(unittest.TestCase):
                 self.client.wait()
 
     def find(self):
-        found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "^Gazebo$"], env=self.desktop.environment,
-                               capture_output=True, text=True)
+        found = subprocess.run(
+            ["xdotool", "search", "--onlyvisible", "--name", "^Gazebo$"], env=self.desktop.environment, capture_output=True, text=True
+        )
         return found.stdout.split()[-1:]
 
     def red_pixels(self):
@@ -72,10 +79,15 @@ class Window(unittest.TestCase):
 
     def browsers(self):
         """Processes of the browser; a window of its own has a profile of its own."""
-        return [part for part in psutil.process_iter(["cmdline"]) if any(
-            "gzclient_" in word and "user-data-dir" in word and self.desktop.environment["HOME"] not in word
-            for word in part.info["cmdline"] or ()) and part.pid in {
-                child.pid for child in psutil.Process(self.client.pid).children(recursive=True)}]
+        return [
+            part
+            for part in psutil.process_iter(["cmdline"])
+            if any(
+                "gzclient_" in word and "user-data-dir" in word and self.desktop.environment["HOME"] not in word
+                for word in part.info["cmdline"] or ()
+            )
+            and part.pid in {child.pid for child in psutil.Process(self.client.pid).children(recursive=True)}
+        ]
 
     def test_closing_the_window_ends_gzclient_only(self):
         self.desktop.xdotool("windowfocus", "--sync", *self.window)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A package made by the command line tool plans and moves as soon as it is launched, and its collisions can be updated."""
+
 import os
 import signal
 import subprocess
@@ -48,16 +49,24 @@ class GeneratedDemo(unittest.TestCase):
         self.folder.cleanup()
 
     def run_tool(self, *words):
-        done = subprocess.run(["rosrun", "moveit_setup_assistant", *words], env=self.environment, cwd=self.root, text=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        done = subprocess.run(
+            ["rosrun", "moveit_setup_assistant", *words],
+            env=self.environment,
+            cwd=self.root,
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            check=False,
+        )
         self.assertEqual(done.returncode, 0, done.stdout)
         return done.stdout
 
     def test_it_plans_and_moves(self):
         said = self.run_tool("generate", "--urdf", "small_description/small.urdf", "--from", "config.yaml", "-o", "small_moveit_config")
         self.assertIn("roslaunch small_moveit_config demo.launch", said)
-        self.demo = subprocess.Popen(["roslaunch", "small_moveit_config", "demo.launch", "use_rviz:=false"], env=self.environment,
-                                     start_new_session=True)
+        self.demo = subprocess.Popen(
+            ["roslaunch", "small_moveit_config", "demo.launch", "use_rviz:=false"], env=self.environment, start_new_session=True
+        )
         rospy.init_node("generated_demo")
         rospy.wait_for_service("plan_kinematic_path", 200.0)
         wing = MoveGroupCommander("wing", wait_for_servers=120.0)
@@ -81,4 +90,5 @@ class GeneratedDemo(unittest.TestCase):
 
 if __name__ == "__main__":
     import rostest
+
     rostest.rosrun("moveit_setup_assistant", "generated_demo", GeneratedDemo)

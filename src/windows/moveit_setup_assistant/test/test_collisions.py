@@ -20,9 +20,13 @@ def test_what_touches_at_the_start_is_default_and_comes_first():
 
 def test_what_nearly_always_touches_is_always():
     # At 0 the slider is outside, as soon as it moves it is inside: the default state is free, all others are not.
-    urdf = robot(link("base", "0.2 0.2 0.2"), link("mid", "0.01 0.01 0.01"), link("block", "0.2 0.2 0.2"),
-                 joint("slide", "base", "mid", "0.2005 0.0 0", "prismatic", "-1 0 0", 'lower="0" upper="0.1"'),
-                 joint("next", "mid", "block", "0 0 0", "fixed"))
+    urdf = robot(
+        link("base", "0.2 0.2 0.2"),
+        link("mid", "0.01 0.01 0.01"),
+        link("block", "0.2 0.2 0.2"),
+        joint("slide", "base", "mid", "0.2005 0.0 0", "prismatic", "-1 0 0", 'lower="0" upper="0.1"'),
+        joint("next", "mid", "block", "0 0 0", "fixed"),
+    )
     found = reasons(urdf, find_never=False)
     assert found[("base", "block")] == "Always"
     assert reasons(urdf, find_never=False, always_fraction=1.0).get(("base", "block")) is None, "200 of 200 is not more than 200"

@@ -1,4 +1,5 @@
 """Packages written, read back, changed by hand and written again; and everything that must be refused."""
+
 import os
 import time
 
@@ -59,12 +60,19 @@ def read(path):
     return yaml.safe_load(path.read_text())
 
 
-@pytest.mark.parametrize("joints, told", [
-    ("{turn: 0.5, spin: -0.25}", []), ("{turn: 1.0}", []),
-    ("{turn: 1.5}", ["Pose 'home' of group 'arm': joint 'turn' is at 1.5, beyond its limits -1 to 1; MoveIt does not plan to it."]),
-    ("{spin: -1.01}", ["Pose 'home' of group 'arm': joint 'spin' is at -1.01, beyond its limits -1 to 1; MoveIt does not plan to it."]),
-    ("{swinging: 0.1}", ["Pose 'home' of group 'arm' moves joint 'swinging', which is not in that group: it is left out when MoveIt "
-                         "plans to it."])])
+@pytest.mark.parametrize(
+    "joints, told",
+    [
+        ("{turn: 0.5, spin: -0.25}", []),
+        ("{turn: 1.0}", []),
+        ("{turn: 1.5}", ["Pose 'home' of group 'arm': joint 'turn' is at 1.5, beyond its limits -1 to 1; MoveIt does not plan to it."]),
+        ("{spin: -1.01}", ["Pose 'home' of group 'arm': joint 'spin' is at -1.01, beyond its limits -1 to 1; MoveIt does not plan to it."]),
+        (
+            "{swinging: 0.1}",
+            ["Pose 'home' of group 'arm' moves joint 'swinging', which is not in that group: it is left out when MoveIt plans to it."],
+        ),
+    ],
+)
 def test_a_pose_that_cannot_be_reached_is_told(described, joints, told):
     """The URDF's limits are -1 to 1 rad; MoveIt's planners refuse a goal beyond them."""
     config = made(described, CONFIG.replace("{turn: 0.5, spin: -0.25}", joints))
@@ -100,8 +108,11 @@ def test_the_files_say_what_was_asked_for(package):
     config = package / "config"
     assert read(config / "simple_moveit_controllers.yaml") == {"controller_list": []}
     controllers = read(config / "ros_controllers.yaml")
-    assert controllers["wing_controller"] == {"type": "effort_controllers/JointTrajectoryController", "joints": ["swinging"],
-                                              "gains": {"swinging": {"p": 100, "d": 1, "i": 1, "i_clamp": 1}}}
+    assert controllers["wing_controller"] == {
+        "type": "effort_controllers/JointTrajectoryController",
+        "joints": ["swinging"],
+        "gains": {"swinging": {"p": 100, "d": 1, "i": 1, "i_clamp": 1}},
+    }
     assert read(config / "fake_controllers.yaml")["initial"] == [{"group": "arm", "pose": "home"}]
     limits = read(config / "joint_limits.yaml")["joint_limits"]["spin"]
     assert limits == {"has_velocity_limits": True, "max_velocity": 2.0, "has_acceleration_limits": False, "max_acceleration": 0}
@@ -137,8 +148,13 @@ def test_what_was_changed_by_hand_stays_until_somebody_asks(package):
 
 def test_elements_of_a_hand_written_srdf_survive(package):
     srdf = package / "config" / "small.srdf"
-    srdf.write_text(srdf.read_text().replace("</robot>", '<joint_property joint_name="turn" property_name="angular_distance_weight" '
-                                             'value="2"/><disable_default_collisions link="far"/><of_my_own colour="red"/></robot>'))
+    srdf.write_text(
+        srdf.read_text().replace(
+            "</robot>",
+            '<joint_property joint_name="turn" property_name="angular_distance_weight" '
+            'value="2"/><disable_default_collisions link="far"/><of_my_own colour="red"/></robot>',
+        )
+    )
     text = Configuration.load(package).semantics.to_text()
     for kept in ('property_name="angular_distance_weight"', '<disable_default_collisions link="far" />', '<of_my_own colour="red" />'):
         assert kept in text
@@ -147,8 +163,13 @@ def test_elements_of_a_hand_written_srdf_survive(package):
 def test_an_srdf_of_macros_is_read_and_kept(package):
     """As panda_moveit_config has it."""
     srdf, marker = package / "config" / "small.srdf", package / ".setup_assistant"
-    text = srdf.read_text().replace('name="home"', 'name="$(arg pose)"').replace(
-        '<robot name="small">', '<robot name="small" xmlns:xacro="http://ros.org/wiki/xacro"><xacro:arg name="pose" default="home"/>')
+    text = (
+        srdf.read_text()
+        .replace('name="home"', 'name="$(arg pose)"')
+        .replace(
+            '<robot name="small">', '<robot name="small" xmlns:xacro="http://ros.org/wiki/xacro"><xacro:arg name="pose" default="home"/>'
+        )
+    )
     (package / "config" / "small.srdf.xacro").write_text(text)
     srdf.unlink()
     marker.write_text(marker.read_text().replace("config/small.srdf", "config/small.srdf.xacro"))
@@ -162,18 +183,21 @@ def test_an_srdf_of_macros_is_read_and_kept(package):
     assert file.state is package_writer.State.HAND_MADE and not file.write
 
 
-@pytest.mark.parametrize("change, says", [
-    (("chain: [base, inside]", "chain: [base, nowhere]"), "group 'arm' names the link 'nowhere'"),
-    (("joints: [swinging]", "joints: [swing ing]"), "names the joint 'swing ing'"),
-    (("groups: [arm, wing]", "groups: [all]"), "group 'all' holds itself"),
-    (("{turn: 0.5,", "{turn: fast,"), "poses: home: turn: 'fast' is no number"),
-    (("planner: RRTConnect", "planner: Fastest"), "'Fastest' is not known"),
-    (("simulation: true", "simulations: true"), "'simulations' is not known; there are: groups,"),
-    (("{trials: 300}", "[300]"), "collisions: must be a mapping"),
-    (("type: fixed", "type: bolted"), "type 'bolted' is none of fixed"),
-    (("name: hand, ", ""), "end_effectors[0]: 'name' is missing"),
-    (("poses:", "poses: {"), "is no YAML"),
-])
+@pytest.mark.parametrize(
+    "change, says",
+    [
+        (("chain: [base, inside]", "chain: [base, nowhere]"), "group 'arm' names the link 'nowhere'"),
+        (("joints: [swinging]", "joints: [swing ing]"), "names the joint 'swing ing'"),
+        (("groups: [arm, wing]", "groups: [all]"), "group 'all' holds itself"),
+        (("{turn: 0.5,", "{turn: fast,"), "poses: home: turn: 'fast' is no number"),
+        (("planner: RRTConnect", "planner: Fastest"), "'Fastest' is not known"),
+        (("simulation: true", "simulations: true"), "'simulations' is not known; there are: groups,"),
+        (("{trials: 300}", "[300]"), "collisions: must be a mapping"),
+        (("type: fixed", "type: bolted"), "type 'bolted' is none of fixed"),
+        (("name: hand, ", ""), "end_effectors[0]: 'name' is missing"),
+        (("poses:", "poses: {"), "is no YAML"),
+    ],
+)
 def test_a_mistake_in_the_file_is_named_in_one_line(described, change, says):
     with pytest.raises(AssistantError) as caught:
         made(described, CONFIG.replace(*change, 1))
@@ -206,8 +230,12 @@ def test_a_folder_that_cannot_be_written(described, tmp_path):
 
 def test_what_the_system_does_not_let_us_look_at_is_one_line(described, tmp_path):
     too_long = tmp_path / ("a" * 300)
-    for refused in (lambda: package_writer.refuse_foreign(too_long), lambda: package_writer.plan(made(described), too_long),
-                    lambda: RobotSource.from_file(too_long), lambda: Configuration.load(too_long)):
+    for refused in (
+        lambda: package_writer.refuse_foreign(too_long),
+        lambda: package_writer.plan(made(described), too_long),
+        lambda: RobotSource.from_file(too_long),
+        lambda: Configuration.load(too_long),
+    ):
         with pytest.raises(AssistantError, match="cannot be read: File name too long"):
             refused()
 
@@ -236,8 +264,9 @@ def test_descriptions_that_cannot_be_used(described, tmp_path):
     (tmp_path / "broken.xacro").write_text('<robot name="x" xmlns:xacro="http://ros.org/wiki/xacro"><link name="${nobody}"/></robot>')
     with pytest.raises(AssistantError, match="xacro cannot expand .*nobody"):
         Configuration.new(RobotSource.from_file(tmp_path / "broken.xacro"))
-    (tmp_path / "far.xacro").write_text('<robot name="x" xmlns:xacro="http://ros.org/wiki/xacro">'
-                                        '<xacro:include filename="$(find nobody_has)/a.xacro"/></robot>')
+    (tmp_path / "far.xacro").write_text(
+        '<robot name="x" xmlns:xacro="http://ros.org/wiki/xacro"><xacro:include filename="$(find nobody_has)/a.xacro"/></robot>'
+    )
     with pytest.raises(AssistantError, match="package 'nobody_has' not found") as caught:
         Configuration.new(RobotSource.from_file(tmp_path / "far.xacro"))
     said = str(caught.value)  # the substitution, as xacro names it, and once why
@@ -257,12 +286,16 @@ def test_a_robot_that_tinyxml_takes_is_read_drawn_and_simulated(tmp_path):
 
 
 def test_a_missing_mesh_is_a_warning(tmp_path):
-    (tmp_path / "robot.urdf").write_text('<robot name="r"><link name="base"><collision><geometry><mesh '
-                                         'filename="package://nobody_has/base.stl"/></geometry></collision></link></robot>')
+    (tmp_path / "robot.urdf").write_text(
+        '<robot name="r"><link name="base"><collision><geometry><mesh '
+        'filename="package://nobody_has/base.stl"/></geometry></collision></link></robot>'
+    )
     config = Configuration.new(RobotSource.from_file(tmp_path / "robot.urdf"))
     assert any("nobody_has/base.stl" in line for line in config.warnings)
-    (tmp_path / "robot.urdf").write_text('<robot name="r"><link name="base"><visual><geometry><mesh '
-                                         'filename="package://nobody_has/look.dae"/></geometry></visual></link></robot>')
+    (tmp_path / "robot.urdf").write_text(
+        '<robot name="r"><link name="base"><visual><geometry><mesh '
+        'filename="package://nobody_has/look.dae"/></geometry></visual></link></robot>'
+    )
     config = Configuration.new(RobotSource.from_file(tmp_path / "robot.urdf"))
     assert config.warnings == ["link 'base': a <visual> is not drawn: mesh 'package://nobody_has/look.dae' is not found"]
 

@@ -1,5 +1,6 @@
 """The tutorial of the UR5 on its pedestal, by clicks and keys on a private X server: the package that comes out has the same
 files as the one that the command writes. ``TUTORIAL_PICTURES=FOLDER`` keeps a picture of each step."""
+
 import os
 import time
 from pathlib import Path
@@ -130,8 +131,12 @@ def test_clicks_and_the_command_make_the_same_package(student, tmp_path):
     package_writer.write(headless.configuration(RobotSource.from_file(urdf), tmp_path / "config.yaml"), typed)
 
     def files(folder):
-        return {str(path.relative_to(folder)): path.read_text() for path in folder.rglob("*")
-                if path.is_file() and path.name != ".setup_assistant"}  # which has the time in it
+        return {
+            str(path.relative_to(folder)): path.read_text()
+            for path in folder.rglob("*")
+            if path.is_file() and path.name != ".setup_assistant"
+        }  # which has the time in it
+
     assert files(clicked) == files(typed)
     pairs = files(clicked)["config/myur5.srdf"].count("<disable_collisions")
     assert pairs == 12, "8 neighbours and 4 that never meet"

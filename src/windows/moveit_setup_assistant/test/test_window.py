@@ -1,4 +1,5 @@
 """The window, used by clicks and keys in this process: a package made from nothing, then opened again and edited."""
+
 import os
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
@@ -103,7 +104,7 @@ class User:
         pointer = image.bits()
         pointer.setsize(image.sizeInBytes())
         pixels = np.frombuffer(bytes(pointer), np.uint8).reshape(image.height(), image.bytesPerLine())
-        rgb = pixels[:, :3 * image.width()].reshape(image.height(), image.width(), 3).astype(int)
+        rgb = pixels[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).astype(int)
         return int(((rgb[..., 0] > 90) & (rgb[..., 1] < rgb[..., 0] / 3) & (rgb[..., 2] < rgb[..., 0] / 3)).sum())
 
 
@@ -128,8 +129,14 @@ def test_clicks_and_the_command_write_the_same_files(user, urdf, tmp_path, monke
     user.click("virtual_joints_add")
     user.screen("Planning Groups")
     user.click("groups_add")
-    user.fill(groups_name="arm", groups_solver="kdl_kinematics_plugin/KDLKinematicsPlugin", groups_timeout=0.02,
-              groups_planner="RRTConnect", groups_base_link="base", groups_tip_link="inside")
+    user.fill(
+        groups_name="arm",
+        groups_solver="kdl_kinematics_plugin/KDLKinematicsPlugin",
+        groups_timeout=0.02,
+        groups_planner="RRTConnect",
+        groups_base_link="base",
+        groups_tip_link="inside",
+    )
     assert user.red_pixels() > 50, "the group's links light up"
     user.click("groups_add")
     user.fill(groups_name="wing")
@@ -157,6 +164,7 @@ def test_clicks_and_the_command_write_the_same_files(user, urdf, tmp_path, monke
     (tmp_path / "config.yaml").write_text(CONFIG)
     typed = headless.configuration(RobotSource.from_file(urdf), tmp_path / "config.yaml")
     from moveit_setup_assistant import package_writer
+
     package_writer.write(typed, tmp_path / "typed" / "small_moveit_config")
     for file in sorted(clicked.rglob("*")):
         if file.is_file() and file.name != ".setup_assistant":
@@ -167,6 +175,7 @@ def test_clicks_and_the_command_write_the_same_files(user, urdf, tmp_path, monke
 @pytest.fixture
 def package(urdf, tmp_path):
     from moveit_setup_assistant import package_writer
+
     (tmp_path / "config.yaml").write_text(CONFIG)
     folder = tmp_path / "small_moveit_config"
     package_writer.write(headless.configuration(RobotSource.from_file(urdf), tmp_path / "config.yaml"), folder)
@@ -252,8 +261,11 @@ def test_what_is_wrong_is_said_and_changes_nothing(user, package, tmp_path, monk
 
 def test_what_is_missing_stands_below_the_screen_and_the_rest_can_be_used(user, tmp_path):
     bare = tmp_path / "bare.urdf"
-    bare.write_text(FIVE.replace("<link name=\"base\">", "<link name=\"base\"><visual><geometry><mesh "
-                                 "filename=\"package://nobody_has/base.dae\"/></geometry></visual>"))
+    bare.write_text(
+        FIVE.replace(
+            '<link name="base">', '<link name="base"><visual><geometry><mesh filename="package://nobody_has/base.dae"/></geometry></visual>'
+        )
+    )
     user.fill(start_path=str(bare))
     user.click("start_load")
     assert "package://nobody_has/base.dae" in user.said() and "7 links" in user.said()

@@ -1,5 +1,4 @@
 """DOT text laid out and drawn."""
-from rqt_testing.in_process import application
 
 import pytest
 from python_qt_binding.QtWidgets import QGraphicsScene
@@ -7,11 +6,12 @@ from qt_dotgraph.dot_to_qt import DotToQtGenerator
 from qt_dotgraph.layout import LayoutError, layout, render
 from qt_dotgraph.pydotfactory import PydotFactory
 from qt_dotgraph.pygraphvizfactory import PygraphvizFactory
+from rqt_testing.in_process import application
 
-DOT = r'''digraph g { rankdir=LR;
+DOT = r"""digraph g { rankdir=LR;
   subgraph cluster_ns { label="/ns"; a [label="/ns/a" tooltip="tip of a"]; t [label="/ns/t" shape=box3d color=red]; }
   b [label="/b\nsecond line" shape=box]; gone [style=invis];
-  a -> t; t -> b [label="/topic" penwidth=3 colorR=255 colorG=0 colorB=9]; b -> a [label="/topic"]; a -> a; }'''
+  a -> t; t -> b [label="/topic" penwidth=3 colorR=255 colorG=0 colorB=9]; b -> a [label="/topic"]; a -> a; }"""
 
 
 @pytest.fixture(autouse=True)
@@ -25,8 +25,12 @@ def test_layout_has_everything():
     assert set(nodes) == {"a", "t", "b"} and nodes["b"].label == "/b\nsecond line" and nodes["t"].attributes["shape"] == "box3d"
     assert nodes["a"].center[0] < nodes["t"].center[0] < nodes["b"].center[0]  # from left to right
     assert [c.label for c in graph.clusters] == ["/ns"] and graph.size[0] > 100
-    assert sorted((e.tail, e.head, e.label) for e in graph.edges) == [("a", "a", ""), ("a", "t", ""), ("b", "a", "/topic"),
-                                                                      ("t", "b", "/topic")]
+    assert sorted((e.tail, e.head, e.label) for e in graph.edges) == [
+        ("a", "a", ""),
+        ("a", "t", ""),
+        ("b", "a", "/topic"),
+        ("t", "b", "/topic"),
+    ]
     assert all(len(e.points) % 3 == 1 and e.end_tip for e in graph.edges)
 
 
@@ -65,7 +69,7 @@ def test_without_highlighting_the_neighbours_stay():
 def test_factories_and_their_text_with_positions(factory):
     graph = factory.get_graph(rankdir="LR")
     cluster = factory.add_subgraph_to_graph(graph, "/my ns")
-    factory.add_node_to_graph(cluster, "/my-node/a%", "a \"quoted\" label", shape="ellipse", url="topic:/x", color="orange")
+    factory.add_node_to_graph(cluster, "/my-node/a%", 'a "quoted" label', shape="ellipse", url="topic:/x", color="orange")
     factory.add_node_to_graph(graph, "node")
     factory.add_edge_to_graph(graph, "/my-node/a%", "node", label="line one\\nline two", color=[1, 2, 3], penwidth=2)
     with pytest.raises(ValueError, match="Empty Node name"):
@@ -92,8 +96,15 @@ def test_text_with_positions_keeps_them():
     assert abs(difference.x() - 550) < 2 and abs(difference.y()) < 2
 
 
-@pytest.mark.parametrize("text, said", [("", "not a graph in DOT"), ("<html>", "not a graph in DOT"),
-                                        ("digraph { a -> ", "syntax error"), ("digraph { a [label=\x00", "refuses|syntax")])
+@pytest.mark.parametrize(
+    "text, said",
+    [
+        ("", "not a graph in DOT"),
+        ("<html>", "not a graph in DOT"),
+        ("digraph { a -> ", "syntax error"),
+        ("digraph { a [label=\x00", "refuses|syntax"),
+    ],
+)
 def test_what_is_not_dot(text, said):
     with pytest.raises(LayoutError, match=said) as caught:
         layout(text)
@@ -111,8 +122,9 @@ def test_pictures():
 def test_large_graph_with_clusters_and_labels_on_which_dot_gives_up():
     """dot 2.42 ends with "trouble in init_rank" here."""
     names = sorted(f"/ns{i % 5}/node_{i}" for i in range(50))
-    clusters = "".join(f"subgraph cluster_{k} {{ " + "".join(f'"{name}"; ' for name in names if f"ns{k}/" in name) + "}\n"
-                       for k in range(5))
+    clusters = "".join(
+        f"subgraph cluster_{k} {{ " + "".join(f'"{name}"; ' for name in names if f"ns{k}/" in name) + "}\n" for k in range(5)
+    )
     edges = "".join(f'"{names[i % 50]}" -> "{names[(i * 7 + i // 50 + 1) % 50]}" [label="topic_{i}"];\n' for i in range(300))
     graph = layout("digraph { rankdir=LR; compound=true;\n" + clusters + edges + "}")
     assert len(graph.nodes) == 50 and len(graph.edges) == 300

@@ -1,4 +1,5 @@
 """Ctrl-C in a window's process."""
+
 import os
 import signal
 

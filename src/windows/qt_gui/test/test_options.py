@@ -1,18 +1,23 @@
 """The command line, without a window."""
+
 import pytest
 from qt_gui.errors import UsageError
 from qt_gui.options import parse
 
 
-@pytest.mark.parametrize("arguments, said", [
-    (["-f"], "--freeze-layout can only be used together with --lock-perspective"),
-    (["--args", "a"], "--args can only be used together with --standalone"),
-    (["-p", "a", "--perspective-file", "/b"], "only one of --perspective and --perspective-file"),
-    (["--perspective-file", "/no/such"], "/no/such does not"),
-    (["--command-pid", "3"], "--command-pid can only be used together"),
-    (["--command-start-plugin", "a", "--command-switch-perspective", "b"], "only one --command-\\* option"),
-    (["--list-plugins", "--command-start-plugin", "a"], "cannot be used together"),
-    (["--list-plugins", "--list-perspectives"], "only one of --list-perspectives and --list-plugins")])
+@pytest.mark.parametrize(
+    "arguments, said",
+    [
+        (["-f"], "--freeze-layout can only be used together with --lock-perspective"),
+        (["--args", "a"], "--args can only be used together with --standalone"),
+        (["-p", "a", "--perspective-file", "/b"], "only one of --perspective and --perspective-file"),
+        (["--perspective-file", "/no/such"], "/no/such does not"),
+        (["--command-pid", "3"], "--command-pid can only be used together"),
+        (["--command-start-plugin", "a", "--command-switch-perspective", "b"], "only one --command-\\* option"),
+        (["--list-plugins", "--command-start-plugin", "a"], "cannot be used together"),
+        (["--list-plugins", "--list-perspectives"], "only one of --list-perspectives and --list-plugins"),
+    ],
+)
 def test_options_that_cannot_be_obeyed(arguments, said):
     with pytest.raises(UsageError, match=said):
         parse("rqt", arguments)

@@ -1,4 +1,5 @@
 """Lines about what plugins raise."""
+
 import sys
 
 from qt_gui import reporting

@@ -1,5 +1,4 @@
 """Settings dialog, worker thread and console, as plugins use them."""
-from rqt_testing.in_process import application, wait_until
 
 import threading
 
@@ -9,6 +8,7 @@ from python_qt_binding.QtTest import QTest
 from qt_gui_py_common.console_text_edit import ConsoleTextEdit
 from qt_gui_py_common.simple_settings_dialog import SimpleSettingsDialog
 from qt_gui_py_common.worker_thread import WorkerThread
+from rqt_testing.in_process import application, wait_until
 
 
 @pytest.fixture(autouse=True)
@@ -18,8 +18,9 @@ def app():
 
 def make_dialog():
     dialog = SimpleSettingsDialog(title="Plot Options", description="text")
-    dialog.add_exclusive_option_group(title="Type", options=[{"title": "A"}, {"title": "B", "selected": True},
-                                                             {"title": "C", "enabled": False, "description": "no"}])
+    dialog.add_exclusive_option_group(
+        title="Type", options=[{"title": "A"}, {"title": "B", "selected": True}, {"title": "C", "enabled": False, "description": "no"}]
+    )
     dialog.add_checkbox_group(title="Extra", options=[{"title": "x"}, {"title": "y"}], selected_indexes=[1])
     return dialog
 

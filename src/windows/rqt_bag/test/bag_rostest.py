@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Recording from topics and publishing onto them, with a real master."""
+
 import os
 import sys
 import tempfile
@@ -8,6 +9,7 @@ import unittest
 import rosgraph
 import rospy
 import rostest
+
 from rqt_testing.in_process import errors, open_plugin, wait_until  # isort: skip
 import rosbag
 from rosgraph_msgs.msg import Clock
@@ -15,7 +17,6 @@ from std_msgs.msg import Float64
 
 
 class Bag(unittest.TestCase):
-
     def test_record_then_publish(self):
         with tempfile.TemporaryDirectory() as folder, open_plugin("rqt_bag", ["--clock"]) as gui:
             name, timeline, frame = os.path.join(folder, "a.bag"), gui.plugin._widget._timeline, gui.plugin._widget.frame

@@ -1,18 +1,19 @@
 """The window in the container, without display and master."""
+
 import genpy
 import numpy as np
 import pytest
+
 from rqt_testing.in_process import errors, find, open_plugin, process_events, rospy_without_master, wait_until  # isort: skip
 import rosbag
 import rospy
 from python_qt_binding.QtCore import QPoint, Qt
 from python_qt_binding.QtTest import QTest
 from qt_gui.errors import UsageError
-from std_msgs.msg import Float64, String
-
 from rqt_bag.plugins.raw_view import RawView
 from rqt_bag.timeline_frame import elapsed_text
 from rqt_bag.timeline_menu import TimelinePopupMenu
+from std_msgs.msg import Float64, String
 
 BEGIN = 1_795_000_000.0
 LEFT = Qt.MouseButton.LeftButton
@@ -177,8 +178,12 @@ def test_menu_and_raw_view(gui):
     wait_until(lambda: tree.topLevelItemCount() == 1 and tree.topLevelItem(0).text(0) == "data: word 0")
     gui.frame.playhead = genpy.Time.from_sec(BEGIN + 7.3)
     wait_until(lambda: tree.topLevelItem(0).text(0) == "data: word 7")
-    for action, word in ((popup.viewer.navigate_next, 8), (popup.viewer.navigate_previous, 7), (popup.viewer.navigate_last, 10),
-                         (popup.viewer.navigate_first, 0)):
+    for action, word in (
+        (popup.viewer.navigate_next, 8),
+        (popup.viewer.navigate_previous, 7),
+        (popup.viewer.navigate_last, 10),
+        (popup.viewer.navigate_first, 0),
+    ):
         action()
         wait_until(lambda: tree.topLevelItem(0).text(0) == f"data: word {word}")
     assert isinstance(popup.viewer, RawView) and errors == []
@@ -255,7 +260,13 @@ def test_a_million_messages_are_drawn_as_columns(gui):
 
 def test_times_of_the_divisions():
     assert [elapsed_text(*pair) for pair in ((0, 1), (75, 5), (3725, 60), (-2, 1), (0.25, 0.05), (0.002, 0.001))] == [
-        "0:00", "1:15", "1:02:05", "-0:02", "0.25s", "0.002s"]
+        "0:00",
+        "1:15",
+        "1:02:05",
+        "-0:02",
+        "0.25s",
+        "0.002s",
+    ]
 
 
 def test_threads_for_time_lines_of_other_packages():
@@ -300,8 +311,13 @@ def test_threads_for_time_lines_of_other_packages():
         frame.invalidated_caches.discard(topic)
         return 3
 
-    frame = SimpleNamespace(index_cache_cv=threading.Condition(), invalidated_caches={"/a"}, topics=["/a", "/b"],
-                            scene=lambda: SimpleNamespace(update=lambda: drawn.append(1)), _update_index_cache=update)
+    frame = SimpleNamespace(
+        index_cache_cv=threading.Condition(),
+        invalidated_caches={"/a"},
+        topics=["/a", "/b"],
+        scene=lambda: SimpleNamespace(update=lambda: drawn.append(1)),
+        _update_index_cache=update,
+    )
     thread = IndexCacheThread(frame)
     wait_until(lambda: drawn)
     thread.stop()

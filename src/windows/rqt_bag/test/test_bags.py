@@ -1,12 +1,12 @@
 """Several bag files as one, without a window."""
+
 import genpy
 import pytest
 import rosbag
-from std_msgs.msg import Float64, String
-
 from rqt_bag import bag_helper
 from rqt_bag.bags import BagError, Bags, copy_region, open_bag
 from rqt_bag.timeline_cache import TimelineCache
+from std_msgs.msg import Float64, String
 
 
 def write(path, topic, stamps, message=Float64):
@@ -48,7 +48,11 @@ def test_region_is_copied(bags, tmp_path):
     assert copy_region(bags, str(tmp_path / "part.bag"), t(101), t(103), lambda share: not shares.append(share)) == 4
     with rosbag.Bag(str(tmp_path / "part.bag")) as part:
         assert [(topic, message.data) for topic, message, _ in part.read_messages()] == [
-            ("/f", 101.0), ("/s", "101.5"), ("/f", 102.0), ("/f", 103.0)]
+            ("/f", 101.0),
+            ("/s", "101.5"),
+            ("/f", 102.0),
+            ("/f", 103.0),
+        ]
     with pytest.raises(BagError, match="absent/x.bag cannot be written: No such file"):
         copy_region(bags, str(tmp_path / "absent/x.bag"), t(101), t(103))
 
@@ -80,7 +84,7 @@ def test_damaged_message_is_told(bags, tmp_path):
     name = write(tmp_path / "d.bag", "/d", [1.0, 2.0], String)
     data = bytearray(open(name, "rb").read())
     at = data.index(b"op=\x02")  # kind of the record: a message
-    data[at + 3] = 0x0b
+    data[at + 3] = 0x0B
     open(name, "wb").write(data)
     bags.add(open_bag(name))
     bag, entry = bags.entry(t(1.0), "/d")
@@ -111,6 +115,7 @@ def test_cache_keeps_what_is_used():
 
 def test_an_mcap_file_is_opened_as_a_bag(tmp_path):
     from bag_tools.convert import convert
+
     name = write(tmp_path / "a.bag", "/f", [100.0, 101.0, 104.0])
     convert(tmp_path / "a.bag", tmp_path / "a.mcap")
     bags, same = Bags(), Bags()

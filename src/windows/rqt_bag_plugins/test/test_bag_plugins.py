@@ -1,15 +1,16 @@
 """Images and plots of a bag, in the container, without display and master."""
+
 import genpy
 import numpy as np
 import pytest
+
 from rqt_testing.in_process import errors, open_plugin, process_events, rospy_without_master, wait_until  # isort: skip
 import rosbag
-from sensor_msgs.msg import Image, JointState
-
 from rqt_bag.timeline_menu import TimelinePopupMenu
 from rqt_bag_plugins.image_helper import imgmsg_to_pil
 from rqt_bag_plugins.image_view import ImageView
 from rqt_bag_plugins.plot_view import PlotView
+from sensor_msgs.msg import Image, JointState
 
 BEGIN = 1_795_000_000.0
 
@@ -38,8 +39,9 @@ def gui(tmp_path):
 
 
 def test_views_are_offered_by_type(gui):
-    names = {topic: [view.name for view in gui.frame.get_viewer_types(gui.timeline.get_datatype(topic))]
-             for topic in ("/camera", "/joints")}
+    names = {
+        topic: [view.name for view in gui.frame.get_viewer_types(gui.timeline.get_datatype(topic))] for topic in ("/camera", "/joints")
+    }
     assert names == {"/camera": ["Raw", "Plot", "Image"], "/joints": ["Raw", "Plot"]}
     assert [topic for topic, _ in gui.frame.get_renderers()] == ["/broken", "/camera"]
 
@@ -54,8 +56,12 @@ def test_thumbnails(gui):
     def blues():
         image = frame.grab().toImage()
         y = row[1] + 40
-        return [x for x in range(frame._history_left, frame._history_right) if image.pixelColor(x, y).blue() == 220
-                and image.pixelColor(x, y).green() == 20]
+        return [
+            x
+            for x in range(frame._history_left, frame._history_right)
+            if image.pixelColor(x, y).blue() == 220 and image.pixelColor(x, y).green() == 20
+        ]
+
     wait_until(lambda: len(blues()) > 300)
     assert errors == []
 

@@ -1,17 +1,17 @@
 """Rows, rules, files and settings of the console."""
+
 import json
 import time
 
 import genpy
 import pytest
-from rqt_testing.in_process import application, errors, find, open_gui, open_plugin, process_events, rospy_without_master
-
 from python_qt_binding.QtCore import Qt
 from python_qt_binding.QtWidgets import QDialog
 from rosgraph_msgs.msg import Log
 from rqt_console import saved_messages
 from rqt_console.console_widget import ConsoleWidget
 from rqt_console.message import Message
+from rqt_testing.in_process import application, errors, find, open_gui, open_plugin, process_events, rospy_without_master
 from std_msgs.msg import Header
 
 
@@ -41,8 +41,9 @@ def test_newest_first_and_the_oldest_go(widget):
     assert shown(widget, 6)[0] == "talker.py:run:129" and shown(widget, 5)[0] == "/chatter"
 
 
-@pytest.mark.parametrize("column, order", [(2, Qt.SortOrder.AscendingOrder), (2, Qt.SortOrder.DescendingOrder),
-                                           (0, Qt.SortOrder.AscendingOrder)])
+@pytest.mark.parametrize(
+    "column, order", [(2, Qt.SortOrder.AscendingOrder), (2, Qt.SortOrder.DescendingOrder), (0, Qt.SortOrder.AscendingOrder)]
+)
 def test_sorted_and_selection_stays(widget, column, order):
     widget.take([message(n, severity=2 ** (n % 5)) for n in range(100)])
     widget.table_view.selectRow(3)
@@ -95,8 +96,10 @@ def test_file(widget, tmp_path):
     path = tmp_path / "log.csv"
     odd = message(3, text='say "yes"; \\n\nand no', topics=["/a", "/b"])
     saved_messages.save(str(path), [message(1), odd])
-    assert path.read_text().splitlines()[:2] == ["message;severity;node;stamp;topics;location",
-                                                 '"hello 1";"2";"/talker";"1001.000000005";"/chatter";"talker.py:run:1"']
+    assert path.read_text().splitlines()[:2] == [
+        "message;severity;node;stamp;topics;location",
+        '"hello 1";"2";"/talker";"1001.000000005";"/chatter";"talker.py:run:1"',
+    ]
     assert [vars(m) for m in saved_messages.load(str(path))] == [vars(message(1)), vars(odd)]
     widget.load(str(path))
     assert widget.paused and widget.model.message_count == 2
@@ -104,8 +107,16 @@ def test_file(widget, tmp_path):
     assert widget.model.message_count == 2
 
 
-@pytest.mark.parametrize("content", [b"", b"a;b;c\n", b"message;severity;node;stamp;topics;location\n\"x\";\"2\"\n", b"\xff\xfe\x00",
-                                     b"message;severity;node;stamp;topics;location\nx;two;n;1.5;;l\n"])
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"a;b;c\n",
+        b'message;severity;node;stamp;topics;location\n"x";"2"\n',
+        b"\xff\xfe\x00",
+        b"message;severity;node;stamp;topics;location\nx;two;n;1.5;;l\n",
+    ],
+)
 def test_other_files_are_refused(tmp_path, content):
     path = tmp_path / "x.csv"
     path.write_bytes(content)
@@ -143,8 +154,7 @@ def test_in_the_window(tmp_path):
         gui.plugin.widget.exclude_box.add("node", {"selected": ["/n"]})
         gui.plugin._configure("/rosout", 500)
     with open_plugin("rqt_console", settings=settings) as gui:
-        assert [rule for rule in gui.plugin.widget.exclude_box.state() if rule[0] != "severity"] == [
-            ["node", True, {"selected": ["/n"]}]]
+        assert [rule for rule in gui.plugin.widget.exclude_box.state() if rule[0] != "severity"] == [["node", True, {"selected": ["/n"]}]]
         assert (gui.plugin._topic, gui.plugin._limit) == ("/rosout", 500)
     assert errors == []
 
@@ -154,12 +164,24 @@ def group(**keys):
     return {"keys": {name: {"type": "repr", "repr": repr(value)} for name, value in keys.items()}, "groups": {}}
 
 
-RULES = [["severity", True, {"selected": [Log.DEBUG, Log.WARN]}], ["message", False, {"text": "a.*b", "regex": True}],
-         ["node", True, {"selected": ["/one"]}], ["topic", True, {"selected": []}],
-         ["location", True, {"text": "x.py", "regex": False}],
-         ["time", True, {"start": 1500000000.25, "stop": 1500000009.0, "stop_enabled": False}],
-         ["custom", True, {"message": {"text": "t", "regex": False}, "severity": {"selected": [Log.FATAL]},
-                           "node": {"selected": ["/a", "/b"]}, "topic": {"selected": []}}]]
+RULES = [
+    ["severity", True, {"selected": [Log.DEBUG, Log.WARN]}],
+    ["message", False, {"text": "a.*b", "regex": True}],
+    ["node", True, {"selected": ["/one"]}],
+    ["topic", True, {"selected": []}],
+    ["location", True, {"text": "x.py", "regex": False}],
+    ["time", True, {"start": 1500000000.25, "stop": 1500000009.0, "stop_enabled": False}],
+    [
+        "custom",
+        True,
+        {
+            "message": {"text": "t", "regex": False},
+            "severity": {"selected": [Log.FATAL]},
+            "node": {"selected": ["/a", "/b"]},
+            "topic": {"selected": []},
+        },
+    ],
+]
 
 
 def test_rules_of_a_perspective_file_of_noetic_are_kept(tmp_path):
@@ -170,14 +192,28 @@ def test_rules_of_a_perspective_file_of_noetic_are_kept(tmp_path):
         return QDateTime.fromMSecsSinceEpoch(round(seconds * 1000)).toString("hh:mm:ss.zzz (yyyy-MM-dd)")
 
     rospy_without_master()
-    plugin = group(settings_exist="true", exclude_filters=[rule[0] for rule in RULES] + ["of_tomorrow"],
-                   highlight_filters="message", show_highlighted_only="false", paused="true", message_limit="777")
-    plugin["groups"] = {f"exclude_filter_{i}": made for i, made in enumerate((
-        group(enabled="true", itemlist=["Debug", "Warn"]), group(enabled="false", text="a.*b", regex="true"),
-        group(enabled="true", itemlist="/one"), group(enabled="true", itemlist=""),
-        group(enabled="true", text="x.py", regex="false"),
-        group(enabled="true", start_time=stamp(1500000000.25), stop_time=stamp(1500000009.0), stop_time_enabled="false"),
-        group(enabled="true", text="t", regex="false", severityitemlist="Fatal", topicitemlist="", nodeitemlist=["/a", "/b"])))}
+    plugin = group(
+        settings_exist="true",
+        exclude_filters=[rule[0] for rule in RULES] + ["of_tomorrow"],
+        highlight_filters="message",
+        show_highlighted_only="false",
+        paused="true",
+        message_limit="777",
+    )
+    plugin["groups"] = {
+        f"exclude_filter_{i}": made
+        for i, made in enumerate(
+            (
+                group(enabled="true", itemlist=["Debug", "Warn"]),
+                group(enabled="false", text="a.*b", regex="true"),
+                group(enabled="true", itemlist="/one"),
+                group(enabled="true", itemlist=""),
+                group(enabled="true", text="x.py", regex="false"),
+                group(enabled="true", start_time=stamp(1500000000.25), stop_time=stamp(1500000009.0), stop_time_enabled="false"),
+                group(enabled="true", text="t", regex="false", severityitemlist="Fatal", topicitemlist="", nodeitemlist=["/a", "/b"]),
+            )
+        )
+    }
     plugin["groups"]["highlight_filter_0"] = group(enabled="true", text="hello", regex="false")
     manager = group(**{"running-plugins": {"rqt_console/Console": [1]}})
     manager["groups"] = {"plugin__rqt_console__Console__1": {"keys": {}, "groups": {"plugin": plugin}}}

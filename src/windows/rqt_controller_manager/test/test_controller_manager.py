@@ -1,21 +1,27 @@
 """Rows, menus, a manager that refuses, hangs, and goes away."""
+
 import threading
 
 import pytest
 import rospy
-from rqt_testing.in_process import FakeContext, errors, find, open_plugin, rospy_without_master, wait_until
-
 from rqt_controller_manager.controller_manager import ControllerManager
 from rqt_controller_manager.manager_calls import CallError, ControllerRow
+from rqt_testing.in_process import FakeContext, errors, find, open_plugin, rospy_without_master, wait_until
 
 
 class Calls:
     def __init__(self):
         self.names, self.acts, self.gate, self.error = ["/arm/controller_manager"], [], threading.Event(), None
-        self.rows = [ControllerRow("joints", "running", "joint_state_controller/JointStateController"),
-                     ControllerRow("arm", "stopped", "position_controllers/JointTrajectoryController",
-                                   (("hardware_interface::PositionJointInterface", ("j0", "j1")),)),
-                     ControllerRow("grip", "uninitialized", "x/Y")]
+        self.rows = [
+            ControllerRow("joints", "running", "joint_state_controller/JointStateController"),
+            ControllerRow(
+                "arm",
+                "stopped",
+                "position_controllers/JointTrajectoryController",
+                (("hardware_interface::PositionJointInterface", ("j0", "j1")),),
+            ),
+            ControllerRow("grip", "uninitialized", "x/Y"),
+        ]
 
     def managers(self):
         return list(self.names)

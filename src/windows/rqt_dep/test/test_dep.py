@@ -1,18 +1,28 @@
 """Packages and their dependencies."""
-from rqt_testing.in_process import errors, find, open_plugin, rospy_without_master, wait_until
 
 import pytest
 from rqt_dep.packages import BOTH, DEPENDS, DEPENDS_ON, Options, generate_dot, read_packages, select
+from rqt_testing.in_process import errors, find, open_plugin, rospy_without_master, wait_until
 
 PACKAGES = {"app": {"lib", "base", "boost"}, "lib": {"base"}, "base": set(), "other": {"lib"}, "loop_a": {"loop_b"}, "loop_b": {"loop_a"}}
 
 
-@pytest.mark.parametrize("options, shown", [
-    (Options("app"), {"app", "lib", "base"}), (Options("app", depth=1), {"app", "lib", "base"}),
-    (Options("other", depth=1), {"other", "lib"}), (Options("lib", DEPENDS_ON), {"lib", "app", "other"}),
-    (Options("lib", BOTH), {"lib", "base", "app", "other"}), (Options("app,-lib"), {"app", "lib", "base"}),
-    (Options("loop_a", depth=0), {"loop_a", "loop_b"}), (Options(""), set()), (Options("("), set()),
-    (Options("app", system=True), {"app", "lib", "base", "boost"}), (Options("/"), set(PACKAGES))])
+@pytest.mark.parametrize(
+    "options, shown",
+    [
+        (Options("app"), {"app", "lib", "base"}),
+        (Options("app", depth=1), {"app", "lib", "base"}),
+        (Options("other", depth=1), {"other", "lib"}),
+        (Options("lib", DEPENDS_ON), {"lib", "app", "other"}),
+        (Options("lib", BOTH), {"lib", "base", "app", "other"}),
+        (Options("app,-lib"), {"app", "lib", "base"}),
+        (Options("loop_a", depth=0), {"loop_a", "loop_b"}),
+        (Options(""), set()),
+        (Options("("), set()),
+        (Options("app", system=True), {"app", "lib", "base", "boost"}),
+        (Options("/"), set(PACKAGES)),
+    ],
+)
 def test_what_is_shown(options, shown):
     assert select(PACKAGES, options)[0] == shown
 

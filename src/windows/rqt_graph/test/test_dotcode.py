@@ -1,9 +1,19 @@
 """Filters, groups and clusters of the graph, as DOT text."""
+
 import re
 
 import pytest
-from rqt_graph.dotcode import (NODE_NODE_GRAPH, NODE_TOPIC_ALL_GRAPH, NODE_TOPIC_GRAPH, Options, Statistics, generate_dot,
-                               matches_any, select, split_filter)
+from rqt_graph.dotcode import (
+    NODE_NODE_GRAPH,
+    NODE_TOPIC_ALL_GRAPH,
+    NODE_TOPIC_GRAPH,
+    Options,
+    Statistics,
+    generate_dot,
+    matches_any,
+    select,
+    split_filter,
+)
 from rqt_graph.ros_state import State
 
 
@@ -28,9 +38,17 @@ def system(*links, bad=None, nodes=()):
 EVERYTHING = dict(hide_dead_sinks=False, hide_leaf_topics=False, hide_debug=False, hide_unreachable=False, hide_params=False)
 
 
-@pytest.mark.parametrize("text, expected", [
-    ("", ([".*"], [])), ("/", ([".*"], [])), ("-/tf", ([".*"], ["/tf"])), ("/a, /b.*", (["/a", "/b.*"], [])),
-    ("/a,-/a/b , -.*x", (["/a"], ["/a/b", ".*x"])), (" , ", ([".*"], []))])
+@pytest.mark.parametrize(
+    "text, expected",
+    [
+        ("", ([".*"], [])),
+        ("/", ([".*"], [])),
+        ("-/tf", ([".*"], ["/tf"])),
+        ("/a, /b.*", (["/a", "/b.*"], [])),
+        ("/a,-/a/b , -.*x", (["/a"], ["/a/b", ".*x"])),
+        (" , ", ([".*"], [])),
+    ],
+)
 def test_filter_texts(text, expected):
     assert split_filter(text) == expected
 
@@ -56,8 +74,13 @@ def test_filters_of_nodes_and_topics():
 
 
 def test_debugging_is_hidden_by_parts_of_names():
-    state = system("/a > /rosout > /rosout", "/rosout > /rosout_agg > /rqt_gui_py_node_7", "/gazebo > /clock > /a",
-                   "/my_monitor > /x > /a", "/b/monitor > /y > /a")
+    state = system(
+        "/a > /rosout > /rosout",
+        "/rosout > /rosout_agg > /rqt_gui_py_node_7",
+        "/gazebo > /clock > /a",
+        "/my_monitor > /x > /a",
+        "/b/monitor > /y > /a",
+    )
     assert select(state, Options()).nodes == {"/a", "/gazebo", "/my_monitor"}
     assert select(state, Options()).node_edges == {("/my_monitor", "/a", "/x")}
     assert len(select(state, Options(hide_debug=False)).node_edges) == 5
@@ -83,19 +106,28 @@ def test_dead_sinks_and_leaf_topics():
 
 def test_actions_are_one_topic():
     parts = ("goal", "cancel", "status", "feedback", "result")
-    links = [f"/client > /arm/follow/{part} > /server" for part in parts[:2]] + \
-            [f"/server > /arm/follow/{part} > /client" for part in parts[2:]]
+    links = [f"/client > /arm/follow/{part} > /server" for part in parts[:2]] + [
+        f"/server > /arm/follow/{part} > /client" for part in parts[2:]
+    ]
     graph = select(system(*links, "/a > /half/feedback > /b"), Options(NODE_TOPIC_GRAPH))
     assert graph.topics == {"/arm/follow/action_topics": True, "/half/feedback": False}
     assert {link for link in graph.topic_edges if "follow" in link[1]} == {
-        (node, "/arm/follow/action_topics", out) for node in ("/client", "/server") for out in (True, False)}
+        (node, "/arm/follow/action_topics", out) for node in ("/client", "/server") for out in (True, False)
+    }
     assert len(select(system(*links), Options(NODE_TOPIC_GRAPH, group_actions=False)).topics) == 5
     assert "shape=box3d" in generate_dot(system(*links), Options(NODE_TOPIC_GRAPH))
 
 
 def test_tf_and_images_are_one_topic_each():
-    state = system("/a > /tf > /b", "/a > /tf_static > /b", "/cam > /image > /b", "/cam > /image/compressed > /b",
-                   "/cam > /image/theora > /b", "/cam > /other > /b", "/cam > /other/compressed > /b")
+    state = system(
+        "/a > /tf > /b",
+        "/a > /tf_static > /b",
+        "/cam > /image > /b",
+        "/cam > /image/compressed > /b",
+        "/cam > /image/theora > /b",
+        "/cam > /other > /b",
+        "/cam > /other/compressed > /b",
+    )
     graph = select(state, Options(NODE_TOPIC_GRAPH))
     assert graph.topics == {"/tf": True, "/image/image_topics": True, "/other": False, "/other/compressed": False}
     assert set(select(state, Options(NODE_TOPIC_GRAPH, group_tf=False)).topics) >= {"/tf", "/tf_static"}
@@ -131,7 +163,8 @@ def test_statistics_label_colour_and_width():
     assert 'penwidth=5 color="#ff0000" label="/x\\n10.0 Hz // 200 ms"' in dot
     assert 'penwidth=1 color="#000000" label="/x\\n? Hz"' in dot
     assert '"t_/x" -> "n_/b" [penwidth=5 color="#ff0000" label="(2 connections)"];' in generate_dot(
-        state, Options(NODE_TOPIC_GRAPH), statistics)
+        state, Options(NODE_TOPIC_GRAPH), statistics
+    )
 
 
 def test_names_that_dot_must_not_take_for_its_own():
@@ -202,12 +235,16 @@ def generator():
 
 def test_generator_for_other_packages(ros_graph):
     factory, made = Factory(), generator()
-    assert made.generate_dotgraph(ros_graph, "/", "/", NODE_NODE_GRAPH, factory, cluster_namespaces_level=1, quiet=True,
-                                  orientation="TB") == "graph"
+    assert (
+        made.generate_dotgraph(ros_graph, "/", "/", NODE_NODE_GRAPH, factory, cluster_namespaces_level=1, quiet=True, orientation="TB")
+        == "graph"
+    )
     assert factory.rankdir == "TB" and factory.clusters == [("graph", "/ns")]
-    assert factory.nodes == {"n_/ns/talker": ("/ns", "/ns/talker", "ellipse", "/ns/talker", None),
-                             "n_/ns/listener": ("/ns", "/ns/listener", "ellipse", "/ns/listener", None),
-                             "n_/gone": ("graph", "/gone", "ellipse", "/gone (DEAD)", "red")}
+    assert factory.nodes == {
+        "n_/ns/talker": ("/ns", "/ns/talker", "ellipse", "/ns/talker", None),
+        "n_/ns/listener": ("/ns", "/ns/listener", "ellipse", "/ns/listener", None),
+        "n_/gone": ("graph", "/gone", "ellipse", "/gone (DEAD)", "red"),
+    }
     assert factory.edges == {("n_/ns/talker", "n_/ns/listener", "/ns/chatter", "topic:/ns/chatter", 1, None)}
     factory = Factory()
     made.generate_dotgraph(ros_graph, "/", "-/rosout", NODE_TOPIC_GRAPH, factory, unreachable=True)
@@ -225,13 +262,21 @@ def test_generator_shows_traffic_and_writes_text(ros_graph):
     from rosgraph_msgs.msg import TopicStatistics
 
     made = generator()
-    made.statistics_callback(TopicStatistics(topic="/ns/chatter", node_pub="/ns/talker", node_sub="/ns/listener", traffic=1000000,
-                                             window_stop=genpy.Time(1), period_mean=genpy.Duration(0, 100000000)))
+    made.statistics_callback(
+        TopicStatistics(
+            topic="/ns/chatter",
+            node_pub="/ns/talker",
+            node_sub="/ns/listener",
+            traffic=1000000,
+            window_stop=genpy.Time(1),
+            period_mean=genpy.Duration(0, 100000000),
+        )
+    )
     factory = Factory()
     made.generate_dotgraph(ros_graph, "/", "/", NODE_NODE_GRAPH, factory)
     assert [edge[2:5] for edge in factory.edges] == [("/ns/chatter\\n10.0 Hz", "topic:/ns/chatter", 5)]
     text = made.generate_dotcode(ros_graph, "/", "/", NODE_TOPIC_GRAPH, PydotFactory(), quiet=True)
-    assert "pos=" in text and "label=\"/ns/listener\"" in text and "/rosout" not in text
+    assert "pos=" in text and 'label="/ns/listener"' in text and "/rosout" not in text
     assert made.generate_namespaces(ros_graph, NODE_NODE_GRAPH) == ["/", "/ns/"]
 
 

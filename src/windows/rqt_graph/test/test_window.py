@@ -1,5 +1,4 @@
 """The window and the command, against a master and nodes made up here."""
-from rqt_testing.in_process import application, errors, find, open_plugin, process_events, rospy_without_master, wait_until
 
 import socket
 import threading
@@ -9,6 +8,7 @@ from xmlrpc.server import SimpleXMLRPCServer
 import pytest
 from rqt_graph import graph_pane, ros_state
 from rqt_graph.command import main
+from rqt_testing.in_process import application, errors, find, open_plugin, process_events, rospy_without_master, wait_until
 from rqt_testing.no_master import NoMaster
 
 
@@ -32,10 +32,16 @@ class Master(NoMaster):
             nobody.bind(("127.0.0.1", 0))
             dead = f"http://127.0.0.1:{nobody.getsockname()[1]}/"
         self.uris = {"/talker": talker.uri, "/listener": listener.uri, "/dead": dead, "/hung": Node([], 3).uri}
-        super().__init__({
-            "getSystemState": [[["/arm/chatter", ["/talker"]], ["/unheard", ["/hung"]]], [["/arm/chatter", ["/listener", "/dead"]]],
-                               [["/talker/get_loggers", ["/talker"]]]],
-            "getTopicTypes": [["/arm/chatter", "std_msgs/String"]]})
+        super().__init__(
+            {
+                "getSystemState": [
+                    [["/arm/chatter", ["/talker"]], ["/unheard", ["/hung"]]],
+                    [["/arm/chatter", ["/listener", "/dead"]]],
+                    [["/talker/get_loggers", ["/talker"]]],
+                ],
+                "getTopicTypes": [["/arm/chatter", "std_msgs/String"]],
+            }
+        )
 
     def _dispatch(self, method, parameters):
         if method == "lookupNode":
@@ -188,5 +194,6 @@ def test_command_says_what_is_wrong(there, tmp_path, monkeypatch, capsys):
     assert "must be one of .dot, .svg, .png, .pdf" in capsys.readouterr().err
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     assert main(["rqt_graph", f"--output={tmp_path}/g.dot"]) == 1
-    assert capsys.readouterr().err == ("rqt_graph: the ROS master at http://localhost:1 does not answer; start roscore, or set "
-                                       "ROS_MASTER_URI\n")
+    assert capsys.readouterr().err == (
+        "rqt_graph: the ROS master at http://localhost:1 does not answer; start roscore, or set ROS_MASTER_URI\n"
+    )

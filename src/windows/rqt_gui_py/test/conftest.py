@@ -1,10 +1,11 @@
 """Packages made up for a test, on a ROS_PACKAGE_PATH of its own."""
+
 import sys
 
 import pytest
-from rqt_testing import in_process  # noqa: F401 before anything of Qt
 import rospkg
 from rqt_gui import rospkg_plugin_provider
+from rqt_testing import in_process  # noqa: F401 before anything of Qt
 
 MANIFEST = """<package format="2"><name>{name}</name><version>1.2.3</version><description>d</description>
 <maintainer email="a@b.c">Somebody</maintainer><license>BSD</license><url type="website">http://example.org/{name}</url>
@@ -23,8 +24,9 @@ class Workspace:
         package = self.folder / name
         (package / "src" / name).mkdir(parents=True, exist_ok=True)
         (package / "package.xml").write_text(manifest.format(name=name))
-        (package / "plugin.xml").write_text(PLUGIN.format(path=path, cls=cls, type=kind or f"{name}.module.{cls}", base=base,
-                                                          label=label or name))
+        (package / "plugin.xml").write_text(
+            PLUGIN.format(path=path, cls=cls, type=kind or f"{name}.module.{cls}", base=base, label=label or name)
+        )
         (package / "src" / name / "__init__.py").write_text("")
         (package / "src" / name / "module.py").write_text(code)
         return package

@@ -1,4 +1,5 @@
 """The command rqt as a process: options, signals, displays, masters that come and go."""
+
 import os
 import shutil
 import signal
@@ -32,8 +33,14 @@ class Plugin(Base):
 def environment(tmp_path):
     """A bare shell without display and master, and with settings of its own."""
     kept = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY", "DBUS_SESSION_BUS_ADDRESS")}
-    return {**kept, "XDG_CONFIG_HOME": str(tmp_path), "XDG_RUNTIME_DIR": str(tmp_path), "QT_QPA_PLATFORM": "offscreen",
-            "ROS_MASTER_URI": "http://localhost:1", "ROS_HOME": str(tmp_path / "ros")}
+    return {
+        **kept,
+        "XDG_CONFIG_HOME": str(tmp_path),
+        "XDG_RUNTIME_DIR": str(tmp_path),
+        "QT_QPA_PLATFORM": "offscreen",
+        "ROS_MASTER_URI": "http://localhost:1",
+        "ROS_HOME": str(tmp_path / "ros"),
+    }
 
 
 def run(environment, *arguments, **variables):
@@ -50,8 +57,7 @@ class Master:
                 free.bind(("localhost", 0))
                 port = free.getsockname()[1]
         self.port, self.uri = port, f"http://localhost:{port}"
-        self._process = subprocess.Popen(["rosmaster", "--core", "-p", str(port)], stdout=subprocess.DEVNULL,
-                                         stderr=subprocess.DEVNULL)
+        self._process = subprocess.Popen(["rosmaster", "--core", "-p", str(port)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         wait_for(lambda: rosgraph.is_master_online(self.uri))
 
     def stop(self):
@@ -66,8 +72,9 @@ class Started:
     """A running rqt whose lines can be waited for."""
 
     def __init__(self, environment, *arguments):
-        self.process = subprocess.Popen([RQT, *arguments], env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                        text=True, start_new_session=True)
+        self.process = subprocess.Popen(
+            [RQT, *arguments], env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True
+        )
         self.lines = []
 
     def line(self, part):
@@ -140,8 +147,13 @@ def test_signals_end_it_in_order(start, number, tmp_path, workspace_of_files):
 
 
 def test_ctrl_c_while_it_starts_says_nothing(environment):
-    process = subprocess.Popen([sys.executable, "-X", "importtime", RQT, "--list-plugins"], env=environment, stderr=subprocess.PIPE,
-                               stdout=subprocess.PIPE, text=True)
+    process = subprocess.Popen(
+        [sys.executable, "-X", "importtime", RQT, "--list-plugins"],
+        env=environment,
+        stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
     for line in process.stderr:
         if "rospkg" in line:  # in the middle of the imports
             process.send_signal(signal.SIGINT)
@@ -175,8 +187,9 @@ def test_giving_up_the_wait_ends_a_standalone_plugin(start, workspace_of_files):
     rqt = start("--standalone", "rqt_watched", ROS_PACKAGE_PATH=workspace_of_files.path)
     rqt.line("waiting")
     assert rqt.end() == 1
-    assert rqt.lines[-1] == ("could not load plugin 'rqt_watched/Plugin': there is no ROS master at http://localhost:1; start "
-                             "roscore, or set ROS_MASTER_URI")
+    assert rqt.lines[-1] == (
+        "could not load plugin 'rqt_watched/Plugin': there is no ROS master at http://localhost:1; start roscore, or set ROS_MASTER_URI"
+    )
 
 
 @pytest.fixture
@@ -202,10 +215,22 @@ def test_commands_over_dbus(environment, workspace_of_files):
         rqt --command-start-plugin WATCHED; rqt --command-start-plugin no_such; rqt --command-pid 1 --command-start-plugin x
         kill -INT $window; wait $window; echo ended $?; rqt --list-perspectives"""
     try:
-        done = subprocess.run(["dbus-run-session", "--", "bash", "-c", script], capture_output=True, text=True, timeout=120,
-                              env={**environment, "ROS_MASTER_URI": master.uri, "ROS_PACKAGE_PATH": workspace_of_files.path})
+        done = subprocess.run(
+            ["dbus-run-session", "--", "bash", "-c", script],
+            capture_output=True,
+            text=True,
+            timeout=120,
+            env={**environment, "ROS_MASTER_URI": master.uri, "ROS_PACKAGE_PATH": workspace_of_files.path},
+        )
     finally:
         master.stop()
-    assert done.stdout.splitlines() == ["switched to perspective 'lab'", "loaded", "started plugin 'rqt_watched/Plugin'", "shut down",
-                                        "ended 0", "Default", "lab"]
+    assert done.stdout.splitlines() == [
+        "switched to perspective 'lab'",
+        "loaded",
+        "started plugin 'rqt_watched/Plugin'",
+        "shut down",
+        "ended 0",
+        "Default",
+        "lab",
+    ]
     assert "found no plugin matching 'no_such'" in done.stderr and "no running rqt has been found with pid 1" in done.stderr

@@ -1,10 +1,12 @@
 """The window as a person uses it: real clicks and keys on a private X server."""
+
 import os
 
 import pytest
-from conftest import Workspace
 from rqt_testing.desktop import Desktop
 from rqt_testing.no_master import NoMaster
+
+from conftest import Workspace
 
 EDIT = """
 from python_qt_binding.QtWidgets import QLineEdit

@@ -1,8 +1,8 @@
 """Which plugins the window finds, and what it says of those that it cannot take."""
-from rqt_testing.in_process import errors, open_gui, open_plugin
 
 import pytest
 from qt_gui.errors import UsageError
+from rqt_testing.in_process import errors, open_gui, open_plugin
 
 SIMPLE = """
 from python_qt_binding.QtWidgets import QLabel
@@ -58,18 +58,26 @@ def test_compiled_plugin_is_refused_by_name_in_one_line(workspace):
         assert "rqt_fast/Plugin" not in gui.plugins.get_plugins()
         with pytest.raises(UsageError) as caught:
             gui.choose("rqt_fast")
-        assert str(caught.value) == ("'rqt_fast/Plugin' of package rqt_fast is a compiled C++ plugin (rqt_fast::Plugin); only "
-                                     "Python plugins can be loaded here")
+        assert str(caught.value) == (
+            "'rqt_fast/Plugin' of package rqt_fast is a compiled C++ plugin (rqt_fast::Plugin); only Python plugins can be loaded here"
+        )
         assert not gui.plugins.load_plugin("rqt_fast/Plugin")
         assert errors == [f"could not load plugin 'rqt_fast/Plugin': {caught.value}"]
 
 
-@pytest.mark.parametrize("name, break_it, said", [
-    ("cut_off", lambda p: (p / "plugin.xml").write_text("<library path='src'><class"), "is not XML"),
-    ("absent", lambda p: (p / "plugin.xml").unlink(), "No such file"),
-    ("no_class", lambda p: (p / "plugin.xml").write_text((p / "plugin.xml").read_text().replace("no_class.module.Plugin", "x")),
-     "is not a Python class"),
-    ("manifest", lambda p: (p / "package.xml").write_text("<package><rqt_gui "), "is not XML")])
+@pytest.mark.parametrize(
+    "name, break_it, said",
+    [
+        ("cut_off", lambda p: (p / "plugin.xml").write_text("<library path='src'><class"), "is not XML"),
+        ("absent", lambda p: (p / "plugin.xml").unlink(), "No such file"),
+        (
+            "no_class",
+            lambda p: (p / "plugin.xml").write_text((p / "plugin.xml").read_text().replace("no_class.module.Plugin", "x")),
+            "is not a Python class",
+        ),
+        ("manifest", lambda p: (p / "package.xml").write_text("<package><rqt_gui "), "is not XML"),
+    ],
+)
 def test_broken_description_is_a_line_and_leaves_the_others(workspace, name, break_it, said):
     workspace.make("rqt_first", SIMPLE)
     break_it(workspace.make(name, SIMPLE))
@@ -80,7 +88,11 @@ def test_broken_description_is_a_line_and_leaves_the_others(workspace, name, bre
 
 
 def test_provider_of_a_package_brings_its_plugins(workspace):
-    workspace.make("rqt_provider", base="rqt_gui_py::PluginProvider", cls="Provider", code="""
+    workspace.make(
+        "rqt_provider",
+        base="rqt_gui_py::PluginProvider",
+        cls="Provider",
+        code="""
 from python_qt_binding.QtWidgets import QLabel
 from qt_gui.plugin_descriptor import PluginDescriptor
 from qt_gui.plugin_provider import PluginProvider
@@ -94,7 +106,8 @@ class Provider(PluginProvider):
         return [descriptor]
     def load(self, plugin_id, plugin_context):
         return Duck(plugin_context)
-""")
+""",
+    )
     with open_plugin("pond", providers=workspace.providers()) as gui:
         assert type(gui.plugin).__name__ == "Duck"
     assert errors == []
@@ -102,8 +115,12 @@ class Provider(PluginProvider):
 
 def test_provider_that_raises_leaves_the_others(workspace):
     workspace.make("rqt_first", SIMPLE)
-    workspace.make("rqt_provider", "class Provider:\n    def __init__(self):\n        raise ValueError('no')",
-                   base="rqt_gui_py::PluginProvider", cls="Provider")
+    workspace.make(
+        "rqt_provider",
+        "class Provider:\n    def __init__(self):\n        raise ValueError('no')",
+        base="rqt_gui_py::PluginProvider",
+        cls="Provider",
+    )
     with open_gui(providers=workspace.providers()) as gui:
         assert "rqt_first/Plugin" in gui.plugins.get_plugins()
     assert len(errors) == 1 and "'rqt_provider/Provider' cannot be loaded: ValueError: no" in errors[0]

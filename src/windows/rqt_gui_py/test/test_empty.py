@@ -1,10 +1,10 @@
 """What a window says while nothing is in it, and while time does not begin."""
-from rqt_testing.in_process import errors, open_gui, open_plugin, process_events
 
 import pytest
 import rospy
 from node_signals import clock_watch
 from python_qt_binding.QtWidgets import QLabel
+from rqt_testing.in_process import errors, open_gui, open_plugin, process_events
 from test_life import PLUGIN, code
 
 
@@ -43,7 +43,7 @@ def test_a_window_without_plugins_says_where_they_are(workspace):
 @pytest.mark.parametrize("standalone", [False, True])
 def test_simulated_time_without_a_clock_is_told_until_it_comes(workspace, time_at_zero, standalone):
     workspace.make("rqt_it", code())
-    with (open_plugin("rqt_it", providers=workspace.providers()) if standalone else open_gui(providers=workspace.providers())) as gui:
+    with open_plugin("rqt_it", providers=workspace.providers()) if standalone else open_gui(providers=workspace.providers()) as gui:
         if not standalone:
             gui.plugins.load_plugin("rqt_it/Plugin")
         clock = watch(gui)

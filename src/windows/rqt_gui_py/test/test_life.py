@@ -1,8 +1,8 @@
 """Plugins from their loading to their end, and what those cost that misbehave."""
-from rqt_testing.in_process import errors, find, open_gui, open_plugin, process_events, wait_until
 
 import pytest
 from qt_gui.errors import UsageError
+from rqt_testing.in_process import errors, find, open_gui, open_plugin, process_events, wait_until
 
 PLUGIN = """
 from python_qt_binding.QtCore import QTimer
@@ -125,10 +125,14 @@ def test_alone_in_its_window_it_cannot_be_closed_by_itself(workspace):
         assert gui.plugins.running() and gui.window.menuWidget() is None
 
 
-@pytest.mark.parametrize("broken, said", [
-    (dict(init="1 / 0"), "could not load plugin 'rqt_it/Plugin': ZeroDivisionError: division by zero"),
-    (dict(init="raise PluginLoadError('it wants a robot')"), "could not load plugin 'rqt_it/Plugin': it wants a robot"),
-    (dict(init="raise SystemExit(3)"), "could not load plugin 'rqt_it/Plugin': it ended itself with 3")])
+@pytest.mark.parametrize(
+    "broken, said",
+    [
+        (dict(init="1 / 0"), "could not load plugin 'rqt_it/Plugin': ZeroDivisionError: division by zero"),
+        (dict(init="raise PluginLoadError('it wants a robot')"), "could not load plugin 'rqt_it/Plugin': it wants a robot"),
+        (dict(init="raise SystemExit(3)"), "could not load plugin 'rqt_it/Plugin': it ended itself with 3"),
+    ],
+)
 def test_plugin_that_raises_at_its_start_leaves_nothing(workspace, broken, said):
     workspace.make("rqt_it", code(**broken))
     with open_gui(providers=workspace.providers()) as gui:
@@ -196,7 +200,10 @@ def test_widget_and_toolbar_may_come_and_go(workspace):
 
 
 def test_floats_for_whole_numbers_as_python_3_8_took_them(workspace):
-    workspace.make("rqt_it", code(init="""
+    workspace.make(
+        "rqt_it",
+        code(
+            init="""
         from python_qt_binding.QtGui import QColor, QImage, QPainter, QPixmap
         from python_qt_binding.QtWidgets import QProgressBar, QSlider, QSpinBox, QSplitter, QTableWidget
         slider, spin, bar, table = QSlider(), QSpinBox(), QProgressBar(), QTableWidget(2.0, 3.0)
@@ -207,7 +214,9 @@ def test_floats_for_whole_numbers_as_python_3_8_took_them(workspace):
         QTimer.singleShot(1.5, lambda: calls.append('timer'))
         splitter = QSplitter(); splitter.addWidget(slider); splitter.addWidget(spin); splitter.setSizes([1.0, 2.0])
         calls.append([slider.value(), spin.value(), bar.value(), table.columnWidth(1), self.edit.width(), image.width(),
-                      QColor(1.9, 2, 3).red()])"""))
+                      QColor(1.9, 2, 3).red()])"""
+        ),
+    )
     with open_plugin("rqt_it", providers=workspace.providers()):
         assert calls()[1] == [7, 20, 30, 41, 120, 8, 1]
         wait_until(lambda: "timer" in calls())

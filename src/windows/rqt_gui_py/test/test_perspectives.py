@@ -1,5 +1,4 @@
 """Perspectives: made, switched, removed, written to files and read from those of upstream."""
-from rqt_testing.in_process import errors, find, open_gui, open_plugin, process_events
 
 import json
 
@@ -8,6 +7,7 @@ from python_qt_binding.QtCore import QByteArray
 from qt_gui import perspective_file
 from qt_gui.errors import PerspectiveError
 from qt_gui.perspective_dialog import PerspectiveDialog
+from rqt_testing.in_process import errors, find, open_gui, open_plugin, process_events
 
 EDIT = """
 from python_qt_binding.QtWidgets import QLineEdit
@@ -27,19 +27,37 @@ UPSTREAM = {
     "keys": {},
     "groups": {
         "mainwindow": {
-            "keys": {"geometry": {"repr(QByteArray.hex)": "QtCore.QByteArray(b'01d9d0cb00030000')", "type": "repr(QByteArray.hex)",
-                                  "pretty-print": "        "},
-                     "state": {"repr(QByteArray.hex)": "QtCore.QByteArray(b'000000ff')", "type": "repr(QByteArray.hex)",
-                               "pretty-print": "    "}},
-            "groups": {"toolbar_areas": {"keys": {"MinimizedDockWidgetsToolbar": {"repr": "8", "type": "repr"}}, "groups": {}}}},
+            "keys": {
+                "geometry": {
+                    "repr(QByteArray.hex)": "QtCore.QByteArray(b'01d9d0cb00030000')",
+                    "type": "repr(QByteArray.hex)",
+                    "pretty-print": "        ",
+                },
+                "state": {"repr(QByteArray.hex)": "QtCore.QByteArray(b'000000ff')", "type": "repr(QByteArray.hex)", "pretty-print": "    "},
+            },
+            "groups": {"toolbar_areas": {"keys": {"MinimizedDockWidgetsToolbar": {"repr": "8", "type": "repr"}}, "groups": {}}},
+        },
         "pluginmanager": {
             "keys": {"running-plugins": {"repr": "{'rqt_edit/Plugin': [1, 2]}", "type": "repr"}},
             "groups": {
-                "plugin__rqt_edit__Plugin__1": {"keys": {}, "groups": {
-                    "dock_widget__edit": {"keys": {"dock_widget_title": {"repr": "'My Title'", "type": "repr"},
-                                                   "dockable": {"repr": "'true'", "type": "repr"},
-                                                   "parent": {"repr": "None", "type": "repr"}}, "groups": {}},
-                    "plugin": {"keys": {"text": {"repr": "u'from a file'", "type": "repr"}}, "groups": {}}}}}}}}
+                "plugin__rqt_edit__Plugin__1": {
+                    "keys": {},
+                    "groups": {
+                        "dock_widget__edit": {
+                            "keys": {
+                                "dock_widget_title": {"repr": "'My Title'", "type": "repr"},
+                                "dockable": {"repr": "'true'", "type": "repr"},
+                                "parent": {"repr": "None", "type": "repr"},
+                            },
+                            "groups": {},
+                        },
+                        "plugin": {"keys": {"text": {"repr": "u'from a file'", "type": "repr"}}, "groups": {}},
+                    },
+                }
+            },
+        },
+    },
+}
 
 
 @pytest.fixture
@@ -79,8 +97,13 @@ def test_the_last_one_used_is_the_first_of_the_next_window(workspace, tmp_path):
         assert gui.perspectives.current() == "@rqt_edit__Plugin"
     with open_gui(settings=settings, providers=workspace.providers()) as gui:
         assert gui.perspectives.current() == "mine__yours" and list(running(gui)) == ["rqt_edit/Plugin#1"]
-        shown = [action.text() for menu in gui.window.menuBar().actions() if menu.text() == "P&erspectives"
-                 for action in menu.menu().actions() if action.isCheckable()]
+        shown = [
+            action.text()
+            for menu in gui.window.menuBar().actions()
+            if menu.text() == "P&erspectives"
+            for action in menu.menu().actions()
+            if action.isCheckable()
+        ]
         assert shown == ["Default", "mine__yours"]  # the hidden one of the plugin alone is not in the menu
 
 
@@ -106,13 +129,13 @@ def test_upstream_file_is_read(gui, tmp_path):
 def test_exported_file_brings_everything_back(gui, tmp_path, workspace):
     path = str(tmp_path / "out.perspective")
     gui.plugins.load_plugin("rqt_edit/Plugin")
-    gui.plugins.running()[0].plugin().edit.setText("it's \"quoted\" – ü")
+    gui.plugins.running()[0].plugin().edit.setText('it\'s "quoted" – ü')
     gui.perspectives.export_perspective_to_file(path)
     data = json.load(open(path))
     assert data["groups"]["pluginmanager"]["keys"]["running-plugins"] == {"repr": "{'rqt_edit/Plugin': [1]}", "type": "repr"}
     assert data["groups"]["mainwindow"]["keys"]["state"]["type"] == "repr(QByteArray.hex)"
     with open_gui(["--perspective-file", path], providers=workspace.providers()) as other:
-        assert running(other) == {"rqt_edit/Plugin#1": "it's \"quoted\" – ü"}
+        assert running(other) == {"rqt_edit/Plugin#1": 'it\'s "quoted" – ü'}
         assert other.perspectives.current() == "@out.perspective"
 
 
@@ -120,14 +143,18 @@ def change(data, value):
     data["groups"]["pluginmanager"]["keys"]["running-plugins"] = value
 
 
-@pytest.mark.parametrize("edit, said", [
-    (lambda d: change(d, {"type": "repr", "repr": "__import__('os').system('touch /tmp/evil')"}), "is not a Python literal"),
-    (lambda d: change(d, {"type": "repr", "repr": "(" * 5000}), "is not a Python literal"),
-    (lambda d: change(d, {"type": "pickle", "pickle": "x"}), "has no type of repr"),
-    (lambda d: change(d, "text"), "has no type of repr"),
-    (lambda d: change(d, {"type": "repr(QByteArray.hex)", "repr(QByteArray.hex)": "exit()"}), "is not a Python literal"),
-    (lambda d: d.update(keys=[]), "is not an object with keys and groups"),
-    (lambda d: d["groups"].update(mainwindow=3), "mainwindow is not an object")])
+@pytest.mark.parametrize(
+    "edit, said",
+    [
+        (lambda d: change(d, {"type": "repr", "repr": "__import__('os').system('touch /tmp/evil')"}), "is not a Python literal"),
+        (lambda d: change(d, {"type": "repr", "repr": "(" * 5000}), "is not a Python literal"),
+        (lambda d: change(d, {"type": "pickle", "pickle": "x"}), "has no type of repr"),
+        (lambda d: change(d, "text"), "has no type of repr"),
+        (lambda d: change(d, {"type": "repr(QByteArray.hex)", "repr(QByteArray.hex)": "exit()"}), "is not a Python literal"),
+        (lambda d: d.update(keys=[]), "is not an object with keys and groups"),
+        (lambda d: d["groups"].update(mainwindow=3), "mainwindow is not an object"),
+    ],
+)
 def test_malformed_file_changes_nothing(gui, tmp_path, edit, said):
     gui.plugins.load_plugin("rqt_edit/Plugin")
     data = json.loads(json.dumps(UPSTREAM))
@@ -140,8 +167,10 @@ def test_malformed_file_changes_nothing(gui, tmp_path, edit, said):
     assert gui.perspectives.perspectives == ["Default"] and list(running(gui)) == ["rqt_edit/Plugin#1"]
 
 
-@pytest.mark.parametrize("content, said", [(b"{", "is not JSON"), (b"\xff\xfe", "is not JSON"), (b"[" * 100000, "is not JSON"),
-                                           (None, "cannot be read: Is a directory")])
+@pytest.mark.parametrize(
+    "content, said",
+    [(b"{", "is not JSON"), (b"\xff\xfe", "is not JSON"), (b"[" * 100000, "is not JSON"), (None, "cannot be read: Is a directory")],
+)
 def test_file_that_is_none(tmp_path, content, said):
     path = tmp_path / "x.perspective"
     path.mkdir() if content is None else path.write_bytes(content)
@@ -180,8 +209,13 @@ def test_bytes_survive(tmp_path):
 def test_dialog_says_why_a_name_cannot_be(workspace):
     dialog = PerspectiveDialog(None, ["Default"])
     ok = dialog.buttons.buttons()[0]
-    for name, usable, problem in (("", False, ""), ("a/b", False, "slash"), ("@a", False, "hidden"), ("Default", False, "exists"),
-                                  ("fine", True, "")):
+    for name, usable, problem in (
+        ("", False, ""),
+        ("a/b", False, "slash"),
+        ("@a", False, "hidden"),
+        ("Default", False, "exists"),
+        ("fine", True, ""),
+    ):
         dialog.name_edit.setText(name)
         assert ok.isEnabled() == usable and problem in dialog.problem_label.text()
 
@@ -228,13 +262,15 @@ def test_frozen_and_locked_windows(workspace, tmp_path):
 
 #: The ids that stand in perspectives saved on Noetic: package and name in the plugin.xml of each of its plugins, and pluginlib's name
 #: of those that are compiled there.
-NOETIC = ("rqt_action/ActionPlugin rqt_bag/Bag rqt_console/Console rqt_controller_manager/ControllerManager rqt_dep/RosPackGraph "
-          "rqt_graph/RosGraph rqt_image_view/ImageView rqt_joint_trajectory_controller/JointTrajectoryController rqt_launch/Launch "
-          "rqt_logger_level/LoggerLevel rqt_msg/Messages MultiplotPlugin rqt_multiplot/MultiplotPlugin rqt_nav_view/NavigationView "
-          "rqt_plot/Plot rqt_pose_view/PoseView rqt_publisher/Publisher rqt_py_console/PyConsole rqt_reconfigure/Param "
-          "rqt_robot_monitor/RobotMonitor rqt_robot_steering/RobotSteering rosmon rqt_rosmon/rosmon rqt_runtime_monitor/RuntimeMonitor "
-          "rqt_rviz/RViz rqt_service_caller/ServiceCaller rqt_shell/Shell rqt_srv/Services rqt_tf_tree/RosTfTree rqt_top/TOP "
-          "rqt_topic/TopicPlugin rqt_web/Web").split()
+NOETIC = (
+    "rqt_action/ActionPlugin rqt_bag/Bag rqt_console/Console rqt_controller_manager/ControllerManager rqt_dep/RosPackGraph "
+    "rqt_graph/RosGraph rqt_image_view/ImageView rqt_joint_trajectory_controller/JointTrajectoryController rqt_launch/Launch "
+    "rqt_logger_level/LoggerLevel rqt_msg/Messages MultiplotPlugin rqt_multiplot/MultiplotPlugin rqt_nav_view/NavigationView "
+    "rqt_plot/Plot rqt_pose_view/PoseView rqt_publisher/Publisher rqt_py_console/PyConsole rqt_reconfigure/Param "
+    "rqt_robot_monitor/RobotMonitor rqt_robot_steering/RobotSteering rosmon rqt_rosmon/rosmon rqt_runtime_monitor/RuntimeMonitor "
+    "rqt_rviz/RViz rqt_service_caller/ServiceCaller rqt_shell/Shell rqt_srv/Services rqt_tf_tree/RosTfTree rqt_top/TOP "
+    "rqt_topic/TopicPlugin rqt_web/Web"
+).split()
 
 
 def test_every_plugin_of_noetic_is_found_by_the_name_that_its_perspectives_have(workspace):
@@ -242,8 +278,14 @@ def test_every_plugin_of_noetic_is_found_by_the_name_that_its_perspectives_have(
         assert [name for name in NOETIC if gui.plugins.get_plugin_descriptor(name) is None] == []
 
 
-@pytest.mark.parametrize("package, name, saved", [("rqt_topic", "TopicPlugin", "rqt_topic/Topic"), ("rqt_multiplot", "MultiplotPlugin",
-                                                   "MultiplotPlugin"), ("rqt_rosmon", "rosmon", "rosmon")])
+@pytest.mark.parametrize(
+    "package, name, saved",
+    [
+        ("rqt_topic", "TopicPlugin", "rqt_topic/Topic"),
+        ("rqt_multiplot", "MultiplotPlugin", "MultiplotPlugin"),
+        ("rqt_rosmon", "rosmon", "rosmon"),
+    ],
+)
 def test_a_perspective_with_another_name_of_a_plugin_opens_it_with_its_settings(workspace, tmp_path, package, name, saved):
     folder = workspace.make(package, cls=name, kind="plugin_of_this_test.Plugin")
     (folder / "src" / "plugin_of_this_test.py").write_text(EDIT)
@@ -258,10 +300,14 @@ def test_a_perspective_with_another_name_of_a_plugin_opens_it_with_its_settings(
     assert errors == []
 
 
-@pytest.mark.parametrize("saved, told", [
-    ("rqt_moveit/Moveit", "no package of this workspace has it. It is not supplied here .* (ros-visualization/rqt_moveit); rqt --list"),
-    ("rqt_of_mine/Plugin", "no package of this workspace has it. Is it built in your workspace, and that sourced"),
-    ("rqt_edit/Other", "the package rqt_edit has no such plugin, but rqt_edit/Plugin; ")])
+@pytest.mark.parametrize(
+    "saved, told",
+    [
+        ("rqt_moveit/Moveit", "no package of this workspace has it. It is not supplied here .* (ros-visualization/rqt_moveit); rqt --list"),
+        ("rqt_of_mine/Plugin", "no package of this workspace has it. Is it built in your workspace, and that sourced"),
+        ("rqt_edit/Other", "the package rqt_edit has no such plugin, but rqt_edit/Plugin; "),
+    ],
+)
 def test_one_line_says_why_a_plugin_of_a_perspective_is_not_here(workspace, tmp_path, saved, told):
     workspace.make("rqt_edit", EDIT)
     path = tmp_path / "p.perspective"

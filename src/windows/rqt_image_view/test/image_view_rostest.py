@@ -1,26 +1,26 @@
 #!/usr/bin/env python3
 """Images of a real publisher: raw, compressed and as a Theora stream, on topics that come after the window."""
+
 import sys
 import unittest
 
 import numpy as np
 import rospy
 import rostest
+
 from rqt_testing.in_process import errors, open_plugin, wait_until  # isort: skip
 import cv2
 from geometry_msgs.msg import Point
+from rqt_image_view.source import image_topics
 from sensor_msgs.msg import CompressedImage, Image
 from std_msgs.msg import Header
 from theora_image_transport.msg import Packet
 from theora_image_transport.publisher import TheoraPublisher
 
-from rqt_image_view.source import image_topics
-
 PICTURE = np.full((120, 160, 3), (200, 60, 30), np.uint8)
 
 
 class ImageView(unittest.TestCase):
-
     def shows_orange(self, topic, kind, messages):
         """Opens the window first, then publishes until the colour is there."""
         with open_plugin("rqt_image_view", [topic]) as gui:
@@ -55,7 +55,7 @@ class ImageView(unittest.TestCase):
 
             def seen():
                 picture = PICTURE.copy()
-                picture[:20, step[0] % 100:step[0] % 100 + 20] = 255
+                picture[:20, step[0] % 100 : step[0] % 100 + 20] = 255
                 step[0] += 1
                 publisher.publish(Header(), picture.tobytes())
                 return canvas.picture is not None and canvas.picture.shape == PICTURE.shape
@@ -66,8 +66,13 @@ class ImageView(unittest.TestCase):
         self.assertEqual(errors, [])
 
     def test_list_of_topics(self):
-        kinds = (("/b/image", Image), ("/b/image/compressed", CompressedImage), ("/a/only/compressed", CompressedImage),
-                 ("/b/image/theora", Packet), ("/point", Point))
+        kinds = (
+            ("/b/image", Image),
+            ("/b/image/compressed", CompressedImage),
+            ("/a/only/compressed", CompressedImage),
+            ("/b/image/theora", Packet),
+            ("/point", Point),
+        )
         publishers = [rospy.Publisher(name, kind, queue_size=1) for name, kind in kinds]
         listed = [name for name in image_topics() if not name.startswith(("/camera", "/scene"))]  # of the other tests
         self.assertEqual(listed, ["/b/image", "/b/image/compressed", "/b/image/theora", "/a/only/compressed"])

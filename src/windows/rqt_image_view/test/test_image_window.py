@@ -1,13 +1,14 @@
 """The window in the container, without display and master; messages are put where rospy would put them."""
+
 import numpy as np
 import pytest
+
 from rqt_testing.in_process import errors, find, open_plugin, process_events, rospy_without_master, wait_until  # isort: skip
 import cv2
 from python_qt_binding.QtCore import QPoint, Qt
 from python_qt_binding.QtTest import QTest
-from sensor_msgs.msg import CompressedImage, Image
-
 from rqt_image_view import image_view, source
+from sensor_msgs.msg import CompressedImage, Image
 
 PICTURE = np.zeros((40, 60, 3), np.uint8)
 PICTURE[:20, :30], PICTURE[20:, 30:] = (200, 30, 40), (10, 60, 220)
@@ -22,8 +23,9 @@ def topics(monkeypatch):
 
 
 def message(pixels=PICTURE, encoding="rgb8", **more):
-    return Image(**{**dict(height=pixels.shape[0], width=pixels.shape[1], encoding=encoding, step=pixels.strides[0],
-                           data=pixels.tobytes()), **more})
+    return Image(
+        **{**dict(height=pixels.shape[0], width=pixels.shape[1], encoding=encoding, step=pixels.strides[0], data=pixels.tobytes()), **more}
+    )
 
 
 def receive(gui, sent):
@@ -34,6 +36,7 @@ def receive(gui, sent):
 
 def give(origin, sent):
     from io import BytesIO
+
     buffer = BytesIO()
     sent.serialize(buffer)
     raw = source.rospy.AnyMsg()
@@ -126,8 +129,7 @@ def test_clicks_are_pixels_of_the_unrotated_image(monkeypatch):
         process_events()
         left, top, width, height = shown(gui)._target()
         assert width < height
-        QTest.mouseClick(shown(gui), Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier,
-                         QPoint(left + width - 1, top + height - 1))
+        QTest.mouseClick(shown(gui), Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, QPoint(left + width - 1, top + height - 1))
         assert (published[0].x, published[0].y, published[0].z) == (59.0, 0.0, 0.0)
         QTest.mouseClick(shown(gui), Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, QPoint(left - 5, top + 5))
         assert len(published) == 1  # beside the picture
@@ -212,8 +214,10 @@ def test_no_packet_of_a_stream_is_dropped():
 
     scene = np.full((48, 64, 3), (200, 60, 30), np.uint8)
     encoder = Encoder(scene.shape[:2], "rgb8")
-    packets = [Packet(data=packet.data, b_o_s=number == 0, packetno=number) for number, packet in enumerate(
-        [*encoder.headers, *encoder.encode(scene.tobytes())])]
+    packets = [
+        Packet(data=packet.data, b_o_s=number == 0, packetno=number)
+        for number, packet in enumerate([*encoder.headers, *encoder.encode(scene.tobytes())])
+    ]
     with open_plugin("rqt_image_view", ["/camera/image_raw/theora"]) as gui:
         assert received(gui.plugin._source._subscriber, Packet, packets) == len(packets) >= 4
         wait_until(lambda: shown(gui).picture is not None)

@@ -1,13 +1,24 @@
 """Depth to what is seen, theora, and what the window does with pictures. Encodings: image_pixels."""
+
 import struct
 
 import cv2
 import numpy as np
 import pytest
+from rqt_image_view.pictures import (
+    COLOR_SCHEMES,
+    DepthView,
+    PictureError,
+    TheoraDecoder,
+    from_compressed,
+    from_raw,
+    invert_grid,
+    rotated,
+    show_depth,
+    unrotated_point,
+)
 from theora_image_transport.encoder import Encoder
 
-from rqt_image_view.pictures import (COLOR_SCHEMES, DepthView, PictureError, TheoraDecoder, from_compressed, from_raw, invert_grid,
-                                     rotated, show_depth, unrotated_point)
 
 def raw(pixels, encoding, **more):
     pixels = np.ascontiguousarray(pixels)

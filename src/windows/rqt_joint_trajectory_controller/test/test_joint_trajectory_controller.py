@@ -1,14 +1,14 @@
 """Sliders that follow the robot, and a robot that follows the sliders."""
+
 import math
 
 import pytest
 import rospy
-from rqt_testing.in_process import FakeContext, errors, open_plugin, rospy_without_master, wait_until
-
 from control_msgs.msg import JointTrajectoryControllerState
 from rqt_joint_trajectory_controller.controllers import ControllerFinder, Found
 from rqt_joint_trajectory_controller.joint_limits_urdf import DescriptionError, JointLimits, joint_limits
 from rqt_joint_trajectory_controller.joint_trajectory_controller import JointTrajectoryController, duration
+from rqt_testing.in_process import FakeContext, errors, open_plugin, rospy_without_master, wait_until
 
 URDF = """<robot name="r">
   <joint name="a" type="revolute"><limit lower="-1" upper="2" velocity="0.5" effort="1"/>
@@ -28,7 +28,7 @@ def test_limits():
 
 
 def test_a_description_that_tinyxml_takes_is_read():
-    odd = URDF.replace("<joint name=\"a\"", "<link name='R&D'/><gazebo>a & b<topic>x?a=1&b=2</topic></gazebo><joint name='a'", 1)
+    odd = URDF.replace('<joint name="a"', "<link name='R&D'/><gazebo>a & b<topic>x?a=1&b=2</topic></gazebo><joint name='a'", 1)
     assert joint_limits(odd) == joint_limits(URDF)
 
 
@@ -112,18 +112,27 @@ def test_manager_goes_away(plugin):
 
 def test_the_reason_of_an_empty_list_is_said(monkeypatch):
     from controller_manager_msgs.msg import ControllerState, HardwareInterfaceResources
-
     from rqt_joint_trajectory_controller import controllers
 
     parameters = {"/arm/robot_description": URDF, "/arm/arm/joints": ["c", "a"]}
-    answer = type("Answer", (), {"controller": [ControllerState("arm", "running", "effort_controllers/JointTrajectoryController", [
-        HardwareInterfaceResources("x", ["a", "c"])])]})
+    answer = type(
+        "Answer",
+        (),
+        {
+            "controller": [
+                ControllerState(
+                    "arm", "running", "effort_controllers/JointTrajectoryController", [HardwareInterfaceResources("x", ["a", "c"])]
+                )
+            ]
+        },
+    )
     monkeypatch.setattr(controllers.rospy, "ServiceProxy", lambda name, kind: lambda: answer)
     monkeypatch.setattr(controllers.rospy, "has_param", lambda name: name == "/arm/robot_description")
     monkeypatch.setattr(controllers.rospy, "get_param", lambda name, default=None: parameters.get(name, default))
     finder = ControllerFinder()
     assert finder.controllers("/arm/controller_manager") == Found(
-        {}, ("arm: robot_description has no limits of position and velocity for c",))
+        {}, ("arm: robot_description has no limits of position and velocity for c",)
+    )
     answer.controller[0].claimed_resources[0].resources = ["a", "b"]
     assert list(finder.controllers("/arm/controller_manager").usable["arm"]) == ["a", "b"]
     parameters["/arm/arm/joints"] = ["b", "a"]

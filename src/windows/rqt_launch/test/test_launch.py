@@ -1,13 +1,13 @@
 """The widget with nodes that start, die, hang; the real loader with a real file."""
+
 import threading
 from types import SimpleNamespace
 
 import pytest
-from rqt_testing.in_process import application, errors, find, open_plugin, rospy_without_master, wait_until
-
 from rqt_launch import launched_node
 from rqt_launch.launch_widget import LaunchWidget
 from rqt_launch.launched_node import LaunchError
+from rqt_testing.in_process import application, errors, find, open_plugin, rospy_without_master, wait_until
 
 
 class Node:
@@ -45,8 +45,12 @@ def widget():
         load.asked = (package, file, arguments)
         return nodes
 
-    fake = SimpleNamespace(packages=lambda: ["demo", "other"], launch_files=lambda package: ["bad.launch", f"{package}.launch"],
-                           load=load, stop_all=lambda nodes: None)
+    fake = SimpleNamespace(
+        packages=lambda: ["demo", "other"],
+        launch_files=lambda package: ["bad.launch", f"{package}.launch"],
+        load=load,
+        stop_all=lambda nodes: None,
+    )
     widget = LaunchWidget(fake)
     widget.choose({"package": "other", "file": "other.launch", "arguments": "x:=1"})
     wait_until(lambda: widget.file_box.currentText() == "other.launch")
@@ -94,7 +98,9 @@ def test_real_files():
     assert launched_node.launch_files("no_such_package") == []
     nodes = launched_node.load("turtlesim", "multisim.launch", "")
     assert [(node.name, node.kind, node.state()) for node in nodes] == [
-        ("/turtlesim1/sim", "turtlesim/turtlesim_node", "stopped"), ("/turtlesim2/sim", "turtlesim/turtlesim_node", "stopped")]
+        ("/turtlesim1/sim", "turtlesim/turtlesim_node", "stopped"),
+        ("/turtlesim2/sim", "turtlesim/turtlesim_node", "stopped"),
+    ]
     for file, said in (("none.launch", "none.launch"), ("../package.xml", "package.xml")):
         with pytest.raises(LaunchError, match=said) as error:
             launched_node.load("turtlesim", file, "")

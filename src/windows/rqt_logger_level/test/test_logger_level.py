@@ -1,11 +1,11 @@
 """The three lists, with nodes that answer, hang, and are dead."""
+
 import threading
 
 import pytest
 import rospy
-from rqt_testing.in_process import application, errors, find, open_plugin, rospy_without_master, wait_until
-
 from rqt_logger_level.logger_level_widget import LoggerLevelWidget
+from rqt_testing.in_process import application, errors, find, open_plugin, rospy_without_master, wait_until
 
 
 class Nodes:

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A topic of a real master that comes after the window."""
+
 import os
 import sys
 import tempfile
@@ -7,17 +8,21 @@ import unittest
 
 import rospy
 import rostest
-from rqt_testing.in_process import errors, open_plugin, wait_until  # isort: skip
-from std_msgs.msg import Float64
 
+from rqt_testing.in_process import errors, open_plugin, wait_until  # isort: skip
 from rqt_multiplot.config import Curve, CurveAxes, CurveAxis, FieldType, Plot, Table, write
+from std_msgs.msg import Float64
 
 
 class Multiplot(unittest.TestCase):
-
     def test_a_topic_that_comes_late_over_receipt_time(self):
-        curve = Curve(title="speed", axes=CurveAxes(CurveAxis("/speed", "std_msgs/Float64", FieldType.RECEIPT_TIME),
-                                                    CurveAxis("/speed", "std_msgs/Float64", FieldType.DATA, "data")))
+        curve = Curve(
+            title="speed",
+            axes=CurveAxes(
+                CurveAxis("/speed", "std_msgs/Float64", FieldType.RECEIPT_TIME),
+                CurveAxis("/speed", "std_msgs/Float64", FieldType.DATA, "data"),
+            ),
+        )
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "a.xml")
             with open(path, "w") as file:

@@ -1,8 +1,22 @@
 """Files of rqt_multiplot: read as they are found, written with the same bytes."""
-import pytest
 
-from rqt_multiplot.config import (ConfigError, Curve, DataType, FieldType, Plot, ScaleType, StyleType, Table, TitleType,
-                                  automatic_color, read, read_curve, write, write_curve)
+import pytest
+from rqt_multiplot.config import (
+    ConfigError,
+    Curve,
+    DataType,
+    FieldType,
+    Plot,
+    ScaleType,
+    StyleType,
+    Table,
+    TitleType,
+    automatic_color,
+    read,
+    read_curve,
+    write,
+    write_curve,
+)
 from rqt_multiplot.urls import UrlError, to_path, to_url
 
 #: what rqt_multiplot 0.0.11 writes for a table of one plot with one curve
@@ -117,14 +131,17 @@ def test_a_file_is_written_with_the_same_bytes():
 
 
 def test_tables_come_back():
-    table = Table(track_points=True, plots=[[Plot(title=f"{r} {c}", curves=[Curve(title=str(i)) for i in range(r * c + 11 * c)])
-                                             for c in range(3)] for r in range(2)])
+    table = Table(
+        track_points=True,
+        plots=[[Plot(title=f"{r} {c}", curves=[Curve(title=str(i)) for i in range(r * c + 11 * c)]) for c in range(3)] for r in range(2)],
+    )
     assert read(write(table)) == (table, [])
 
 
 def test_what_a_file_lacks_is_as_upstream_takes_it():
-    table, problems = read("<rqt_multiplot><table><plots><row_0><column_0><curves><curve_0/></curves></column_0></row_0></plots>"
-                           "</table></rqt_multiplot>")
+    table, problems = read(
+        "<rqt_multiplot><table><plots><row_0><column_0><curves><curve_0/></curves></column_0></row_0></plots></table></rqt_multiplot>"
+    )
     plot = table.plots[0][0]
     assert not problems and plot.plot_rate == 30 and plot.legend.visible and plot.axes.axes.x_axis.title_type == TitleType.AUTO
     assert plot.curves[0].data.circular_buffer_capacity == 10_000 and plot.curves[0].style.pen_width == 1
@@ -132,30 +149,51 @@ def test_what_a_file_lacks_is_as_upstream_takes_it():
 
 
 def test_rows_of_different_lengths_are_filled_up():
-    table, _ = read("<rqt_multiplot><table><plots><row_0><column_0><title>a</title></column_0></row_0><row_10><column_0/>"
-                    "<column_1><title>d</title></column_1></row_10><row_2/></plots></table></rqt_multiplot>")
+    table, _ = read(
+        "<rqt_multiplot><table><plots><row_0><column_0><title>a</title></column_0></row_0><row_10><column_0/>"
+        "<column_1><title>d</title></column_1></row_10><row_2/></plots></table></rqt_multiplot>"
+    )
     assert [[plot.title for plot in row] for row in table.plots] == [
-        ["a", "Untitled Plot"], ["Untitled Plot", "Untitled Plot"], ["Untitled Curve", "d"]]
+        ["a", "Untitled Plot"],
+        ["Untitled Plot", "Untitled Plot"],
+        ["Untitled Curve", "d"],
+    ]
 
 
-@pytest.mark.parametrize("old, new, said", [
-    ("<plot_rate>30<", "<plot_rate>fast<", "row_0/column_0/plot_rate: 'fast' is no number; 30 is taken"),
-    ("<plot_rate>30<", "<plot_rate>0<", "plot_rate: 0 is outside its range"),
-    ("<plot_rate>30<", "<plot_rate>nan<", "plot_rate: nan is outside"),
-    ("<pen_width>2<", "<pen_width>-1<", "curve_0/style/pen_width: -1 is outside its range of 0 to 100; 1 is taken"),
-    ("<type>3<", "<type>7<", "curve_0/data/type"), ("#ff8800", "url(x)", "custom_color: 'url(x)' is no colour"),
-    ("<relative_minimum>-10.5<", "<relative_minimum>inf<", "relative_minimum: inf is outside")])
+@pytest.mark.parametrize(
+    "old, new, said",
+    [
+        ("<plot_rate>30<", "<plot_rate>fast<", "row_0/column_0/plot_rate: 'fast' is no number; 30 is taken"),
+        ("<plot_rate>30<", "<plot_rate>0<", "plot_rate: 0 is outside its range"),
+        ("<plot_rate>30<", "<plot_rate>nan<", "plot_rate: nan is outside"),
+        ("<pen_width>2<", "<pen_width>-1<", "curve_0/style/pen_width: -1 is outside its range of 0 to 100; 1 is taken"),
+        ("<type>3<", "<type>7<", "curve_0/data/type"),
+        ("#ff8800", "url(x)", "custom_color: 'url(x)' is no colour"),
+        ("<relative_minimum>-10.5<", "<relative_minimum>inf<", "relative_minimum: inf is outside"),
+    ],
+)
 def test_values_that_make_no_sense(old, new, said):
     assert old in FILE
     table, problems = read(FILE.replace(old, new, 1), "my.xml")
     assert len(problems) == 1 and said in problems[0] and problems[0].startswith("my.xml: ") and table.plots[0][0].curves
 
 
-@pytest.mark.parametrize("text, said", [
-    ("", "is no XML file"), ("<rqt_multiplot><table>", "is no XML file"), ("<robot/>", "lacks <rqt_multiplot><table>"),
-    ("<rqt_multiplot/>", "lacks"), ("\x00", "is no XML file"),
-    ("<rqt_multiplot><table><plots>" + "".join(f"<row_{i}><column_0/></row_{i}>" for i in range(101)) +
-     "</plots></table></rqt_multiplot>", "101 x 1 plots; at most 100")])
+@pytest.mark.parametrize(
+    "text, said",
+    [
+        ("", "is no XML file"),
+        ("<rqt_multiplot><table>", "is no XML file"),
+        ("<robot/>", "lacks <rqt_multiplot><table>"),
+        ("<rqt_multiplot/>", "lacks"),
+        ("\x00", "is no XML file"),
+        (
+            "<rqt_multiplot><table><plots>"
+            + "".join(f"<row_{i}><column_0/></row_{i}>" for i in range(101))
+            + "</plots></table></rqt_multiplot>",
+            "101 x 1 plots; at most 100",
+        ),
+    ],
+)
 def test_other_files_are_refused(text, said):
     with pytest.raises(ConfigError) as error:
         read(text, "my.xml")

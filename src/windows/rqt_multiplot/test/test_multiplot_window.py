@@ -1,20 +1,20 @@
 """The window in the container, without display and master; messages are put where rospy would put them."""
+
 import time
 
 import numpy as np
 import pytest
+
 from rqt_testing.in_process import errors, find, open_plugin, process_events, rospy_without_master, wait_until  # isort: skip
 import genpy
 import rosbag
 from python_qt_binding.QtCore import QPointF, Qt
 from python_qt_binding.QtGui import QImage
+from rqt_multiplot import sources
+from rqt_multiplot.config import Curve, CurveAxes, CurveAxis, FieldType, Plot, Scale, ScaleType, Style, StyleType, Table, read, write
+from rqt_multiplot.curve_dialog import CurveDialog, field_names
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
-
-from rqt_multiplot import sources
-from rqt_multiplot.config import (Curve, CurveAxes, CurveAxis, FieldType, Plot, Scale, ScaleType, Style, StyleType, Table, read,
-                                  write)
-from rqt_multiplot.curve_dialog import CurveDialog, field_names
 
 TODAY = 1_795_000_000.0
 
@@ -26,9 +26,14 @@ def master():
 
 def curve(index=0, **more):
     scale = Scale(ScaleType.RELATIVE, relative_minimum=-10.0)
-    return Curve(title=f"joint {index}", axes=CurveAxes(
-        CurveAxis("/joints", "sensor_msgs/JointState", FieldType.DATA, "header/stamp", scale),
-        CurveAxis("/joints", "sensor_msgs/JointState", FieldType.DATA, f"position/{index}")), **more)
+    return Curve(
+        title=f"joint {index}",
+        axes=CurveAxes(
+            CurveAxis("/joints", "sensor_msgs/JointState", FieldType.DATA, "header/stamp", scale),
+            CurveAxis("/joints", "sensor_msgs/JointState", FieldType.DATA, f"position/{index}"),
+        ),
+        **more,
+    )
 
 
 @pytest.fixture
@@ -290,6 +295,7 @@ def test_the_curve_dialog_says_what_a_field_is():
         types = {"/joints": "sensor_msgs/JointState"}
 
     from rqt_testing.in_process import application
+
     application()
     dialog = CurveDialog(Curve(), Types())
     dialog.y.topic.setCurrentText("/joints")

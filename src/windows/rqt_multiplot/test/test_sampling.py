@@ -1,16 +1,16 @@
 """Messages to points, points to what is kept and drawn."""
+
 import genpy
 import numpy as np
 import pytest
 import rosbag
 from geometry_msgs.msg import PointStamped
-from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64, Header, String
-
 from rqt_multiplot.config import Curve, CurveAxes, CurveAxis, Data, DataType, FieldType
 from rqt_multiplot.points import MOST_POINTS, Points
 from rqt_multiplot.sampling import Sampler
 from rqt_multiplot.sources import BagError, read_bag
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64, Header, String
 
 
 def axis(topic, field="", receipt=False):
@@ -59,6 +59,7 @@ def test_two_topics_meet_by_their_stamps():
 
 def genpy_point(**fields):
     from geometry_msgs.msg import Point
+
     return Point(**fields)
 
 
@@ -75,9 +76,15 @@ def test_a_clock_that_is_set_back_begins_anew():
     assert points.x.tolist() == [0.0, 1.0] and points.ascending
 
 
-@pytest.mark.parametrize("field, message, said", [
-    ("position/5", JointState(position=[1.0]), "holds no such number"), ("position", JointState(), "give an index"),
-    ("speed", JointState(), "no field speed in sensor_msgs/JointState; it has header"), ("data", String("x"), "is no number but string")])
+@pytest.mark.parametrize(
+    "field, message, said",
+    [
+        ("position/5", JointState(position=[1.0]), "holds no such number"),
+        ("position", JointState(), "give an index"),
+        ("speed", JointState(), "no field speed in sensor_msgs/JointState; it has header"),
+        ("data", String("x"), "is no number but string"),
+    ],
+)
 def test_what_is_no_number_is_told(field, message, said):
     curve = sampler(axis("/t", receipt=True), axis("/t", field))
     curve.add("/t", message, 1.0)
@@ -88,8 +95,10 @@ def test_an_unfinished_curve_wants_no_topic():
     assert sampler(axis("/t", receipt=True), axis("/t")).topics == set()
 
 
-@pytest.mark.parametrize("kind, capacity, kept", [(DataType.VECTOR, 5, 50), (DataType.LIST, 5, 50),
-                                                  (DataType.CIRCULAR_BUFFER, 5, 5), (DataType.TIME_FRAME, 5, 11)])
+@pytest.mark.parametrize(
+    "kind, capacity, kept",
+    [(DataType.VECTOR, 5, 50), (DataType.LIST, 5, 50), (DataType.CIRCULAR_BUFFER, 5, 5), (DataType.TIME_FRAME, 5, 11)],
+)
 def test_what_is_kept(kind, capacity, kept):
     points = Points(Data(kind, capacity, 10.0))
     for i in range(50):
@@ -143,8 +152,12 @@ def test_bags_that_give_nothing_are_told(bag, tmp_path):
     curve = sampler(axis("/g", receipt=True), axis("/g", "data"))
     (tmp_path / "no.bag").write_bytes(b"rubbish")
     (tmp_path / "cut.bag").write_bytes(open(bag, "rb").read()[:30_000])
-    for name, said in ((bag, "has none of /g; it has /f, /other"), (tmp_path / "no.bag", "cannot be read"),
-                       (tmp_path / "cut.bag", "rosbag reindex"), (tmp_path / "absent.bag", "No such file")):
+    for name, said in (
+        (bag, "has none of /g; it has /f, /other"),
+        (tmp_path / "no.bag", "cannot be read"),
+        (tmp_path / "cut.bag", "rosbag reindex"),
+        (tmp_path / "absent.bag", "No such file"),
+    ):
         with pytest.raises(BagError, match=said) as error:
             read_bag(str(name), [curve])
         assert "\n" not in str(error.value)

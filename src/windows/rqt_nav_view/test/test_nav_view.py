@@ -1,15 +1,16 @@
 """Map, lines and the mouse, in the container, without display and master."""
+
 import math
 
 import numpy as np
 import pytest
+
 from rqt_testing.in_process import errors, find, open_plugin, process_events, rospy_without_master  # isort: skip
 import rospy
 from geometry_msgs.msg import Point32, PolygonStamped, PoseStamped, TransformStamped
 from nav_msgs.msg import OccupancyGrid, Path
 from python_qt_binding.QtCore import QPointF, Qt
 from python_qt_binding.QtTest import QTest
-
 from rqt_nav_view.geometry import MapError, map_pixels, points_of, transformed, yaw
 
 
@@ -36,8 +37,15 @@ def test_map_to_pixels():
     assert map_pixels(grid(data=[0, 100, -1, 50] + [0] * 8))[0].tolist() == [255, 0, 200, 128]
 
 
-@pytest.mark.parametrize("change, said", [(dict(data=[0] * 11), "4 x 3 cells with 11 values"), (dict(width=0, data=[]), "0 x 3"),
-                                          (dict(resolution=0.0), "cells of 0.0 m"), (dict(resolution=math.nan), "cells of nan m")])
+@pytest.mark.parametrize(
+    "change, said",
+    [
+        (dict(data=[0] * 11), "4 x 3 cells with 11 values"),
+        (dict(width=0, data=[]), "0 x 3"),
+        (dict(resolution=0.0), "cells of 0.0 m"),
+        (dict(resolution=math.nan), "cells of nan m"),
+    ],
+)
 def test_maps_that_make_no_sense(change, said):
     with pytest.raises(MapError, match=said):
         map_pixels(grid(**change))

@@ -1,23 +1,34 @@
 """Names of curves: what a name stands for, why it stands for nothing, and the number that it takes out of a message."""
+
 import genpy
 import pytest
 from geometry_msgs.msg import PoseWithCovariance, Twist
+from rqt_plot.fields import FieldError, expand, getter, parse_path, split_arguments, split_topic
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool, Float64, Header, String
 from tf2_msgs.msg import TFMessage
 
-from rqt_plot.fields import FieldError, expand, getter, parse_path, split_arguments, split_topic
+TYPES = {
+    "/pose": "geometry_msgs/PoseWithCovariance",
+    "/pose/ground": "geometry_msgs/Twist",
+    "/joints": "sensor_msgs/JointState",
+    "/on": "std_msgs/Bool",
+    "/speed": "std_msgs/Float64",
+    "/name": "std_msgs/String",
+    "/tf": "tf2_msgs/TFMessage",
+    "/strange": "nowhere_msgs/Thing",
+}
 
-TYPES = {"/pose": "geometry_msgs/PoseWithCovariance", "/pose/ground": "geometry_msgs/Twist", "/joints": "sensor_msgs/JointState",
-         "/on": "std_msgs/Bool", "/speed": "std_msgs/Float64", "/name": "std_msgs/String", "/tf": "tf2_msgs/TFMessage",
-         "/strange": "nowhere_msgs/Thing"}
 
-
-@pytest.mark.parametrize("arguments, names", [
-    (["/a/x:y:z"], ["/a/x", "/a/y", "/a/z"]),
-    (["/a/x,/b/y", "c"], ["/a/x", "/b/y", "c"]),
-    (["/turtle1/pose/x:y,/b"], ["/turtle1/pose/x", "/turtle1/pose/y", "/b"]),
-    (["/j/position[0]:position[1]"], ["/j/position[0]", "/j/position[1]"])])
+@pytest.mark.parametrize(
+    "arguments, names",
+    [
+        (["/a/x:y:z"], ["/a/x", "/a/y", "/a/z"]),
+        (["/a/x,/b/y", "c"], ["/a/x", "/b/y", "c"]),
+        (["/turtle1/pose/x:y,/b"], ["/turtle1/pose/x", "/turtle1/pose/y", "/b"]),
+        (["/j/position[0]:position[1]"], ["/j/position[0]", "/j/position[1]"]),
+    ],
+)
 def test_names_of_a_command_line(arguments, names):
     assert split_arguments(arguments) == names
 
@@ -33,23 +44,44 @@ def test_the_longest_topic_is_meant():
     assert split_topic("/posed/x", TYPES) == (None, "")
 
 
-@pytest.mark.parametrize("name, curves", [
-    ("/speed", ["/speed/data"]), ("/speed/data", ["/speed/data"]), ("/on", ["/on/data"]), ("/on/data", ["/on/data"]),
-    ("/pose/ground/linear", ["/pose/ground/linear/x", "/pose/ground/linear/y", "/pose/ground/linear/z"]),
-    ("/pose/covariance", [f"/pose/covariance[{i}]" for i in range(36)]),
-    ("/joints/position[3]", ["/joints/position[3]"]), ("/joints/position/3", ["/joints/position/3"]),
-    ("/joints/header/stamp", ["/joints/header/stamp"]), ("/joints/header", ["/joints/header/seq"]),
-    ("/tf/transforms[0]/transform/translation/x", ["/tf/transforms[0]/transform/translation/x"]),
-    ("/pose/ground", []), ("/nothing/x", None)])
+@pytest.mark.parametrize(
+    "name, curves",
+    [
+        ("/speed", ["/speed/data"]),
+        ("/speed/data", ["/speed/data"]),
+        ("/on", ["/on/data"]),
+        ("/on/data", ["/on/data"]),
+        ("/pose/ground/linear", ["/pose/ground/linear/x", "/pose/ground/linear/y", "/pose/ground/linear/z"]),
+        ("/pose/covariance", [f"/pose/covariance[{i}]" for i in range(36)]),
+        ("/joints/position[3]", ["/joints/position[3]"]),
+        ("/joints/position/3", ["/joints/position/3"]),
+        ("/joints/header/stamp", ["/joints/header/stamp"]),
+        ("/joints/header", ["/joints/header/seq"]),
+        ("/tf/transforms[0]/transform/translation/x", ["/tf/transforms[0]/transform/translation/x"]),
+        ("/pose/ground", []),
+        ("/nothing/x", None),
+    ],
+)
 def test_what_a_name_stands_for(name, curves):
     assert expand(name, TYPES)[0] == curves
 
 
-@pytest.mark.parametrize("name, said", [
-    ("/joints/position", "give an index"), ("/joints/velosity[0]", "no field velosity in sensor_msgs/JointState; it has header,"),
-    ("/name/data", "is not numeric but string"), ("/strange/x", "build its package"), ("/pose/covariance[36]", "outside the 36"),
-    ("/speed/data/x", "has no fields"), ("/speed/data[0]", "is no array"), ("/speed/__class__", "is no field"),
-    ("/speed/a b", "'a b' is no field"), ("/tf/transforms/x", "is an array"), ("/nothing", "topic /nothing does not exist")])
+@pytest.mark.parametrize(
+    "name, said",
+    [
+        ("/joints/position", "give an index"),
+        ("/joints/velosity[0]", "no field velosity in sensor_msgs/JointState; it has header,"),
+        ("/name/data", "is not numeric but string"),
+        ("/strange/x", "build its package"),
+        ("/pose/covariance[36]", "outside the 36"),
+        ("/speed/data/x", "has no fields"),
+        ("/speed/data[0]", "is no array"),
+        ("/speed/__class__", "is no field"),
+        ("/speed/a b", "'a b' is no field"),
+        ("/tf/transforms/x", "is an array"),
+        ("/nothing", "topic /nothing does not exist"),
+    ],
+)
 def test_why_it_stands_for_nothing(name, said):
     curves, reason = expand(name, TYPES)
     assert not curves and said in reason and "\n" not in reason

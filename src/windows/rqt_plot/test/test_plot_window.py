@@ -1,17 +1,18 @@
 """The plot and its bar, in the container, without display and master; numbers are put where rospy would put them."""
+
 import numpy as np
 import pytest
+
 from rqt_testing.in_process import application, errors, find, open_plugin, process_events, rospy_without_master, wait_until  # isort: skip
 import genpy
 from python_qt_binding.QtCore import Qt
 from python_qt_binding.QtGui import QImage
 from python_qt_binding.QtTest import QTest
-from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64, Header
-
 from rqt_plot import plot_widget, rosplot
 from rqt_plot.data_plot import DataPlot, DataPlotException
 from rqt_plot.plot_widget import PlotWidget, could_appear
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64, Header
 
 TYPES = {"/speed": "std_msgs/Float64", "/joints": "sensor_msgs/JointState"}
 
@@ -79,9 +80,14 @@ def test_a_topic_that_is_not_there_yet(topics):
 
 def test_the_plus_button_says_why(plot):
     wait_until(plot._topics.known.is_set)
-    for text, enabled, said in (("/speed", True, "has 1 plottable"), ("/joints/position", False, "give an index"),
-                                ("/joints/posision[0]", False, "no field posision"), ("/new/x", True, "starts when it appears"),
-                                ("/", False, ""), ("speed data", False, "does not exist")):
+    for text, enabled, said in (
+        ("/speed", True, "has 1 plottable"),
+        ("/joints/position", False, "give an index"),
+        ("/joints/posision[0]", False, "no field posision"),
+        ("/new/x", True, "starts when it appears"),
+        ("/", False, ""),
+        ("speed data", False, "does not exist"),
+    ):
         plot.topic_edit.setText(text)
         assert plot.subscribe_topic_button.isEnabled() == enabled and said in plot.subscribe_topic_button.toolTip(), text
     plot.topic_edit.setText("/speed")

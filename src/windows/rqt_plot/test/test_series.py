@@ -1,7 +1,7 @@
 """Curves that forget their beginning, and what is left of them on a screen."""
+
 import numpy as np
 import pytest
-
 from rqt_plot.series import Series, decimate, limits, visible
 
 

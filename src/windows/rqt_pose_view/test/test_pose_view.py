@@ -1,22 +1,33 @@
 """Quaternions of messages, the picture of the box, and the window without display and master."""
+
 import math
 from io import BytesIO
 
 import numpy as np
 import pytest
+
 from rqt_testing.in_process import errors, find, open_plugin, rospy_without_master, wait_until  # isort: skip
 import rospy
 from geometry_msgs.msg import Pose, PoseArray, PoseStamped, Quaternion, TransformStamped
 from nav_msgs.msg import Odometry
+from rqt_pose_view.poses import Camera, quaternion_path, rotation
 from sensor_msgs.msg import Imu
 from std_msgs.msg import String
 
-from rqt_pose_view.poses import Camera, quaternion_path, rotation
 
-
-@pytest.mark.parametrize("kind, path", [
-    (Quaternion, []), (Pose, ["orientation"]), (PoseStamped, ["pose", "orientation"]), (Imu, ["orientation"]),
-    (Odometry, ["pose", "pose", "orientation"]), (TransformStamped, ["transform", "rotation"]), (String, None), (PoseArray, None)])
+@pytest.mark.parametrize(
+    "kind, path",
+    [
+        (Quaternion, []),
+        (Pose, ["orientation"]),
+        (PoseStamped, ["pose", "orientation"]),
+        (Imu, ["orientation"]),
+        (Odometry, ["pose", "pose", "orientation"]),
+        (TransformStamped, ["transform", "rotation"]),
+        (String, None),
+        (PoseArray, None),
+    ],
+)
 def test_where_the_quaternion_is(kind, path):
     assert quaternion_path(kind) == path
 

@@ -1,10 +1,10 @@
 """Publishers: what they send, what they refuse, what is kept."""
+
 import re
 
 import pytest
-from rqt_testing.in_process import errors, find, open_plugin, rospy_without_master, wait_until
-
 from python_qt_binding.QtCore import Qt
+from rqt_testing.in_process import errors, find, open_plugin, rospy_without_master, wait_until
 
 
 @pytest.fixture
@@ -71,11 +71,19 @@ def test_arrays_grow_by_their_type(gui):
     assert len(sent[0].points) == 2 and sent[0].points[1].z != sent[0].points[1].z
 
 
-@pytest.mark.parametrize("topic, kind, rate, said", [
-    ("/x", "no_package/Odd", "1", "cannot import the message type no_package/Odd"), ("a b", "std_msgs/String", "1", "no name for a topic"),
-    ("", "std_msgs/String", "1", "no name for a topic"), ("/x", "std_msgs/String", "often", "number from 0 to 1000 Hz, not often"),
-    ("/x", "std_msgs/String", "-1", "not -1"), ("/x", "float64", "1", "is no message type"), ("/x", "", "1", "is no message type"),
-    ("/x", "std_msgs/String[", "1", "is no message type")])
+@pytest.mark.parametrize(
+    "topic, kind, rate, said",
+    [
+        ("/x", "no_package/Odd", "1", "cannot import the message type no_package/Odd"),
+        ("a b", "std_msgs/String", "1", "no name for a topic"),
+        ("", "std_msgs/String", "1", "no name for a topic"),
+        ("/x", "std_msgs/String", "often", "number from 0 to 1000 Hz, not often"),
+        ("/x", "std_msgs/String", "-1", "not -1"),
+        ("/x", "float64", "1", "is no message type"),
+        ("/x", "", "1", "is no message type"),
+        ("/x", "std_msgs/String[", "1", "is no message type"),
+    ],
+)
 def test_refused_in_one_line(gui, topic, kind, rate, said):
     assert gui.plugin.add_publisher(topic, kind, rate) is None
     assert re.search(said, find(gui, "error_label").text()) and "\n" not in find(gui, "error_label").text()

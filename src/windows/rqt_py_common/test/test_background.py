@@ -1,9 +1,9 @@
 """Calls in threads: results in this one, hung calls harmless."""
+
 import threading
 
-from rqt_testing.in_process import application, process_events, wait_until
-
 from rqt_py_common.background import Background
+from rqt_testing.in_process import application, process_events, wait_until
 
 
 def test_results_and_errors_come_in_the_thread_of_the_window():

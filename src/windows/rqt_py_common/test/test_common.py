@@ -1,5 +1,4 @@
 """Topics, messages and fields, as plugins ask for them."""
-from rqt_testing.in_process import application, wait_until
 
 import genpy
 import pytest
@@ -17,6 +16,7 @@ from rqt_py_common.plugin_container_widget import PluginContainerWidget
 from rqt_py_common.rqt_ros_graph import RqtRosGraph
 from rqt_py_common.rqt_roscomm_util import RqtRoscommUtil
 from rqt_py_common.topic_completer import TopicCompleter
+from rqt_testing.in_process import application, wait_until
 from sensor_msgs.msg import JointState
 
 
@@ -25,19 +25,41 @@ def app():
     return application()
 
 
-@pytest.mark.parametrize("name, cls", [("float32", float), ("uint8", int), ("char", int), ("bool", bool), ("string", str),
-                                       ("time", genpy.Time), ("duration", genpy.Duration), ("geometry_msgs/Point", Point),
-                                       ("no_such_pkg/Type", None), ("nonsense", None)])
+@pytest.mark.parametrize(
+    "name, cls",
+    [
+        ("float32", float),
+        ("uint8", int),
+        ("char", int),
+        ("bool", bool),
+        ("string", str),
+        ("time", genpy.Time),
+        ("duration", genpy.Duration),
+        ("geometry_msgs/Point", Point),
+        ("no_such_pkg/Type", None),
+        ("nonsense", None),
+    ],
+)
 def test_class_of_a_type(name, cls):
     assert topic_helpers.get_type_class(name) is cls
 
 
-@pytest.mark.parametrize("message, path, kind", [
-    (Odometry, "/pose/pose/position/x", (float, False)), (Odometry, "pose/covariance", (float, True)),
-    (Odometry, "pose/covariance[3]", (float, False)), (JointState, "position[0]", (float, False)),
-    (JointState, "name", (str, True)), (PoseArray, "poses[0]/position/x", (float, False)), (Odometry, "header/seq", (int, False)),
-    (Odometry, "", (Odometry, False)), (Odometry, "nothing", (None, False)), (JointState, "position[", (None, False)),
-    (Odometry, "header/seq/deeper", (None, False))])
+@pytest.mark.parametrize(
+    "message, path, kind",
+    [
+        (Odometry, "/pose/pose/position/x", (float, False)),
+        (Odometry, "pose/covariance", (float, True)),
+        (Odometry, "pose/covariance[3]", (float, False)),
+        (JointState, "position[0]", (float, False)),
+        (JointState, "name", (str, True)),
+        (PoseArray, "poses[0]/position/x", (float, False)),
+        (Odometry, "header/seq", (int, False)),
+        (Odometry, "", (Odometry, False)),
+        (Odometry, "nothing", (None, False)),
+        (JointState, "position[", (None, False)),
+        (Odometry, "header/seq/deeper", (None, False)),
+    ],
+)
 def test_type_of_a_field(message, path, kind):
     assert topic_helpers.get_slot_type(message, path) == kind
 
@@ -52,8 +74,11 @@ def test_fields_of_a_type_are_found():
 def topics(monkeypatch):
     shown = [["/odom", "nav_msgs/Odometry"], ["/strange", "gone_msgs/Gone"], ["/arm/joint_states", "sensor_msgs/JointState"]]
     monkeypatch.setattr(rospy, "get_published_topics", lambda namespace="/": [list(pair) for pair in shown])
-    monkeypatch.setattr(topic_helpers, "get_topic_type", lambda topic: next(
-        ((kind, name, None) for name, kind in shown if topic.startswith(name)), (None, None, None)))
+    monkeypatch.setattr(
+        topic_helpers,
+        "get_topic_type",
+        lambda topic: next(((kind, name, None) for name, kind in shown if topic.startswith(name)), (None, None, None)),
+    )
     return shown
 
 

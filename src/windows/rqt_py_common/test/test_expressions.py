@@ -1,4 +1,5 @@
 """What expressions of message fields can do, and what they cannot."""
+
 import math
 import time
 
@@ -7,15 +8,38 @@ import pytest
 from rqt_py_common.expressions import Expression, ExpressionError, field_value
 
 
-@pytest.mark.parametrize("text, type_name, value", [
-    ("sin(i/10.0)*50", "float64", 50 * math.sin(0.7)), ("math.pi", "float32", math.pi), ("1", "float64", 1.0),
-    ("-1.9", "int32", -1), ("i % 2 == 1", "bool", True), ("True", "bool", True), ("false", "bool", False),
-    ("255", "uint8", 255), ("2**63-1", "int64", 2**63 - 1), ("nan", "float64", None), ("[1, 2.5, i]", "float64[]", [1, 2.5, 7]),
-    ("[0.0] * 6", "float64[6]", [0.0] * 6), ("[x * 2 for x in range(3)]", "int32[]", [0, 2, 4]), ("(1,)", "float64[1]", [1.0]),
-    ("b'ab'", "uint8[]", [97, 98]), ("['a', 'b']", "string[]", ["a", "b"]), ("hello world", "string", "hello world"),
-    ("'number %d' % i", "string", "number 7"), ("12", "string", "12"), ("", "string", ""), ("'quoted'", "string", "quoted"),
-    ("genpy.Time(3, 4)", "time", genpy.Time(3, 4)), ("1.5", "duration", genpy.Duration(1, 500000000)),
-    ("1 if i > 5 else 0", "int8", 1), ("min(3, max(1, i))", "int8", 3), ("[1,2,3][-1]", "int8", 3), ("1 < i < 9", "bool", True)])
+@pytest.mark.parametrize(
+    "text, type_name, value",
+    [
+        ("sin(i/10.0)*50", "float64", 50 * math.sin(0.7)),
+        ("math.pi", "float32", math.pi),
+        ("1", "float64", 1.0),
+        ("-1.9", "int32", -1),
+        ("i % 2 == 1", "bool", True),
+        ("True", "bool", True),
+        ("false", "bool", False),
+        ("255", "uint8", 255),
+        ("2**63-1", "int64", 2**63 - 1),
+        ("nan", "float64", None),
+        ("[1, 2.5, i]", "float64[]", [1, 2.5, 7]),
+        ("[0.0] * 6", "float64[6]", [0.0] * 6),
+        ("[x * 2 for x in range(3)]", "int32[]", [0, 2, 4]),
+        ("(1,)", "float64[1]", [1.0]),
+        ("b'ab'", "uint8[]", [97, 98]),
+        ("['a', 'b']", "string[]", ["a", "b"]),
+        ("hello world", "string", "hello world"),
+        ("'number %d' % i", "string", "number 7"),
+        ("12", "string", "12"),
+        ("", "string", ""),
+        ("'quoted'", "string", "quoted"),
+        ("genpy.Time(3, 4)", "time", genpy.Time(3, 4)),
+        ("1.5", "duration", genpy.Duration(1, 500000000)),
+        ("1 if i > 5 else 0", "int8", 1),
+        ("min(3, max(1, i))", "int8", 3),
+        ("[1,2,3][-1]", "int8", 3),
+        ("1 < i < 9", "bool", True),
+    ],
+)
 def test_values(text, type_name, value):
     found = field_value(text, type_name, counter=7)
     assert math.isnan(found) if value is None else found == value and type(found) is type(value)
@@ -27,23 +51,60 @@ def test_random_and_time():
     assert abs(field_value("time()", "float64") - time.time()) < 60
 
 
-@pytest.mark.parametrize("text, type_name, said", [
-    ("", "float64", "not an expression"), ("sin(", "float64", "not an expression"), ("foo", "float64", "'foo' is not defined"),
-    ("'a'", "float64", "'a' is no float64"), ("300", "uint8", "300 is out of the range of uint8, 0 to 255"),
-    ("nan", "int32", "nan is no int32"), ("[1, 2]", "float64[3]", "takes 3 values, not 2"), ("5", "float64[]", "takes a list"),
-    ("1/0", "float64", "division by zero"), ("1e39", "float32", "out of the range"), ("[1]", "float64", r"\[1\] is no float64"),
-    ("-1", "time", "is no time|negative")])
+@pytest.mark.parametrize(
+    "text, type_name, said",
+    [
+        ("", "float64", "not an expression"),
+        ("sin(", "float64", "not an expression"),
+        ("foo", "float64", "'foo' is not defined"),
+        ("'a'", "float64", "'a' is no float64"),
+        ("300", "uint8", "300 is out of the range of uint8, 0 to 255"),
+        ("nan", "int32", "nan is no int32"),
+        ("[1, 2]", "float64[3]", "takes 3 values, not 2"),
+        ("5", "float64[]", "takes a list"),
+        ("1/0", "float64", "division by zero"),
+        ("1e39", "float32", "out of the range"),
+        ("[1]", "float64", r"\[1\] is no float64"),
+        ("-1", "time", "is no time|negative"),
+    ],
+)
 def test_wrong(text, type_name, said):
     with pytest.raises(ExpressionError, match=said):
         field_value(text, type_name)
 
 
-@pytest.mark.parametrize("text", [
-    "__import__('os').system('true')", "open('/etc/passwd')", "().__class__.__bases__", "sin.__self__", "genpy.Time.__init__",
-    "math.sin.__globals__", "[c for c in ().__class__]", "lambda: 1", "exec('1')", "(x := 1)", "f'{i}'", "str.mro()", "int.from_bytes",
-    "9**9**9", "2**100000", "1 << 10**9", "'a' * 10**9", "[0] * 10**9", "factorial(10**8)", "range(10**10)", "'%9999999999d' % 1",
-    "[[x for y in range(100000)] for x in range(100000)]", "(" * 50 + "1" + ")" * 50 + ".real", "sleep(100)",
-    "[9**999, 9**999*9**999*9**999]", "+".join(["1"] * 20000), "sum([[0]*99999]*99999, [])"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "__import__('os').system('true')",
+        "open('/etc/passwd')",
+        "().__class__.__bases__",
+        "sin.__self__",
+        "genpy.Time.__init__",
+        "math.sin.__globals__",
+        "[c for c in ().__class__]",
+        "lambda: 1",
+        "exec('1')",
+        "(x := 1)",
+        "f'{i}'",
+        "str.mro()",
+        "int.from_bytes",
+        "9**9**9",
+        "2**100000",
+        "1 << 10**9",
+        "'a' * 10**9",
+        "[0] * 10**9",
+        "factorial(10**8)",
+        "range(10**10)",
+        "'%9999999999d' % 1",
+        "[[x for y in range(100000)] for x in range(100000)]",
+        "(" * 50 + "1" + ")" * 50 + ".real",
+        "sleep(100)",
+        "[9**999, 9**999*9**999*9**999]",
+        "+".join(["1"] * 20000),
+        "sum([[0]*99999]*99999, [])",
+    ],
+)
 def test_nothing_else(text):
     """Neither a way out nor one that takes for ever."""
     begin = time.process_time()

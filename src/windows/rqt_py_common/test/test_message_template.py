@@ -1,4 +1,5 @@
 """Messages made of expressions."""
+
 import pytest
 from geometry_msgs.msg import Point32, Twist
 from rqt_py_common.installed_types import installed_types

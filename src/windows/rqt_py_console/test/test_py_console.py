@@ -1,9 +1,9 @@
 """Lines, blocks, errors, history."""
-import pytest
-from rqt_testing.in_process import errors, find, open_plugin, rospy_without_master
 
+import pytest
 from python_qt_binding.QtCore import Qt
 from python_qt_binding.QtTest import QTest
+from rqt_testing.in_process import errors, find, open_plugin, rospy_without_master
 
 
 @pytest.fixture

@@ -1,36 +1,60 @@
 """Servers that answer, are dead, refuse; editors; files."""
+
 import math
 import threading
 
 import pytest
 import rospy
 from dynamic_reconfigure.encoding import Config
-from rqt_testing.in_process import application, errors, find, open_plugin, rospy_without_master, wait_until
-
 from rqt_reconfigure import saved_values
 from rqt_reconfigure.param_client_widget import ParamClientWidget
 from rqt_reconfigure.param_editors import DoubleEditor, make_editor
 from rqt_reconfigure.param_widget import ParamWidget
+from rqt_testing.in_process import application, errors, find, open_plugin, rospy_without_master, wait_until
 
 ENUM = "{'enum_description': 'size', 'enum': [{'name': 'Small', 'value': 0, 'description': 'tiny'}, {'name': 'Big', 'value': 2}]}"
 
 
 def param(name, kind, default, lowest="", highest="", method=""):
-    return {"name": name, "type": kind, "default": default, "min": lowest, "max": highest, "description": f"about {name}",
-            "edit_method": method, "level": 0}
+    return {
+        "name": name,
+        "type": kind,
+        "default": default,
+        "min": lowest,
+        "max": highest,
+        "description": f"about {name}",
+        "edit_method": method,
+        "level": 0,
+    }
 
 
 def group(name, kind="", parameters=(), groups=(), number=1):
-    return {"name": name, "type": kind, "id": number, "state": True, "parameters": list(parameters),
-            "groups": {child["name"]: child for child in groups}}
+    return {
+        "name": name,
+        "type": kind,
+        "id": number,
+        "state": True,
+        "parameters": list(parameters),
+        "groups": {child["name"]: child for child in groups},
+    }
 
 
-DESCRIPTION = group("Default", parameters=[
-    param("p", "double", 1.0, 0.0, 10.0), param("n", "int", 3, -5, 5), param("on", "bool", False, False, True),
-    param("text", "str", "hi"), param("size", "int", 0, 0, 2, ENUM)],
-    groups=[group("Limits", "collapse", [param("hard", "double", 0.0, -math.inf, math.inf)], number=2),
-            group("Careful", "apply", [param("mode", "int", 0, 0, 9), param("more", "int", 0, 0, 9)], number=3),
-            group("One", "tab", [param("a", "bool", True)], number=4), group("Two", "tab", [param("b", "bool", True)], number=5)])
+DESCRIPTION = group(
+    "Default",
+    parameters=[
+        param("p", "double", 1.0, 0.0, 10.0),
+        param("n", "int", 3, -5, 5),
+        param("on", "bool", False, False, True),
+        param("text", "str", "hi"),
+        param("size", "int", 0, 0, 2, ENUM),
+    ],
+    groups=[
+        group("Limits", "collapse", [param("hard", "double", 0.0, -math.inf, math.inf)], number=2),
+        group("Careful", "apply", [param("mode", "int", 0, 0, 9), param("more", "int", 0, 0, 9)], number=3),
+        group("One", "tab", [param("a", "bool", True)], number=4),
+        group("Two", "tab", [param("b", "bool", True)], number=5),
+    ],
+)
 VALUES = {"p": 2.5, "n": 1, "on": True, "text": "hello", "size": 2, "hard": 0.0, "mode": 1, "more": 0, "a": True, "b": False}
 
 
@@ -93,10 +117,13 @@ def test_editors_show_and_send(client):
     fields["p"].line_edit.setText("99")
     fields["p"].line_edit.editingFinished.emit()
     wait_until(lambda: server.sent == [{"p": 10.0}])
-    for act, sent in ((lambda: fields["n"].slider.setValue(-4), {"n": -4}), (fields["on"].check_box.click, {"on": False}),
-                      (lambda: fields["size"].combo_box.activated.emit(0), {"size": 0}),
-                      (lambda: fields["p"].menu().actions()[0].trigger(), {"p": 1.0}),
-                      (lambda: fields["text"].menu().actions()[-1].trigger(), {"text": ""})):
+    for act, sent in (
+        (lambda: fields["n"].slider.setValue(-4), {"n": -4}),
+        (fields["on"].check_box.click, {"on": False}),
+        (lambda: fields["size"].combo_box.activated.emit(0), {"size": 0}),
+        (lambda: fields["p"].menu().actions()[0].trigger(), {"p": 1.0}),
+        (lambda: fields["text"].menu().actions()[-1].trigger(), {"text": ""}),
+    ):
         act()
         wait_until(lambda: server.sent[-1] == sent and not widget._background.busy("send"))
     fields["p"].line_edit.setText("much")
@@ -117,9 +144,27 @@ def test_apply_sends_all_at_once(client):
 
 def test_changes_from_elsewhere(client):
     widget = client()
-    FakeClient.made[-1].callback(Config({**VALUES, "p": 7.5, "groups": Config(
-        {"id": 0, "parent": 0, "name": "Default", "type": "", "state": True, "parameters": Config({}), "groups": Config({
-            "Limits": Config({"id": 1, "parent": 0, "name": "Limits", "state": False, "groups": Config({})})})})}))
+    FakeClient.made[-1].callback(
+        Config(
+            {
+                **VALUES,
+                "p": 7.5,
+                "groups": Config(
+                    {
+                        "id": 0,
+                        "parent": 0,
+                        "name": "Default",
+                        "type": "",
+                        "state": True,
+                        "parameters": Config({}),
+                        "groups": Config(
+                            {"Limits": Config({"id": 1, "parent": 0, "name": "Limits", "state": False, "groups": Config({})})}
+                        ),
+                    }
+                ),
+            }
+        )
+    )
     wait_until(lambda: editors(widget)["p"].slider.value() == 75)
     assert not widget.group.groups[0].box.isChecked()
 

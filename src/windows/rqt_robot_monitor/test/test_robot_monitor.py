@@ -1,10 +1,10 @@
 """Trees, the timeline, and silence."""
+
 import time
 
 import pytest
-from rqt_testing.in_process import errors, find, open_plugin, process_events, rospy_without_master
-
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rqt_testing.in_process import errors, find, open_plugin, process_events, rospy_without_master
 
 
 @pytest.fixture
@@ -17,13 +17,15 @@ def gui():
 
 def message(motor=0, text="fine", more=()):
     statuses = [("/robot", motor), ("/robot/arm", motor), ("/robot/arm/motor", motor), ("/robot/lamp", 1), *more]
-    return DiagnosticArray(status=[DiagnosticStatus(level=level, name=name, message=text, values=[KeyValue("t", "1")])
-                                   for name, level in statuses])
+    return DiagnosticArray(
+        status=[DiagnosticStatus(level=level, name=name, message=text, values=[KeyValue("t", "1")]) for name, level in statuses]
+    )
 
 
 def rows(tree):
     def of(item):
         return {item.child(n).text(0): of(item.child(n)) for n in range(item.childCount())}
+
     return of(tree.invisibleRootItem())
 
 

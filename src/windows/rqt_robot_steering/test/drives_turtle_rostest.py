@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A person at a screen: opens Robot Steering from rqt's menu, types a topic, drives turtlesim's turtle by keys, and stops it."""
+
 import queue
 import unittest
 

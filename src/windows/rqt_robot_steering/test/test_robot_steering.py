@@ -1,9 +1,9 @@
 """Sliders, keys, limits, and what is published."""
-import pytest
-from rqt_testing.in_process import errors, find, open_plugin, rospy_without_master, wait_until
 
+import pytest
 from python_qt_binding.QtCore import Qt
 from python_qt_binding.QtTest import QTest
+from rqt_testing.in_process import errors, find, open_plugin, rospy_without_master, wait_until
 
 
 @pytest.fixture
@@ -32,9 +32,19 @@ def test_zero_is_sent_once(gui):
     assert len(gui.sent) == count
 
 
-@pytest.mark.parametrize("keys, expected", [
-    ("wwd", (0.02, -0.01)), ("WA", (0.1, 0.1)), ("WWWs", (0.29, 0)), ("WAx", (0, 0.1)), ("WAz", (0.1, 0)), ("WA ", (0, 0)),
-    ("WWWWWWWWWWWWW", (1.0, 0)), ("DDD", (0, -0.3))])
+@pytest.mark.parametrize(
+    "keys, expected",
+    [
+        ("wwd", (0.02, -0.01)),
+        ("WA", (0.1, 0.1)),
+        ("WWWs", (0.29, 0)),
+        ("WAx", (0, 0.1)),
+        ("WAz", (0.1, 0)),
+        ("WA ", (0, 0)),
+        ("WWWWWWWWWWWWW", (1.0, 0)),
+        ("DDD", (0, -0.3)),
+    ],
+)
 def test_keys(gui, keys, expected):
     gui.window.activateWindow()
     gui.plugin.widget.setFocus()

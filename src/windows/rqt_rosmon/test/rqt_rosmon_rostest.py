@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 """The window over a real rosmon: two nodes are shown, one is stopped and started again; then rosmon ends."""
+
 import os
 import signal
 import subprocess
 import unittest
 from pathlib import Path
 
-from rqt_testing.in_process import errors, find, open_plugin, screenshot, wait_until  # noqa: I100  before anything of Qt
-
 import rospy
 import rostest
+from rqt_testing.in_process import errors, find, open_plugin, screenshot, wait_until  # noqa: I100  before anything of Qt
 
 LAUNCH = Path(__file__).resolve().parent / "two_nodes.launch"
 

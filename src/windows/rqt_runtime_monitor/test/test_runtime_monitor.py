@@ -1,10 +1,10 @@
 """Statuses below their levels."""
+
 import time
 
 import pytest
-from rqt_testing.in_process import errors, open_plugin, rospy_without_master
-
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rqt_testing.in_process import errors, open_plugin, rospy_without_master
 
 
 @pytest.fixture
@@ -17,8 +17,14 @@ def gui():
 
 
 def send(gui, now, *statuses):
-    gui.plugin._queue.append(DiagnosticArray(status=[DiagnosticStatus(level=level, name=name, message=text, values=[
-        KeyValue("<load>", "50 %")]) for name, level, text in statuses]))
+    gui.plugin._queue.append(
+        DiagnosticArray(
+            status=[
+                DiagnosticStatus(level=level, name=name, message=text, values=[KeyValue("<load>", "50 %")])
+                for name, level, text in statuses
+            ]
+        )
+    )
     gui.plugin.update(now)
 
 

@@ -1,13 +1,14 @@
 """What can be told without a display: RViz is refused in one line, instead of ending the window."""
+
 import os
 import subprocess
 import sys
 from unittest import mock
 
 import pytest
+
 from rqt_testing.in_process import FakeContext, application, rospy_without_master  # isort: skip
 from qt_gui.errors import PluginLoadError
-
 from rqt_rviz import rviz_plugin
 
 
@@ -48,9 +49,11 @@ def test_a_display_whose_library_is_not_built_is_told(tmp_path):
     """RViz offers what packages declare, and looks for the library only when one is added."""
     (tmp_path / "package.xml").write_text(
         "<package format='2'><name>my_displays</name><version>0.0.1</version><description>d</description><maintainer email='a@b.cd'>a"
-        "</maintainer><license>BSD</license><depend>rviz</depend><export><rviz plugin='${prefix}/plugins.xml'/></export></package>")
+        "</maintainer><license>BSD</license><depend>rviz</depend><export><rviz plugin='${prefix}/plugins.xml'/></export></package>"
+    )
     (tmp_path / "plugins.xml").write_text(
-        "<library path='lib/libmy_displays'><class name='my_displays/Arc' type='my::Arc' base_class_type='rviz::Display'/></library>")
+        "<library path='lib/libmy_displays'><class name='my_displays/Arc' type='my::Arc' base_class_type='rviz::Display'/></library>"
+    )
     script = "from unittest import mock; from rqt_rviz.rviz_plugin import TheFrame; TheFrame().take(mock.MagicMock(), False)"
     environment = {**os.environ, "ROS_PACKAGE_PATH": f"{tmp_path}:{os.environ['ROS_PACKAGE_PATH']}", "ROS_HOME": str(tmp_path)}
     ended = subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True, text=True, timeout=120)

@@ -1,12 +1,12 @@
 """Requests, responses, services that fail or hang."""
+
 import threading
 
 import pytest
 import rospy
-from rqt_testing.in_process import errors, find, open_plugin, rospy_without_master, wait_until
-
 from gazebo_msgs.srv import SetModelState, SetModelStateResponse
 from rqt_service_caller import service_caller
+from rqt_testing.in_process import errors, find, open_plugin, rospy_without_master, wait_until
 
 
 @pytest.fixture
@@ -23,6 +23,7 @@ def calls(monkeypatch):
                 calls.gate.wait(30)
                 return SetModelStateResponse(True, "late")
             return calls.answer
+
         return call
 
     calls = Calls()
@@ -69,8 +70,7 @@ def test_failed(gui, calls):
     calls.answer = rospy.ServiceException("service [/gazebo/set_model_state] unavailable")
     find(gui, "call_service_button").click()
     wait_until(lambda: response(gui))
-    assert [response(gui).text(n) for n in range(3)] == ["ERROR", "rospy.ServiceException",
-                                                         "service [/gazebo/set_model_state] unavailable"]
+    assert [response(gui).text(n) for n in range(3)] == ["ERROR", "rospy.ServiceException", "service [/gazebo/set_model_state] unavailable"]
 
 
 def test_a_service_that_hangs_can_be_left(gui, calls):

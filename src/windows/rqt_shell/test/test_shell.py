@@ -1,11 +1,11 @@
 """A real shell: what is typed runs, Ctrl-C stops it, exit closes the plugin."""
+
 import os
 
 import pytest
-from rqt_testing.in_process import application, errors, find, open_plugin, rospy_without_master, screenshot, wait_until
-
 from python_qt_binding.QtCore import Qt
 from python_qt_binding.QtTest import QTest
+from rqt_testing.in_process import application, errors, find, open_plugin, rospy_without_master, screenshot, wait_until
 
 
 @pytest.fixture(autouse=True)

@@ -1,10 +1,10 @@
 """The tree of frames, as text and in its window."""
-from rqt_testing.in_process import errors, find, open_plugin, rospy_without_master, wait_until
 
 import pytest
 import rospy
 from geometry_msgs.msg import TransformStamped
 from qt_dotgraph.layout import layout
+from rqt_testing.in_process import errors, find, open_plugin, rospy_without_master, wait_until
 from rqt_tf_tree.dotcode_tf import FramesError, generate_dot, parse
 
 FRAMES = """
@@ -29,8 +29,9 @@ def test_edges_say_who_how_often_and_how_old():
     graph = layout(generate_dot(parse(FRAMES), 13.25))
     assert {node.label for node in graph.nodes} == {"odom", "base_link", "tool0", "Recorded at time: 13.25"}
     labels = {(edge.tail, edge.head): edge.label for edge in graph.edges}
-    assert labels[("f_odom", "f_base_link")] == ("Broadcaster: /gazebo\nAverage rate: 50.2\nBuffer length: 10.0\n"
-                                                 "Most recent transform: 12.5\nOldest transform: 2.5")
+    assert labels[("f_odom", "f_base_link")] == (
+        "Broadcaster: /gazebo\nAverage rate: 50.2\nBuffer length: 10.0\nMost recent transform: 12.5\nOldest transform: 2.5"
+    )
     assert "Average rate: 10000.0" in labels[("f_base_link", "f_tool0")]
     heights = {node.label: node.center[1] for node in graph.nodes}
     assert heights["Recorded at time: 13.25"] > heights["odom"] > heights["base_link"] > heights["tool0"]
@@ -85,8 +86,10 @@ def test_generator_for_other_packages():
     from rqt_tf_tree.dotcode_tf import RosTfTreeDotcodeGenerator
 
     application()
-    answers = ["{}", "base: {parent: map, broadcaster: /b, rate: 10.0, buffer_length: 1.0, most_recent_transform: 5.0, "
-               "oldest_transform: 4.0}"]
+    answers = [
+        "{}",
+        "base: {parent: map, broadcaster: /b, rate: 10.0, buffer_length: 1.0, most_recent_transform: 5.0, oldest_transform: 4.0}",
+    ]
     timer = SimpleNamespace(now=lambda: SimpleNamespace(to_sec=lambda: 7.5))
     generator, factory = RosTfTreeDotcodeGenerator(initial_listen_duration=0), PydotFactory()
 

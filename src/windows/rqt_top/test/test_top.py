@@ -1,8 +1,10 @@
 """The table, with nodes that a test makes up, and this process as a node."""
+
 import os
 import threading
 
 import pytest
+
 from rqt_testing.in_process import errors, find, open_plugin, process_events, rospy_without_master, wait_until  # isort: skip
 from xmlrpc.server import SimpleXMLRPCServer
 
@@ -13,16 +15,19 @@ from rqt_top.node_info import NodeInfo, NodeUsage
 @pytest.fixture
 def usages(monkeypatch):
     rospy_without_master()
-    listed = [NodeUsage("/arm", 11, 5.5, 1.0, 3, "python3 arm", 1 << 20, 2 << 20),
-              NodeUsage("/gazebo", 9, 80.0, 10.0, 12, "gzserver", 1 << 20, 2 << 20)]
+    listed = [
+        NodeUsage("/arm", 11, 5.5, 1.0, 3, "python3 arm", 1 << 20, 2 << 20),
+        NodeUsage("/gazebo", 9, 80.0, 10.0, 12, "gzserver", 1 << 20, 2 << 20),
+    ]
     monkeypatch.setattr(NodeInfo, "look", lambda self: list(listed))
     return listed
 
 
 def rows(gui):
     table = find(gui, "TopTable")
-    return [[table.topLevelItem(i).text(c) for c in range(5)] for i in range(table.topLevelItemCount())
-            if not table.topLevelItem(i).isHidden()]
+    return [
+        [table.topLevelItem(i).text(c) for c in range(5)] for i in range(table.topLevelItemCount()) if not table.topLevelItem(i).isHidden()
+    ]
 
 
 def test_table_filter_and_settings(usages, tmp_path):
@@ -71,7 +76,7 @@ def test_a_node_of_this_machine_is_found_by_its_address(monkeypatch):
             return addresses[name]
 
     monkeypatch.setattr(node_info.rosgraph, "Master", Master)
-    usage, = NodeInfo().look()
+    (usage,) = NodeInfo().look()
     assert (usage.name, usage.pid) == ("/me", os.getpid()) and usage.resident > 0 and "pytest" in usage.command
     server.shutdown()
     server.server_close()

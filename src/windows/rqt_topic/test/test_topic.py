@@ -1,12 +1,12 @@
 """Topics, their rows, and what happens while they are monitored."""
+
 import io
 
 import pytest
 import rospy
-from rqt_testing.in_process import application, errors, find, open_plugin, rospy_without_master
-
-from geometry_msgs.msg import Polygon, PolygonStamped, Point32
+from geometry_msgs.msg import Point32, Polygon, PolygonStamped
 from python_qt_binding.QtCore import Qt
+from rqt_testing.in_process import application, errors, find, open_plugin, rospy_without_master
 from rqt_topic import topic_info
 from rqt_topic.topic_widget import TopicWidget, _bandwidth_text
 from std_msgs.msg import String
@@ -16,6 +16,7 @@ from std_msgs.msg import String
 def clock(monkeypatch):
     class Clock:
         now = 100.0
+
     monkeypatch.setattr(topic_info.time, "monotonic", lambda: Clock.now)
     return Clock
 

@@ -1,12 +1,12 @@
 """Addresses, with a view that shows nothing: the engine is no dependency."""
+
 import sys
 
 import pytest
-from rqt_testing.in_process import FakeContext
-
 from python_qt_binding.QtCore import QUrl, Signal
 from python_qt_binding.QtWidgets import QWidget
 from qt_gui.errors import PluginLoadError
+from rqt_testing.in_process import FakeContext
 from rqt_web.web import Web
 
 

@@ -1,4 +1,5 @@
 """What the window shows, on Qt's platform without a display."""
+
 import os
 import subprocess
 import sys
@@ -58,8 +59,12 @@ def test_a_turtle_looks_where_it_goes(window):
 @pytest.mark.parametrize("display, said", [(None, "DISPLAY is not set"), (":997", "the display :997 (DISPLAY) cannot be opened")])
 def test_without_a_display_one_line_says_what_to_do(display, said):
     environment = {k: v for k, v in os.environ.items() if k not in ("QT_QPA_PLATFORM", "DISPLAY", "WAYLAND_DISPLAY")}
-    ended = subprocess.run([sys.executable, "-c", "import sys; from turtlesim.node import main; sys.exit(main())"],
-                           env=dict(environment, **({"DISPLAY": display} if display else {})),
-                           capture_output=True, text=True, timeout=60)
+    ended = subprocess.run(
+        [sys.executable, "-c", "import sys; from turtlesim.node import main; sys.exit(main())"],
+        env=dict(environment, **({"DISPLAY": display} if display else {})),
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
     assert ended.returncode == 1 and ended.stderr.count("\n") == 1
     assert said in ended.stderr and "QT_QPA_PLATFORM=offscreen" in ended.stderr

@@ -1,4 +1,5 @@
 """How turtles move, spawn, draw and refuse."""
+
 import math
 from types import SimpleNamespace
 
@@ -33,8 +34,13 @@ def test_size_and_first_pose_print_as_in_tutorials(turtle):
 
 
 def test_names(world):
-    assert [world.spawn(name, 1, 1, 0).name for name in ("", "turtle2", "", "zoe", "ada")] \
-        == ["turtle1", "turtle2", "turtle3", "zoe", "ada"]
+    assert [world.spawn(name, 1, 1, 0).name for name in ("", "turtle2", "", "zoe", "ada")] == [
+        "turtle1",
+        "turtle2",
+        "turtle3",
+        "zoe",
+        "ada",
+    ]
     assert list(world.turtles) == ["ada", "turtle1", "turtle2", "turtle3", "zoe"]
     with pytest.raises(WorldError, match=r"A turtled named \[zoe\] already exists"):
         world.spawn("zoe", 1, 1, 0)
@@ -95,8 +101,13 @@ def test_teleports(turtle):
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf, 1e300])
 def test_numbers_that_lose_a_turtle_are_refused(world, turtle, bad):
     before = vars(turtle).copy()
-    for request in (lambda: turtle.drive(bad, 0, 0, 0), lambda: turtle.drive(0, 0, bad, 0), lambda: turtle.teleport(0, bad, 0),
-                    lambda: turtle.teleport_relative(0, bad), lambda: world.spawn("x", 0, 0, bad)):
+    for request in (
+        lambda: turtle.drive(bad, 0, 0, 0),
+        lambda: turtle.drive(0, 0, bad, 0),
+        lambda: turtle.teleport(0, bad, 0),
+        lambda: turtle.teleport_relative(0, bad),
+        lambda: world.spawn("x", 0, 0, bad),
+    ):
         with pytest.raises(WorldError, match="not finite"):
             request()
     assert vars(turtle) == before and list(world.turtles) == ["turtle1"]
@@ -108,8 +119,9 @@ def test_square(turtle):
     driver = SquareDriver(said.append)
     for tick in range(6000):
         now = tick * DT
-        command = driver.twist(SimpleNamespace(x=turtle.x, y=turtle.y, theta=turtle.theta, linear_velocity=turtle.speed,
-                                               angular_velocity=turtle.command[2]))
+        command = driver.twist(
+            SimpleNamespace(x=turtle.x, y=turtle.y, theta=turtle.theta, linear_velocity=turtle.speed, angular_velocity=turtle.command[2])
+        )
         if command:
             turtle.drive(command[0], 0, command[1], now)
         else:

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The beginner's tutorial, typed: turtlesim_node, turtle_teleop_key, draw_square, mimic, and every service."""
+
 import math
 import queue
 import subprocess
@@ -114,17 +115,21 @@ class Turtlesim(unittest.TestCase):
 
     def test_rostopic_pub_once(self):
         """As in the tutorial: a second of circle."""
-        subprocess.run(["rostopic", "pub", "-1", "/turtle1/cmd_vel", "geometry_msgs/Twist", "--", "[2.0, 0.0, 0.0]",
-                        "[0.0, 0.0, 1.8]"], check=True, stdout=subprocess.DEVNULL, timeout=100)
+        subprocess.run(
+            ["rostopic", "pub", "-1", "/turtle1/cmd_vel", "geometry_msgs/Twist", "--", "[2.0, 0.0, 0.0]", "[0.0, 0.0, 1.8]"],
+            check=True,
+            stdout=subprocess.DEVNULL,
+            timeout=100,
+        )
         # a second of it: 62 or 63 steps, and one that began before the clock was looked at
         wait_for("/turtle1/pose", Pose, lambda p: 1.6 < p.theta < 2.3 and p.linear_velocity == 0)
 
     def test_keyboard(self):
         keys = pexpect.spawn("rosrun", ["turtlesim", "turtle_teleop_key"], encoding="utf-8", timeout=60)
         try:
-            keys.expect_exact("Reading from keyboard\r\n---------------------------\r\n"
-                              "Use arrow keys to move the turtle. 'q' to quit.")
+            keys.expect_exact("Reading from keyboard\r\n---------------------------\r\nUse arrow keys to move the turtle. 'q' to quit.")
             for key, ahead, turn in (("\x1b[A", 1.5, 0), ("\x1b[D", 0, 2.0), ("\x1b[C", 0, -2.0), ("x\x1b[B", 1.5, 0)):
+
                 def moves(pose):  # typed again and again: the first comes before the turtle listens
                     if (pose.linear_velocity, pose.angular_velocity) == (ahead, turn):
                         return True

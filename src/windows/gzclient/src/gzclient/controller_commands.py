@@ -1,4 +1,5 @@
 """What a controller is commanded by: sliders, and the message that they make."""
+
 from __future__ import annotations
 
 import re
@@ -68,8 +69,11 @@ def joints_of(world: WorldRecord, frame: Optional[Frame], names: Sequence[str], 
 
 def _belongs(model: ModelRecord, manager: str) -> bool:
     wanted = manager.strip("/")
-    return wanted == model.name or any((plugin.element.findtext("robotNamespace") or "").strip().strip("/") == wanted
-                                       for plugin in model.description.plugins if "ros_control" in plugin.filename)
+    return wanted == model.name or any(
+        (plugin.element.findtext("robotNamespace") or "").strip().strip("/") == wanted
+        for plugin in model.description.plugins
+        if "ros_control" in plugin.filename
+    )
 
 
 def command_of(kind: str, names: Sequence[str], known: Known) -> Optional[Command]:
@@ -78,17 +82,31 @@ def command_of(kind: str, names: Sequence[str], known: Known) -> Optional[Comman
     :param kind: its type, as the controller manager lists it. :param names: of its joints, in its own order
     """
     if kind in _DRIVES:
-        return Command("cmd_vel", Twist, _about_zero(_FASTEST), lambda values, _: Twist(
-            Vector3(values[0], 0.0, 0.0), Vector3(0.0, 0.0, values[1])), lasting=False)
+        return Command(
+            "cmd_vel",
+            Twist,
+            _about_zero(_FASTEST),
+            lambda values, _: Twist(Vector3(values[0], 0.0, 0.0), Vector3(0.0, 0.0, values[1])),
+            lasting=False,
+        )
     if kind == _FOUR_WHEELS:
-        return Command("cmd_four_wheel_steering", FourWheelSteering, _about_zero(_STEERED), lambda values, _: FourWheelSteering(
-            speed=values[0], front_steering_angle=values[1], rear_steering_angle=values[2]), lasting=False)
+        return Command(
+            "cmd_four_wheel_steering",
+            FourWheelSteering,
+            _about_zero(_STEERED),
+            lambda values, _: FourWheelSteering(speed=values[0], front_steering_angle=values[1], rear_steering_angle=values[2]),
+            lasting=False,
+        )
     if not names or any(name not in known for name in names):
         return None
     if _GRIPPER.fullmatch(kind):
         joint = known[names[0]][0]
-        return Command("gripper_cmd/goal", GripperCommandActionGoal, (_slider(names[0], *known[names[0]], "position"),), partial(
-            _grip, range_of(joint, "force", _LARGEST_FORCE)[1]))
+        return Command(
+            "gripper_cmd/goal",
+            GripperCommandActionGoal,
+            (_slider(names[0], *known[names[0]], "position"),),
+            partial(_grip, range_of(joint, "force", _LARGEST_FORCE)[1]),
+        )
     forward = _FORWARD.fullmatch(kind)
     if not forward and not _TRAJECTORY.fullmatch(kind):
         return None

@@ -1,4 +1,5 @@
 """A window of the desktop that shows the page: a browser of the system, without its bars."""
+
 from __future__ import annotations
 
 import html
@@ -30,13 +31,21 @@ def command(address: str, profile: str) -> Optional[List[str]]:
     for name in _APPS:
         program = shutil.which(name)
         if program:
-            return [program, f"--app={address}", f"--user-data-dir={profile}", "--no-first-run",
-                    "--no-default-browser-check", "--disable-background-networking", "--disable-component-update",
-                    "--disable-sync",
-                    "--class=gzclient",
-                    "--window-size=1280,800", "--enable-unsafe-swiftshader",
-                    # as root it does not run in its sandbox; the second takes the bar away that says so
-                    *(["--no-sandbox", "--test-type"] if os.geteuid() == 0 else [])]
+            return [
+                program,
+                f"--app={address}",
+                f"--user-data-dir={profile}",
+                "--no-first-run",
+                "--no-default-browser-check",
+                "--disable-background-networking",
+                "--disable-component-update",
+                "--disable-sync",
+                "--class=gzclient",
+                "--window-size=1280,800",
+                "--enable-unsafe-swiftshader",
+                # as root it does not run in its sandbox; the second takes the bar away that says so
+                *(["--no-sandbox", "--test-type"] if os.geteuid() == 0 else []),
+            ]
     for name in _OTHERS:
         program = shutil.which(name)
         if program:
@@ -65,9 +74,14 @@ class Window:
         words = command(_door(self._folder.name, address), self._folder.name)
         if words is None:
             return
-        process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.DEVNULL,
-                                   start_new_session=True, preexec_fn=end_with_parent)
+        process = subprocess.Popen(
+            words,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+            preexec_fn=end_with_parent,
+        )
         if not words[0].endswith("xdg-open"):  # which has gone while the window stays
             self.process = process
 

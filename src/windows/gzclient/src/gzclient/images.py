@@ -1,4 +1,5 @@
 """Image messages as pictures for the page."""
+
 from __future__ import annotations
 
 from typing import Any

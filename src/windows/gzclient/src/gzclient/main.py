@@ -3,6 +3,7 @@
 The port and the window come first. ROS, and what draws the page, are imported when a browser has knocked and starts the page
 that it has been given: a gzclient that nobody looks at, as launch files start it, holds a port and nothing else.
 """
+
 from __future__ import annotations
 
 import os
@@ -51,10 +52,11 @@ def main(arguments: List[str]) -> int:
 
 def _serve(website: Website, options: Any, closed: Any) -> int:
     import rospy
+
     orphans.end_with_launch()
-    node_signals.init_node("gzclient", anonymous=True, disable_rostime=True,
-                           log_level=verbose.level(options.verbose))
+    node_signals.init_node("gzclient", anonymous=True, disable_rostime=True, log_level=verbose.level(options.verbose))
     from gzclient.page import make_page
+
     try:
         page = make_page(website, options.shadows)
     except Unavailable as error:

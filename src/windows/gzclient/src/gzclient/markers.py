@@ -1,4 +1,5 @@
 """Markers of visualization_msgs, drawn as RViz draws them."""
+
 from __future__ import annotations
 
 import math
@@ -13,8 +14,13 @@ from visualization_msgs.msg import Marker
 
 _MOST = 2000  # markers of one topic
 _MOST_POINTS = 100_000  # of one marker
-_SHAPES = {Marker.CUBE: geometry.box, Marker.SPHERE: geometry.sphere, Marker.CYLINDER: geometry.cylinder,
-           Marker.CUBE_LIST: geometry.box, Marker.SPHERE_LIST: geometry.sphere}
+_SHAPES = {
+    Marker.CUBE: geometry.box,
+    Marker.SPHERE: geometry.sphere,
+    Marker.CYLINDER: geometry.cylinder,
+    Marker.CUBE_LIST: geometry.box,
+    Marker.SPHERE_LIST: geometry.sphere,
+}
 _MESHES = ("package://", "model://")  # a topic cannot have other files shown
 
 
@@ -124,8 +130,9 @@ class Markers:
             points, shaft, head, length = _arrow(marker)
             return self._scene.add_arrows(node, points, colour, shaft_radius=shaft, head_radius=head, head_length=length)
         if kind == Marker.TEXT_VIEW_FACING:
-            return self._scene.add_label(node, marker.text[:1000], font_size_mode="scene", font_scene_height=max(size[2], 0.01),
-                                         anchor="center-center")
+            return self._scene.add_label(
+                node, marker.text[:1000], font_size_mode="scene", font_scene_height=max(size[2], 0.01), anchor="center-center"
+            )
         if kind == Marker.MESH_RESOURCE:
             return self._file(node, marker, colour, opacity, size)
         points, colours = _points(marker), _colours(marker)
@@ -134,8 +141,17 @@ class Markers:
             turns = np.tile(np.array((1.0, 0.0, 0.0, 0.0), np.float32), (len(points), 1))
             scales = np.tile(np.array(_extent(kind - 5, size), np.float32), (len(points), 1))
             return self._scene.add_batched_meshes_simple(
-                node, np.asarray(mesh.vertices, np.float32), np.asarray(mesh.triangles, np.uint32), turns, points,
-                batched_scales=scales, batched_colors=colours, opacity=opacity, lod="off", cast_shadow=False)
+                node,
+                np.asarray(mesh.vertices, np.float32),
+                np.asarray(mesh.triangles, np.uint32),
+                turns,
+                points,
+                batched_scales=scales,
+                batched_colors=colours,
+                opacity=opacity,
+                lod="off",
+                cast_shadow=False,
+            )
         if kind == Marker.POINTS:
             return self._scene.add_point_cloud(node, points, colours, point_size=max(size[0], 1e-3), precision="float32")
         if kind in (Marker.LINE_STRIP, Marker.LINE_LIST):
@@ -145,14 +161,21 @@ class Markers:
         mean = tuple(int(v) for v in colours.mean(axis=0)) if len(marker.colors) else colour
         return self._mesh(node, points, triangles, mean, opacity, size)
 
-    def _mesh(self, node: str, vertices: np.ndarray, triangles: np.ndarray, colour: Tuple, opacity: Optional[float],
-              size: Tuple) -> Any:
+    def _mesh(self, node: str, vertices: np.ndarray, triangles: np.ndarray, colour: Tuple, opacity: Optional[float], size: Tuple) -> Any:
         return self._scene.add_mesh_simple(
-            node, np.asarray(vertices, np.float32), np.asarray(triangles, np.uint32), color=colour, opacity=opacity,
-            side="double", scale=tuple(map(float, size)), cast_shadow=False)
+            node,
+            np.asarray(vertices, np.float32),
+            np.asarray(triangles, np.uint32),
+            color=colour,
+            opacity=opacity,
+            side="double",
+            scale=tuple(map(float, size)),
+            cast_shadow=False,
+        )
 
     def _file(self, node: str, marker: Any, colour: Tuple, opacity: Optional[float], size: Tuple) -> Any:
         from ode_sim.mesh import load_visual
+
         uri = marker.mesh_resource
         path = self._find(uri) if uri.startswith(_MESHES) else None
         if path is None:
@@ -182,14 +205,28 @@ def _content(marker: Any) -> Tuple:
         raise Unfit(f"{name}: has numbers that are none (nan or inf)")
     if len(marker.points) > _MOST_POINTS:
         raise Unfit(f"{name}: {len(marker.points)} points; at most {_MOST_POINTS} are drawn")
-    least = {Marker.LINE_STRIP: 2, Marker.LINE_LIST: 2, Marker.CUBE_LIST: 1, Marker.SPHERE_LIST: 1, Marker.POINTS: 1,
-             Marker.TRIANGLE_LIST: 3}.get(marker.type, 0)
+    least = {
+        Marker.LINE_STRIP: 2,
+        Marker.LINE_LIST: 2,
+        Marker.CUBE_LIST: 1,
+        Marker.SPHERE_LIST: 1,
+        Marker.POINTS: 1,
+        Marker.TRIANGLE_LIST: 3,
+    }.get(marker.type, 0)
     if len(marker.points) < least:
         raise Unfit(f"{name}: {len(marker.points)} points; {least} are the least of its type")
     if marker.colors and len(marker.colors) != len(marker.points):
         raise Unfit(f"{name}: {len(marker.colors)} colours for {len(marker.points)} points")
-    return (marker.type, size, rgba, points.tobytes(), _colours(marker).tobytes(), marker.text, marker.mesh_resource,
-            marker.mesh_use_embedded_materials)
+    return (
+        marker.type,
+        size,
+        rgba,
+        points.tobytes(),
+        _colours(marker).tobytes(),
+        marker.text,
+        marker.mesh_resource,
+        marker.mesh_use_embedded_materials,
+    )
 
 
 def _pose(marker: Any) -> Pose:
@@ -237,5 +274,4 @@ def _arrow(marker: Any) -> Tuple[np.ndarray, float, float, float]:
         points = _points(marker)[:2]
         length = float(np.linalg.norm(points[1] - points[0]))
         return points[None], max(x / 2, 1e-4), max(y / 2, 1e-4), (z if z > 0.0 else 0.23 * length) or 1e-4
-    return (np.array([[(0.0, 0.0, 0.0), (x, 0.0, 0.0)]], np.float32), max(y / 4, 1e-4), max(y / 2, 1e-4),
-            max(0.23 * abs(x), 1e-4))
+    return (np.array([[(0.0, 0.0, 0.0), (x, 0.0, 0.0)]], np.float32), max(y / 4, 1e-4), max(y / 2, 1e-4), max(0.23 * abs(x), 1e-4))

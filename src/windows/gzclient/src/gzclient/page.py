@@ -1,4 +1,5 @@
 """The page with the tabs that speak ROS, fed by the node ``/gazebo``."""
+
 from __future__ import annotations
 
 import glob
@@ -17,8 +18,15 @@ def make_page(website: Any, shadows: bool) -> Any:
     simulation = RosSimulation()
     simulation.look(True)  # the first frame comes while the rest is imported
     from ode_sim.viewer import Page
-    return Page(simulation, title="Gazebo", website=website, say=lambda line: rospy.logwarn("%s", line), later=_panels,
-                shadows=shadows or bool(glob.glob("/dev/dri/renderD*")))
+
+    return Page(
+        simulation,
+        title="Gazebo",
+        website=website,
+        say=lambda line: rospy.logwarn("%s", line),
+        later=_panels,
+        shadows=shadows or bool(glob.glob("/dev/dri/renderD*")),
+    )
 
 
 def _panels() -> Sequence[type]:
@@ -30,4 +38,5 @@ def _panels() -> Sequence[type]:
     from gzclient.panels.model import ModelPanel
     from gzclient.panels.sensors import SensorsPanel
     from gzclient.panels.topics import TopicsPanel
+
     return SensorsPanel, FramesPanel, MarkersPanel, TopicsPanel, ControllersPanel, BuildingPanel, ModelPanel

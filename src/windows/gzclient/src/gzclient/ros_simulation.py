@@ -1,4 +1,5 @@
 """The node ``gazebo`` as a simulation for the page: one stream of poses, services for what is asked and done."""
+
 from __future__ import annotations
 
 import threading
@@ -9,26 +10,48 @@ from typing import Any, Dict, Optional, Tuple
 import numpy as np
 import rospy
 from gazebo_msgs.msg import ModelState
-from gazebo_msgs.srv import (ApplyBodyWrench, DeleteLight, DeleteModel, GetLinkProperties, GetPhysicsProperties,
-                             SetLightProperties, SetLinkProperties, SetModelState, SetPhysicsProperties, SpawnModel)
-from geometry_msgs.msg import Point, Pose as PoseMsg, Quaternion, Twist, Vector3, Wrench
-from std_msgs.msg import ColorRGBA
-from std_srvs.srv import Empty
-
+from gazebo_msgs.srv import (
+    ApplyBodyWrench,
+    DeleteLight,
+    DeleteModel,
+    GetLinkProperties,
+    GetPhysicsProperties,
+    SetLightProperties,
+    SetLinkProperties,
+    SetModelState,
+    SetPhysicsProperties,
+    SpawnModel,
+)
 from gazebo_ros.finding import make_finder
 from gazebo_ros.msg import WorldContacts, WorldView
-from gazebo_ros.srv import (CollisionSurface, CommandJoint, CommandJointRequest, DescribeWorld, SaveWorld, SetVisual,
-                            StepWorld, Timeline, TimelineRequest)
+from gazebo_ros.srv import (
+    CollisionSurface,
+    CommandJoint,
+    CommandJointRequest,
+    DescribeWorld,
+    SaveWorld,
+    SetVisual,
+    StepWorld,
+    Timeline,
+    TimelineRequest,
+)
+from geometry_msgs.msg import Point, Quaternion, Twist, Vector3, Wrench
+from geometry_msgs.msg import Pose as PoseMsg
 from ode_sim.description import model as d
 from ode_sim.description.exchange import dumps, loads
 from ode_sim.description.sdf_writer import light_text
-from ode_sim.viewer.simulation import (Frame, KeptMoment, LinkProperties, Looks, Refused, Simulation,
-                                       SurfaceProperties, WorldRecord)
+from ode_sim.viewer.simulation import Frame, KeptMoment, LinkProperties, Looks, Refused, Simulation, SurfaceProperties, WorldRecord
+from std_msgs.msg import ColorRGBA
+from std_srvs.srv import Empty
 
 _PATIENCE = 5.0  # wall s that a service may take to be there
 _STALE = 3.0  # wall s without a frame: the simulator has gone
-_JOINT_MODES = {"none": CommandJointRequest.NONE, "force": CommandJointRequest.FORCE,
-                "position": CommandJointRequest.POSITION, "velocity": CommandJointRequest.VELOCITY}
+_JOINT_MODES = {
+    "none": CommandJointRequest.NONE,
+    "force": CommandJointRequest.FORCE,
+    "position": CommandJointRequest.POSITION,
+    "velocity": CommandJointRequest.VELOCITY,
+}
 
 
 class RosSimulation(Simulation):
@@ -50,8 +73,9 @@ class RosSimulation(Simulation):
     def look(self, on: bool) -> None:
         with self._lock:
             if on and self._subscriber is None:
-                self._subscriber = rospy.Subscriber(f"{self._namespace}/view", WorldView, self._take, queue_size=1,
-                                                    buff_size=1 << 22, tcp_nodelay=True)
+                self._subscriber = rospy.Subscriber(
+                    f"{self._namespace}/view", WorldView, self._take, queue_size=1, buff_size=1 << 22, tcp_nodelay=True
+                )
             elif not on and self._subscriber is not None:
                 self._subscriber.unregister()
                 self._subscriber = None
@@ -59,8 +83,9 @@ class RosSimulation(Simulation):
     def watch_contacts(self, on: bool) -> None:
         with self._lock:
             if on and self._contact_stream is None:
-                self._contact_stream = rospy.Subscriber(f"{self._namespace}/view_contacts", WorldContacts,
-                                                        self._take_contacts, queue_size=1, tcp_nodelay=True)
+                self._contact_stream = rospy.Subscriber(
+                    f"{self._namespace}/view_contacts", WorldContacts, self._take_contacts, queue_size=1, tcp_nodelay=True
+                )
             elif not on and self._contact_stream is not None:
                 self._contact_stream.unregister()
                 self._contact_stream, self._contacts = None, np.zeros((0, 6), np.float32)
@@ -88,12 +113,20 @@ class RosSimulation(Simulation):
 
     def finder(self) -> Any:
         import rospkg
+
         return make_finder(rospkg.RosPack())
 
     def _take(self, message: WorldView) -> None:
-        self._frame = Frame(message.revision, message.sim_time.to_sec(), message.real_time, message.iterations,
-                            message.paused, message.real_time_factor,
-                            np.frombuffer(message.poses, "<f4").reshape(-1, 7), np.frombuffer(message.joints, "<f4"))
+        self._frame = Frame(
+            message.revision,
+            message.sim_time.to_sec(),
+            message.real_time,
+            message.iterations,
+            message.paused,
+            message.real_time_factor,
+            np.frombuffer(message.poses, "<f4").reshape(-1, 7),
+            np.frombuffer(message.joints, "<f4"),
+        )
         self._at = time.monotonic()
 
     def _take_contacts(self, message: WorldContacts) -> None:
@@ -173,18 +206,26 @@ class RosSimulation(Simulation):
             self._call("delete_light", DeleteLight, light.name)
             self.insert(light.name, light_text(replace(light, pose=d.Pose())), light.pose)
             return
-        self._call("set_light_properties", SetLightProperties, light.name, light.cast_shadows,
-                   ColorRGBA(*light.diffuse),
-                   ColorRGBA(*light.specular), light.constant, light.linear, light.quadratic, Vector3(*light.direction),
-                   _pose(light.pose))
+        self._call(
+            "set_light_properties",
+            SetLightProperties,
+            light.name,
+            light.cast_shadows,
+            ColorRGBA(*light.diffuse),
+            ColorRGBA(*light.specular),
+            light.constant,
+            light.linear,
+            light.quadratic,
+            Vector3(*light.direction),
+            _pose(light.pose),
+        )
 
     # ------------------------------------------------------------------------------------------ joints and links
 
     def set_joint_position(self, model: str, joint: str, position: float) -> None:
         self._soon("command_joint", CommandJoint, f"{model}::{joint}", CommandJointRequest.SET, position, 0.0, 0.0, 0.0)
 
-    def command_joint(self, model: str, joint: str, mode: str, value: float,
-                      gains: Tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
+    def command_joint(self, model: str, joint: str, mode: str, value: float, gains: Tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
         self._soon("command_joint", CommandJoint, f"{model}::{joint}", _JOINT_MODES[mode], value, *gains)
 
     def link_properties(self, model: str, link: str) -> LinkProperties:
@@ -193,25 +234,47 @@ class RosSimulation(Simulation):
         return LinkProperties(r.mass, (p.x, p.y, p.z), (r.ixx, r.ixy, r.ixz, r.iyy, r.iyz, r.izz), r.gravity_mode)
 
     def set_link_properties(self, model: str, link: str, properties: LinkProperties) -> None:
-        self._call("set_link_properties", SetLinkProperties, f"{model}::{link}", _pose(d.Pose(properties.com)),
-                   properties.gravity, properties.mass, *properties.inertia)
+        self._call(
+            "set_link_properties",
+            SetLinkProperties,
+            f"{model}::{link}",
+            _pose(d.Pose(properties.com)),
+            properties.gravity,
+            properties.mass,
+            *properties.inertia,
+        )
 
     def push(self, model: str, link: str, force: d.Vec3, torque: d.Vec3, duration: float) -> None:
         name = f"{model}::{link}"
-        self._soon("apply_body_wrench", ApplyBodyWrench, name, "world", Point(),
-                   Wrench(Vector3(*force), Vector3(*torque)),
-                   rospy.Time(), rospy.Duration.from_sec(duration))
+        self._soon(
+            "apply_body_wrench",
+            ApplyBodyWrench,
+            name,
+            "world",
+            Point(),
+            Wrench(Vector3(*force), Vector3(*torque)),
+            rospy.Time(),
+            rospy.Duration.from_sec(duration),
+        )
 
     # ------------------------------------------------------------------------------------------ world
 
     def physics(self) -> Tuple[d.Physics, d.Vec3]:
         r = self._call("get_physics_properties", GetPhysicsProperties)
         o = r.ode_config
-        physics = replace(d.Physics(), max_step_size=r.time_step, real_time_update_rate=r.max_update_rate,
-                          iters=o.sor_pgs_iters, precon_iters=o.sor_pgs_precon_iters, sor=o.sor_pgs_w,
-                          cfm=o.cfm, erp=o.erp,
-                          contact_max_correcting_vel=o.contact_max_correcting_vel,
-                          contact_surface_layer=o.contact_surface_layer, max_contacts=o.max_contacts)
+        physics = replace(
+            d.Physics(),
+            max_step_size=r.time_step,
+            real_time_update_rate=r.max_update_rate,
+            iters=o.sor_pgs_iters,
+            precon_iters=o.sor_pgs_precon_iters,
+            sor=o.sor_pgs_w,
+            cfm=o.cfm,
+            erp=o.erp,
+            contact_max_correcting_vel=o.contact_max_correcting_vel,
+            contact_surface_layer=o.contact_surface_layer,
+            max_contacts=o.max_contacts,
+        )
         return physics, (r.gravity.x, r.gravity.y, r.gravity.z)
 
     def set_physics(self, physics: d.Physics, gravity: d.Vec3) -> None:
@@ -220,8 +283,9 @@ class RosSimulation(Simulation):
         config.cfm, config.erp = physics.cfm, physics.erp
         config.contact_max_correcting_vel = physics.contact_max_correcting_vel
         config.contact_surface_layer, config.max_contacts = physics.contact_surface_layer, physics.max_contacts
-        self._call("set_physics_properties", SetPhysicsProperties, physics.max_step_size, physics.real_time_update_rate,
-                   Vector3(*gravity), config)
+        self._call(
+            "set_physics_properties", SetPhysicsProperties, physics.max_step_size, physics.real_time_update_rate, Vector3(*gravity), config
+        )
 
     # ------------------------------------------------------------------------------------------ looks and surfaces
 
@@ -230,8 +294,7 @@ class RosSimulation(Simulation):
         return SurfaceProperties(r.mu, r.mu2, r.restitution)
 
     def set_surface(self, model: str, link: str, surface: SurfaceProperties) -> None:
-        self._call("collision_surface", CollisionSurface, f"{model}::{link}", True, surface.mu, surface.mu2,
-                   surface.restitution)
+        self._call("collision_surface", CollisionSurface, f"{model}::{link}", True, surface.mu, surface.mu2, surface.restitution)
 
     def paint(self, model: str, link: str, rgba: d.Rgba) -> None:
         self._call("set_visual", SetVisual, f"{model}::{link}" if link else model, ColorRGBA(*rgba), "")

@@ -1,4 +1,5 @@
 """How the messages of sensors are drawn where the sensors are; each keeps its nodes up to date."""
+
 from __future__ import annotations
 
 import math
@@ -55,9 +56,15 @@ def _scan(view: View, source: Any, place: Place) -> None:
     if not len(points):
         source.hide()
     elif source.node is None:
-        source.node = view.scene.add_point_cloud(source.name(place.node), points, colors=(30, 60, 255), point_size=0.03,
-                                                 precision="float32", position=place.pose.p,
-                                                 wxyz=wxyz(place.pose.q))
+        source.node = view.scene.add_point_cloud(
+            source.name(place.node),
+            points,
+            colors=(30, 60, 255),
+            point_size=0.03,
+            precision="float32",
+            position=place.pose.p,
+            wxyz=wxyz(place.pose.q),
+        )
     else:
         source.node.points = points
 
@@ -67,8 +74,8 @@ def _cone(view: View, source: Any, place: Place) -> None:
     lines = np.concatenate([np.stack([np.zeros_like(rim), rim], 1), np.stack([rim[:-1], rim[1:]], 1)])
     if source.node is None:
         source.node = view.scene.add_line_segments(
-            source.name(place.node), lines, colors=(255, 140, 0), thickness=0.008, position=place.pose.p,
-            wxyz=wxyz(place.pose.q))
+            source.name(place.node), lines, colors=(255, 140, 0), thickness=0.008, position=place.pose.p, wxyz=wxyz(place.pose.q)
+        )
     else:
         source.node.points = lines
 
@@ -84,8 +91,17 @@ def _camera(view: View, source: Any, place: Place) -> None:
     wide = field_of_view(view.world, place.model, place.link, source.message.header.frame_id)
     pose = optical(place.pose)
     source.node = view.scene.add_camera_frustum(
-        source.name(place.node), fov=2 * math.atan(math.tan(min(wide, 3.0) / 2) / aspect), aspect=aspect, scale=0.3,
-        thickness=0.005, image=picture, format="jpeg", position=pose.p, wxyz=wxyz(pose.q), cast_shadow=False)
+        source.name(place.node),
+        fov=2 * math.atan(math.tan(min(wide, 3.0) / 2) / aspect),
+        aspect=aspect,
+        scale=0.3,
+        thickness=0.005,
+        image=picture,
+        format="jpeg",
+        position=pose.p,
+        wxyz=wxyz(pose.q),
+        cast_shadow=False,
+    )
 
 
 def _cloud(view: View, source: Any, place: Place) -> None:
@@ -98,8 +114,9 @@ def _cloud(view: View, source: Any, place: Place) -> None:
     if source.node is None:
         camera = is_camera(view.world, place.model, place.link, source.message.header.frame_id)
         pose = optical(place.pose) if camera else place.pose
-        source.node = view.scene.add_point_cloud(source.name(place.node), points, colors=colours, point_size=0.012,
-                                                 precision="float32", position=pose.p, wxyz=wxyz(pose.q))
+        source.node = view.scene.add_point_cloud(
+            source.name(place.node), points, colors=colours, point_size=0.012, precision="float32", position=pose.p, wxyz=wxyz(pose.q)
+        )
     else:
         source.node.points, source.node.colors = points, colours
 
@@ -121,26 +138,31 @@ def _bumper(view: View, source: Any, place: Place) -> None:
             places.append((p.x, p.y, p.z))
             forces.append(scale(rotate(turn, (wrench.force.x, wrench.force.y, wrench.force.z)), sign))
     _forces(view, source, place, (220, 30, 160)).show(
-        np.array(places, float).reshape(-1, 3), np.array(forces, float).reshape(-1, 3), view.scale)
+        np.array(places, float).reshape(-1, 3), np.array(forces, float).reshape(-1, 3), view.scale
+    )
 
 
 def _wrench(view: View, source: Any, place: Place) -> None:
     """The force, and the torque in the direction of its axis, ten times as long for each N m."""
     wrench = source.message.wrench
-    vectors = np.array([(wrench.force.x, wrench.force.y, wrench.force.z),
-                        (10 * wrench.torque.x, 10 * wrench.torque.y, 10 * wrench.torque.z)])
+    vectors = np.array(
+        [(wrench.force.x, wrench.force.y, wrench.force.z), (10 * wrench.torque.x, 10 * wrench.torque.y, 10 * wrench.torque.z)]
+    )
     _forces(view, source, place, (120, 60, 220)).show(np.zeros((2, 3)), vectors, view.scale)
 
 
 def _forces(view: View, source: Any, place: Place, colour: Tuple[int, int, int]) -> Forces:
     if source.forces is None:
-        source.node = view.scene.add_frame(source.name(place.node), show_axes=False, position=place.pose.p,
-                                           wxyz=wxyz(place.pose.q))
+        source.node = view.scene.add_frame(source.name(place.node), show_axes=False, position=place.pose.p, wxyz=wxyz(place.pose.q))
         source.forces = Forces(view.scene, source.node.name, colour)
     return source.forces
 
 
 KINDS: Dict[str, Kind] = {
-    "Laser scans": Kind(LaserScan, _scan), "Sonars": Kind(Range, _cone), "Cameras": Kind(Image, _camera, 4),
-    "Depth clouds": Kind(PointCloud2, _cloud, 4), "Bumpers": Kind(ContactsState, _bumper, in_world=True),
-    "Wrenches": Kind(WrenchStamped, _wrench)}
+    "Laser scans": Kind(LaserScan, _scan),
+    "Sonars": Kind(Range, _cone),
+    "Cameras": Kind(Image, _camera, 4),
+    "Depth clouds": Kind(PointCloud2, _cloud, 4),
+    "Bumpers": Kind(ContactsState, _bumper, in_world=True),
+    "Wrenches": Kind(WrenchStamped, _wrench),
+}

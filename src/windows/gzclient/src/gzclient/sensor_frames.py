@@ -1,4 +1,5 @@
 """Where the frame of a sensor's message is in the world, and what is drawn there."""
+
 from __future__ import annotations
 
 import math
@@ -26,8 +27,11 @@ def find_frame(world: WorldRecord, frame_id: str) -> Optional[Tuple[str, str, Po
     for model in world.models:
         for link in model.description.links:
             for sensor in link.sensors:
-                names = {(plugin.element.findtext(tag) or "").strip().strip("/").rpartition("/")[2]
-                         for plugin in sensor.plugins for tag in ("frameName", "frame_name", "frameId")}
+                names = {
+                    (plugin.element.findtext(tag) or "").strip().strip("/").rpartition("/")[2]
+                    for plugin in sensor.plugins
+                    for tag in ("frameName", "frame_name", "frameId")
+                }
                 if wanted in names:
                     # an optical frame is drawn where the camera is: the sensor looks along its own x
                     return model.name, link.name, sensor.pose
@@ -45,8 +49,8 @@ def is_camera(world: WorldRecord, model: str, link: str, frame_id: str) -> bool:
     for candidate in record.description.links if record is not None else ():
         for sensor in candidate.sensors if candidate.name == link else ():
             if sensor.type in _CAMERAS and any(
-                    (plugin.element.findtext("frameName") or "").strip().strip("/").rpartition("/")[2] == wanted
-                    for plugin in sensor.plugins):
+                (plugin.element.findtext("frameName") or "").strip().strip("/").rpartition("/")[2] == wanted for plugin in sensor.plugins
+            ):
                 return True
     return False
 
@@ -63,15 +67,19 @@ def cloud_points(message: Any) -> Tuple[np.ndarray, np.ndarray]:
     if step <= 0 or len(message.data) < step * count or message.row_step not in (0, step * message.width):
         raise ValueError(f"the cloud is cut off: {len(message.data)} bytes for {count} points")
     order = ">" if message.is_bigendian else "<"
-    layout: Dict[str, Any] = {"names": list("xyz"), "formats": [order + _FLOATS[fields[name].datatype] for name in "xyz"],
-              "offsets": [fields[name].offset for name in "xyz"], "itemsize": step}
+    layout: Dict[str, Any] = {
+        "names": list("xyz"),
+        "formats": [order + _FLOATS[fields[name].datatype] for name in "xyz"],
+        "offsets": [fields[name].offset for name in "xyz"],
+        "itemsize": step,
+    }
     tint = fields.get("rgb") or fields.get("rgba")
     if tint is not None:
         layout["names"].append("tint")
         layout["formats"].append(order + "u4")
         layout["offsets"].append(tint.offset)
     kind: Any = np.dtype(layout)  # type: ignore[call-overload]  # the stub knows no offsets of a dict that grows
-    found = np.frombuffer(message.data, kind, count)[::max(1, -(-count // _MOST_CLOUD))]
+    found = np.frombuffer(message.data, kind, count)[:: max(1, -(-count // _MOST_CLOUD))]
     points = np.stack([found[name] for name in "xyz"], axis=1).astype(np.float32)
     good = np.isfinite(points).all(axis=1)
     if tint is None:

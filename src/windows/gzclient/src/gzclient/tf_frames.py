@@ -1,4 +1,5 @@
 """The frames of TF, and where they are in the world of the simulator."""
+
 from __future__ import annotations
 
 import threading
@@ -63,8 +64,7 @@ class TfFrames:
 
     def listen(self) -> None:
         if not self._subscribers:
-            self._subscribers = [rospy.Subscriber(topic, TFMessage, self.take, queue_size=100)
-                                 for topic in ("/tf", "/tf_static")]
+            self._subscribers = [rospy.Subscriber(topic, TFMessage, self.take, queue_size=100) for topic in ("/tf", "/tf_static")]
 
     def end(self) -> None:
         for subscriber in self._subscribers:
@@ -79,8 +79,7 @@ class TfFrames:
                 t, q = stamped.transform.translation, stamped.transform.rotation
                 numbers = (t.x, t.y, t.z, q.x, q.y, q.z, q.w)
                 child, parent = name_of(stamped.child_frame_id), name_of(stamped.header.frame_id)
-                if np.isfinite(numbers).all() and child != parent and (
-                        child in self._transforms or len(self._transforms) < _MOST):
+                if np.isfinite(numbers).all() and child != parent and (child in self._transforms or len(self._transforms) < _MOST):
                     self._transforms[child] = (parent, Pose(numbers[:3], numbers[3:]))
 
     def placed(self, world: WorldRecord, frame: Frame) -> Dict[str, Pose]:

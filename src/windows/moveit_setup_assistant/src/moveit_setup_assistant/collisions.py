@@ -1,4 +1,5 @@
 """Which pairs of links need no collision check (moveit.md of MoveIt's assistant: adjacent, default, always, never)."""
+
 from __future__ import annotations
 
 from itertools import combinations
@@ -63,8 +64,14 @@ class Sampler:
         return {pair(contact.body_1, contact.body_2) for contact in found.contacts}
 
 
-def compute_disabled(model: "motion.RobotModel", trials: int = 10000, always_fraction: float = 0.95, seed: int = 1,
-                     find_never: bool = True, progress: Optional[Callable[[float], bool]] = None) -> Dict[Pair, str]:
+def compute_disabled(
+    model: "motion.RobotModel",
+    trials: int = 10000,
+    always_fraction: float = 0.95,
+    seed: int = 1,
+    find_never: bool = True,
+    progress: Optional[Callable[[float], bool]] = None,
+) -> Dict[Pair, str]:
     """The pairs that need no check, each with the first reason that holds for it.
 
     :param model: the robot; groups and disabled collisions of its SRDF play no part.

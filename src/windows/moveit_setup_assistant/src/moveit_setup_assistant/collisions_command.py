@@ -1,4 +1,5 @@
 """The command ``collisions_updater``."""
+
 from __future__ import annotations
 
 import argparse
@@ -38,8 +39,11 @@ def main(words: List[str]) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="collisions_updater", allow_abbrev=False,
-                                     description="Compute which links of a robot need no collision check, and write its SRDF.")
+    parser = argparse.ArgumentParser(
+        prog="collisions_updater",
+        allow_abbrev=False,
+        description="Compute which links of a robot need no collision check, and write its SRDF.",
+    )
     parser.add_argument("--config-pkg", help="configuration package: its robot, its SRDF")
     parser.add_argument("--urdf", help="the robot's URDF or xacro file (instead of --config-pkg)")
     parser.add_argument("--srdf", help="its SRDF (instead of --config-pkg)")
@@ -75,8 +79,7 @@ def _compute(config: Configuration, options) -> Dict[collisions.Pair, str]:
     kept = {}
     if options.keep:
         kept = {collisions.pair(p.link1, p.link2): p.reason or collisions.USER for p in config.semantics.disable_collisionss}
-    found = collisions.compute_disabled(config.robot.model, options.trials, options.min_collision_fraction,
-                                        find_never=options.trials > 0)
+    found = collisions.compute_disabled(config.robot.model, options.trials, options.min_collision_fraction, find_never=options.trials > 0)
     wanted = {collisions.ADJACENT, collisions.NEVER}
     wanted |= {collisions.DEFAULT} if options.default else set()
     wanted |= {collisions.ALWAYS} if options.always else set()

@@ -1,4 +1,5 @@
 """A MoveIt configuration package as data: what the screens edit, what the generator writes, what a package on disk holds."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -12,11 +13,19 @@ from moveit_setup_assistant.robot_source import Robot, RobotSource
 from moveit_setup_assistant.semantics import Semantics
 
 MARKER = ".setup_assistant"
-SOLVERS = ("kdl_kinematics_plugin/KDLKinematicsPlugin", "lma_kinematics_plugin/LMAKinematicsPlugin",
-           "cached_ik_kinematics_plugin/CachedKDLKinematicsPlugin", "cached_ik_kinematics_plugin/CachedTRACKinematicsPlugin",
-           "trac_ik_kinematics_plugin/TRAC_IKKinematicsPlugin", "srv_kinematics_plugin/SrvKinematicsPlugin")
-TRAJECTORY_TYPES = ("effort_controllers/JointTrajectoryController", "position_controllers/JointTrajectoryController",
-                    "velocity_controllers/JointTrajectoryController")
+SOLVERS = (
+    "kdl_kinematics_plugin/KDLKinematicsPlugin",
+    "lma_kinematics_plugin/LMAKinematicsPlugin",
+    "cached_ik_kinematics_plugin/CachedKDLKinematicsPlugin",
+    "cached_ik_kinematics_plugin/CachedTRACKinematicsPlugin",
+    "trac_ik_kinematics_plugin/TRAC_IKKinematicsPlugin",
+    "srv_kinematics_plugin/SrvKinematicsPlugin",
+)
+TRAJECTORY_TYPES = (
+    "effort_controllers/JointTrajectoryController",
+    "position_controllers/JointTrajectoryController",
+    "velocity_controllers/JointTrajectoryController",
+)
 ACTION_TYPES = {"FollowJointTrajectory": "follow_joint_trajectory", "GripperCommand": "gripper_action"}
 
 SUBSTITUTED = "$("  # roslaunch fills such names in, with rosparam's subst_value
@@ -35,9 +44,14 @@ class Kinematics:
     parameters_file: str = ""
     others: Dict[str, Any] = field(default_factory=dict)  # keys of solvers that this program does not know
 
-    _KEYS = {"kinematics_solver": "solver", "kinematics_solver_search_resolution": "search_resolution",
-             "kinematics_solver_timeout": "timeout", "goal_joint_tolerance": "goal_joint_tolerance",
-             "goal_position_tolerance": "goal_position_tolerance", "goal_orientation_tolerance": "goal_orientation_tolerance"}
+    _KEYS = {
+        "kinematics_solver": "solver",
+        "kinematics_solver_search_resolution": "search_resolution",
+        "kinematics_solver_timeout": "timeout",
+        "goal_joint_tolerance": "goal_joint_tolerance",
+        "goal_position_tolerance": "goal_position_tolerance",
+        "goal_orientation_tolerance": "goal_orientation_tolerance",
+    }
 
     @classmethod
     def from_mapping(cls, values: Dict[str, Any]) -> "Kinematics":
@@ -122,17 +136,25 @@ class Configuration:
         kinematics = _read(config / "kinematics.yaml", optional=True)
         self.kinematics = {name: Kinematics.from_mapping(values) for name, values in kinematics.items() if isinstance(values, dict)}
         planning = _read(config / "ompl_planning.yaml", optional=True)
-        self.default_planners = {group.name: str(planning[group.name]["default_planner_config"]) for group in self.semantics.groups
-                                 if isinstance(planning.get(group.name), dict)
-                                 and planning[group.name].get("default_planner_config")}
+        self.default_planners = {
+            group.name: str(planning[group.name]["default_planner_config"])
+            for group in self.semantics.groups
+            if isinstance(planning.get(group.name), dict) and planning[group.name].get("default_planner_config")
+        }
         self.sensors = [s for s in _read(config / "sensors_3d.yaml", optional=True).get("sensors") or [] if isinstance(s, dict) and s]
         actions = _read(config / "simple_moveit_controllers.yaml", optional=True).get("controller_list") or []
         running = _read(config / "ros_controllers.yaml", optional=True)
         listed = [*actions, *(running.get("controller_list") or [])]
-        self.controllers = [Controller(str(c["name"]), str(c["type"]), list(c.get("joints") or [])) for c in listed
-                            if isinstance(c, dict) and c.get("name") and c.get("type")]
-        self.controllers += [Controller(name, str(c["type"]), list(c.get("joints") or [])) for name, c in running.items()
-                             if isinstance(c, dict) and "joints" in c and "type" in c]
+        self.controllers = [
+            Controller(str(c["name"]), str(c["type"]), list(c.get("joints") or []))
+            for c in listed
+            if isinstance(c, dict) and c.get("name") and c.get("type")
+        ]
+        self.controllers += [
+            Controller(name, str(c["type"]), list(c.get("joints") or []))
+            for name, c in running.items()
+            if isinstance(c, dict) and "joints" in c and "type" in c
+        ]
         gazebo = config / f"gazebo_{self.robot.name}.urdf"
         self.gazebo_urdf = gazebo.read_text(encoding="utf-8") if gazebo.is_file() else ""
 
@@ -167,8 +189,11 @@ class Configuration:
             found.append("the author's name and e-mail address are missing: package.xml needs both")
         joints = set(self.robot.model.joints)
         for controller in self.controllers:
-            found += [f"controller '{controller.name}' names the joint '{joint}', which the robot does not have"
-                      for joint in controller.joints if joint not in joints and SUBSTITUTED not in joint]
+            found += [
+                f"controller '{controller.name}' names the joint '{joint}', which the robot does not have"
+                for joint in controller.joints
+                if joint not in joints and SUBSTITUTED not in joint
+            ]
             if not controller.name or any(c.isspace() for c in controller.name) and SUBSTITUTED not in controller.name:
                 found.append(f"controller '{controller.name}' has a name with blanks, or none; use letters, digits and _")
         for group in self.semantics.groups:

@@ -1,4 +1,5 @@
 """What can go wrong, in one line each."""
+
 import contextlib
 
 

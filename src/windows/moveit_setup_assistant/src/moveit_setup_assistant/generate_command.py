@@ -1,4 +1,5 @@
 """The command ``generate``."""
+
 from __future__ import annotations
 
 import argparse
@@ -16,9 +17,12 @@ from moveit_setup_assistant.robot_source import RobotSource
 
 def main(words: List[str]) -> int:
     """Run the command; the exit code is 0, or 1 with one line on what is wrong."""
-    parser = argparse.ArgumentParser(prog="generate", formatter_class=argparse.RawDescriptionHelpFormatter,
-                                     description="Make a MoveIt configuration package without a window.",
-                                     epilog="The file given by --from:" + headless.__doc__.partition("\n")[2])
+    parser = argparse.ArgumentParser(
+        prog="generate",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        description="Make a MoveIt configuration package without a window.",
+        epilog="The file given by --from:" + headless.__doc__.partition("\n")[2],
+    )
     parser.add_argument("--urdf", required=True, help="the robot's URDF or xacro file")
     parser.add_argument("--xacro-args", default="", help='arguments for xacro, as "name:=value name:=value"')
     parser.add_argument("--from", dest="config", required=True, help="the YAML file described below")

@@ -19,6 +19,7 @@
 A group has ``chain`` [base, tip], ``joints``, ``links``, ``groups``, or several of these; keys of kinematics.yaml (timeout,
 search_resolution, tolerances) may stand beside ``solver``.
 """
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -34,8 +35,18 @@ from moveit_setup_assistant.robot_source import RobotSource
 from moveit_setup_assistant.simulation import simulated_urdf
 
 _SHORT_SOLVERS = {"kdl": SOLVERS[0], "lma": SOLVERS[1], "cached": SOLVERS[2], "trac_ik": SOLVERS[4]}
-_KEYS = ("groups", "poses", "end_effectors", "virtual_joints", "passive_joints", "collisions", "controllers", "simulation",
-         "sensors", "author")
+_KEYS = (
+    "groups",
+    "poses",
+    "end_effectors",
+    "virtual_joints",
+    "passive_joints",
+    "collisions",
+    "controllers",
+    "simulation",
+    "sensors",
+    "author",
+)
 _SOLVER_NUMBERS = ("timeout", "search_resolution", "goal_joint_tolerance", "goal_position_tolerance", "goal_orientation_tolerance")
 _GROUP_KEYS = ("chain", "joints", "links", "groups", "solver", "planner", "parameters_file", *_SOLVER_NUMBERS)
 
@@ -109,9 +120,16 @@ def configuration(source: RobotSource, path: Path, progress: Optional[Callable[[
     if values.get("simulation"):
         config.gazebo_urdf = simulated_urdf(config.robot.urdf, config.controllers)
     wanted = reader.mapping(values.get("collisions"), "collisions", ("trials", "always", "seed"))
-    set_collisions(config, collisions.compute_disabled(
-        config.robot.model, int(reader.number(wanted.get("trials", 10000), "collisions: trials")),
-        reader.number(wanted.get("always", 0.95), "collisions: always"), int(wanted.get("seed", 1)), progress=progress))
+    set_collisions(
+        config,
+        collisions.compute_disabled(
+            config.robot.model,
+            int(reader.number(wanted.get("trials", 10000), "collisions: trials")),
+            reader.number(wanted.get("always", 0.95), "collisions: always"),
+            int(wanted.get("seed", 1)),
+            progress=progress,
+        ),
+    )
     return config
 
 
@@ -124,8 +142,7 @@ class _AnyKey(tuple):
 
 def set_collisions(config: Configuration, reasons: Dict[collisions.Pair, str]) -> None:
     """Replace the disabled collisions of the SRDF."""
-    config.semantics.disable_collisionss = [srdf.DisableCollisions(one, other, reason)
-                                            for (one, other), reason in sorted(reasons.items())]
+    config.semantics.disable_collisionss = [srdf.DisableCollisions(one, other, reason) for (one, other), reason in sorted(reasons.items())]
 
 
 def _groups(config: Configuration, reader: _Reader, groups: Dict[str, Any]) -> None:
@@ -162,8 +179,7 @@ def _rest_of_semantics(config: Configuration, reader: _Reader, values: Dict[str,
             state.joints.append(srdf.JointVal(str(joint), [reader.number(value, f"poses: {entry['name']}: {joint}")]))
         document.add_group_state(state)
     for entry in reader.entries(values.get("end_effectors"), "end_effectors", ("name", "group", "parent_link"), ("parent_group",)):
-        document.end_effectors.append(srdf.EndEffector(entry["name"], entry["group"], entry["parent_link"],
-                                                       entry.get("parent_group")))
+        document.end_effectors.append(srdf.EndEffector(entry["name"], entry["group"], entry["parent_link"], entry.get("parent_group")))
     for entry in reader.entries(values.get("virtual_joints"), "virtual_joints", ("name", "type", "parent_frame", "child_link")):
         if entry["type"] not in ("fixed", "floating", "planar"):
             raise reader.error(f"virtual_joints: {entry['name']}", f"type '{entry['type']}' is none of fixed, floating, planar")

@@ -1,4 +1,5 @@
 """Writes a configuration package: what would be written is known first, and a folder is never left half written."""
+
 from __future__ import annotations
 
 import os
@@ -111,8 +112,9 @@ def plan(config: Configuration, package: Path) -> List[PlannedFile]:
     return [_compare(package, path, text, purpose, config.generated_timestamp) for path, (text, purpose) in texts.items()]
 
 
-def write(config: Configuration, package: Path, files: Optional[List[PlannedFile]] = None,
-          progress: Optional[Callable[[str], None]] = None) -> List[str]:
+def write(
+    config: Configuration, package: Path, files: Optional[List[PlannedFile]] = None, progress: Optional[Callable[[str], None]] = None
+) -> List[str]:
     """Write the package; the paths that were written.
 
     :param files: of :func:`plan`, with ``write`` as wanted; by default all that nobody changed by hand.
@@ -168,8 +170,9 @@ def refuse_foreign(package: Path) -> None:
     if package.exists() and not package.is_dir():
         raise AssistantError(f"'{package}' is a file; name a folder for the package")
     if package.is_dir() and any(package.iterdir()) and not (package / MARKER).is_file():
-        raise AssistantError(f"'{package}' is not empty and no setup assistant made it; choose another folder, so that nothing "
-                             f"in it is overwritten")
+        raise AssistantError(
+            f"'{package}' is not empty and no setup assistant made it; choose another folder, so that nothing in it is overwritten"
+        )
     if not package.name.replace("_", "").replace("-", "").isalnum() or not package.name[0].isalpha():
         raise AssistantError(f"'{package.name}' cannot be the name of a package; use letters, digits and _, a letter first")
 
@@ -192,8 +195,11 @@ def _texts(config: Configuration, package: str) -> Dict[str, tuple]:
     def filled(name: str) -> str:
         return _Template((folder / f"{name}.in").read_text(encoding="utf-8")).substitute(values)
 
-    texts = {"package.xml": (filled("package.xml"), "name and dependencies"), "CMakeLists.txt": (filled("CMakeLists.txt"), "build"),
-             config.srdf_file: (config.semantics.to_text(), "groups, poses, end effectors, collisions that need no check")}
+    texts = {
+        "package.xml": (filled("package.xml"), "name and dependencies"),
+        "CMakeLists.txt": (filled("CMakeLists.txt"), "build"),
+        config.srdf_file: (config.semantics.to_text(), "groups, poses, end effectors, collisions that need no check"),
+    }
     if config.gazebo_urdf:
         texts[f"config/gazebo_{config.robot.name}.urdf"] = (config.gazebo_urdf, "the robot as it is simulated")
     texts.update({f"config/{name}": (document(config), purpose) for name, (document, purpose) in _DOCUMENTS.items()})
@@ -206,22 +212,30 @@ def _values(config: Configuration, package: str) -> Dict[str, str]:
     model, source = config.model(), config.source
     frames = [v for v in config.semantics.virtual_joints if v.child_link == model.root_link]
     return {
-        "package": package, "robot": config.robot.name, "author_name": escape(config.author_name),
-        "author_email": escape(config.author_email, {'"': "&quot;"}), "srdf_file": config.srdf_file,
+        "package": package,
+        "robot": config.robot.name,
+        "author_name": escape(config.author_name),
+        "author_email": escape(config.author_email, {'"': "&quot;"}),
+        "srdf_file": config.srdf_file,
         "description_depend": f"  <run_depend>{source.package}</run_depend>\n" if source.package else "",
         "urdf_attribute": _load_attribute(source),
-        "gazebo_urdf_attribute": (f'textfile="$(find {package})/config/gazebo_{config.robot.name}.urdf"' if config.gazebo_urdf
-                                  else _load_attribute(source)),
+        "gazebo_urdf_attribute": (
+            f'textfile="$(find {package})/config/gazebo_{config.robot.name}.urdf"' if config.gazebo_urdf else _load_attribute(source)
+        ),
         "planning_frame": frames[0].parent_frame if frames else model.frame,
         "virtual_joints": "".join(
             f'  <node pkg="tf2_ros" type="static_transform_publisher" name="virtual_joint_broadcaster_{index}"\n'
             f'        args="0 0 0 0 0 0 {virtual.parent_frame} {virtual.child_link}"/>\n'
-            for index, virtual in enumerate(v for v in config.semantics.virtual_joints if v.parent_frame != v.child_link)),
+            for index, virtual in enumerate(v for v in config.semantics.virtual_joints if v.parent_frame != v.child_link)
+        ),
         "kinematics_files": "".join(
             f'    <rosparam command="load" ns="{name}" file="{entry.parameters_file}"/>\n'
-            for name, entry in config.kinematics.items() if entry.parameters_file),
+            for name, entry in config.kinematics.items()
+            if entry.parameters_file
+        ),
         "initial_joints": "".join(f" -J {joint} {value:g}" for joint, value in _initial_joints(config).items()),
-        "ros_controllers": " ".join(c.name for c in config.controllers if not c.is_action)}
+        "ros_controllers": " ".join(c.name for c in config.controllers if not c.is_action),
+    }
 
 
 def _load_attribute(source) -> str:

@@ -1,4 +1,5 @@
 """A robot's shapes for drawing: one row of poses per link, highlighted links in a colour of their own."""
+
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
@@ -39,8 +40,7 @@ class RobotScene:
         """The scene with the links of these names in :data:`HIGHLIGHT`."""
         rows = {self.links.index(name) for name in highlighted if name in self.links}
         red = d.Material(ambient=HIGHLIGHT, diffuse=HIGHLIGHT)
-        visuals = tuple(replace(seen, visual=replace(seen.visual, material=red)) if seen.link in rows else seen
-                        for seen in self._visuals)
+        visuals = tuple(replace(seen, visual=replace(seen.visual, material=red)) if seen.link in rows else seen for seen in self._visuals)
         return SceneDescription(self.links, visuals, self._lights, self._background)
 
     def poses(self, state) -> np.ndarray:

@@ -1,4 +1,5 @@
 """Where a robot's description comes from, and the robot that it describes."""
+
 from __future__ import annotations
 
 import shlex
@@ -52,8 +53,10 @@ class RobotSource:
             try:
                 path = Path(rospkg.RosPack().get_path(self.package)) / self.relative_path
             except rospkg.ResourceNotFound as error:
-                raise AssistantError(f"the robot description is in package '{self.package}', which is not found; source the "
-                                     f"setup.bash of the workspace that holds it") from error
+                raise AssistantError(
+                    f"the robot description is in package '{self.package}', which is not found; source the "
+                    f"setup.bash of the workspace that holds it"
+                ) from error
             where = f" of package '{self.package}'"
         if not path.is_file():
             raise AssistantError(f"robot description '{self.relative_path}'{where}: there is no such file")

@@ -1,4 +1,5 @@
 """The picture of the robot beside the screens: turned by dragging, with links that light up."""
+
 from __future__ import annotations
 
 import math
@@ -98,8 +99,15 @@ class RobotView(QWidget):
             return
         shrink = min(1.0, _LARGEST / max(self.width(), self.height(), 1))
         width, height = max(16, int(self.width() * shrink)), max(16, int(self.height() * shrink))
-        camera = Camera("view", width, height, _HFOV, near=self._distance / 100, far=self._distance * 20,
-                        pose=look_at(tuple(self._eye()), tuple(self._target)))
+        camera = Camera(
+            "view",
+            width,
+            height,
+            _HFOV,
+            near=self._distance / 100,
+            far=self._distance * 20,
+            pose=look_at(tuple(self._eye()), tuple(self._target)),
+        )
         pixels = np.ascontiguousarray(self._renderer.color(camera, self._poses))
         self._image = QImage(pixels.data, width, height, 3 * width, QImage.Format_RGB888).copy()
         self.update()

@@ -1,4 +1,5 @@
 """An SRDF as a document that people read: elements in the usual order, a comment before each kind."""
+
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
@@ -12,8 +13,11 @@ from moveit_setup_assistant.robot_source import expanded
 
 # (tag, comment) in the order in which they are written. Other elements keep their place at the end.
 SECTIONS: Tuple[Tuple[str, str], ...] = (
-    ("group", "GROUPS: joints that are planned for together. A <link> brings its parent joint with it, a <joint> its child link, "
-              "a <chain> every joint between its two links, a <group> all that is in it."),
+    (
+        "group",
+        "GROUPS: joints that are planned for together. A <link> brings its parent joint with it, a <joint> its child link, "
+        "a <chain> every joint between its two links, a <group> all that is in it.",
+    ),
     ("group_state", "GROUP STATES: named joint values of a group, for example a pose in which an arm is folded."),
     ("end_effector", "END EFFECTORS: groups that hang on a link of another group, as a gripper on an arm."),
     ("virtual_joint", "VIRTUAL JOINTS: how the robot's root link stands in the world."),
@@ -24,8 +28,10 @@ SECTIONS: Tuple[Tuple[str, str], ...] = (
     ("enable_collisions", "ENABLED COLLISIONS: pairs that are checked although a link's default says otherwise."),
     ("disable_collisions", "DISABLED COLLISIONS: pairs of links that are never checked against each other, and why."),
 )
-_HEAD = ("This file adds to the URDF what planning needs to know of a robot: groups, named states, end effectors, and which links "
-         "need not be checked for collision. It does not replace the URDF.")
+_HEAD = (
+    "This file adds to the URDF what planning needs to know of a robot: groups, named states, end effectors, and which links "
+    "need not be checked for collision. It does not replace the URDF."
+)
 
 _ROUNDED = 1e-4  # rad or m: poses are written with four digits
 
@@ -78,12 +84,18 @@ class Semantics(Robot):
         :param model: the robot, read without this document.
         """
         found = self._unknown_names(model) + self._circles()
-        for kind, names in (("group", [g.name for g in self.groups]), ("end effector", [e.name for e in self.end_effectors]),
-                            ("virtual joint", [v.name for v in self.virtual_joints]),
-                            ("pose", [f"{s.name} of group {s.group}" for s in self.group_states])):
+        for kind, names in (
+            ("group", [g.name for g in self.groups]),
+            ("end effector", [e.name for e in self.end_effectors]),
+            ("virtual joint", [v.name for v in self.virtual_joints]),
+            ("pose", [f"{s.name} of group {s.group}" for s in self.group_states]),
+        ):
             found += [f"{kind} '{name}' is there {names.count(name)} times" for name in sorted(set(names)) if names.count(name) > 1]
-        found += [f"group '{g.name}' is empty: give it joints, links, a chain or other groups" for g in self.groups
-                  if not (g.joints or g.links or g.chains or g.groups)]
+        found += [
+            f"group '{g.name}' is empty: give it joints, links, a chain or other groups"
+            for g in self.groups
+            if not (g.joints or g.links or g.chains or g.groups)
+        ]
         return found
 
     def unreachable_poses(self, model) -> List[str]:
@@ -102,8 +114,10 @@ class Semantics(Robot):
                     continue
                 for value, limits in zip(joint.value, model.joint(joint.name).limits):
                     if limits.has_position and not limits.min_position - _ROUNDED <= value <= limits.max_position + _ROUNDED:
-                        found.append(f"{what}: joint '{joint.name}' is at {value:g}, beyond its limits {limits.min_position:g} to "
-                                     f"{limits.max_position:g}; MoveIt does not plan to it.")
+                        found.append(
+                            f"{what}: joint '{joint.name}' is at {value:g}, beyond its limits {limits.min_position:g} to "
+                            f"{limits.max_position:g}; MoveIt does not plan to it."
+                        )
         return found
 
     def _unknown_names(self, model) -> List[str]:

@@ -1,4 +1,5 @@
 """A URDF made ready for simulation: inertia, transmissions, and the plugin that runs controllers."""
+
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
@@ -8,9 +9,11 @@ import lenient_xml
 
 from moveit_setup_assistant.configuration import Controller
 
-_INTERFACES = {"effort_controllers": "hardware_interface/EffortJointInterface",
-               "position_controllers": "hardware_interface/PositionJointInterface",
-               "velocity_controllers": "hardware_interface/VelocityJointInterface"}
+_INTERFACES = {
+    "effort_controllers": "hardware_interface/EffortJointInterface",
+    "position_controllers": "hardware_interface/PositionJointInterface",
+    "velocity_controllers": "hardware_interface/VelocityJointInterface",
+}
 
 
 def simulated_urdf(urdf: str, controllers: Iterable[Controller]) -> str:
@@ -29,8 +32,9 @@ def simulated_urdf(urdf: str, controllers: Iterable[Controller]) -> str:
             root.append(_transmission(name, interfaces.get(name, _INTERFACES["effort_controllers"])))
             changed.append(True)
     if not any("gazebo_ros_control" in (p.get("filename") or "") for p in root.iterfind("gazebo/plugin")):
-        plugin = ET.SubElement(ET.SubElement(root, "gazebo"), "plugin",
-                               {"name": "gazebo_ros_control", "filename": "libgazebo_ros_control.so"})
+        plugin = ET.SubElement(
+            ET.SubElement(root, "gazebo"), "plugin", {"name": "gazebo_ros_control", "filename": "libgazebo_ros_control.so"}
+        )
         ET.SubElement(plugin, "robotNamespace").text = "/"
         changed.append(True)
     if not any(changed):
@@ -40,8 +44,7 @@ def simulated_urdf(urdf: str, controllers: Iterable[Controller]) -> str:
 
 
 def _interfaces_of(controllers: Iterable[Controller]) -> Dict[str, str]:
-    return {joint: _INTERFACES[c.type.split("/")[0]] for c in controllers if c.type.split("/")[0] in _INTERFACES
-            for joint in c.joints}
+    return {joint: _INTERFACES[c.type.split("/")[0]] for c in controllers if c.type.split("/")[0] in _INTERFACES for joint in c.joints}
 
 
 def _add_inertia(link: ET.Element) -> bool:

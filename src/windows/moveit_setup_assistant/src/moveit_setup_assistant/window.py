@@ -1,4 +1,5 @@
 """The assistant's window: the list of screens on the left, the screen in the middle, the robot on the right."""
+
 from __future__ import annotations
 
 import argparse
@@ -9,8 +10,17 @@ from typing import Iterable, List, Optional, Tuple
 import motion
 from node_signals.display import missing_display
 from python_qt_binding.QtCore import QTimer
-from python_qt_binding.QtWidgets import (QApplication, QHBoxLayout, QLabel, QListWidget, QMainWindow, QSplitter, QStackedWidget,
-                                         QVBoxLayout, QWidget)
+from python_qt_binding.QtWidgets import (
+    QApplication,
+    QHBoxLayout,
+    QLabel,
+    QListWidget,
+    QMainWindow,
+    QSplitter,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
 from qt_gui.interrupts import Interrupts
 
 from moveit_setup_assistant.configuration import Configuration
@@ -18,7 +28,6 @@ from moveit_setup_assistant.errors import AssistantError
 from moveit_setup_assistant.robot_view import RobotView
 from moveit_setup_assistant.screens import ALL
 from moveit_setup_assistant.words import counted
-
 
 _MOST_LINES = 4  # of what is missing, below the screen
 
@@ -39,9 +48,11 @@ class Session:
         self._window.robot_changed()
         for line in config.warnings:
             self.say(line, bad=True)
-        lines = [f"{config.robot.name}: {counted(len(config.robot.model.links), 'link')}, "
-                 f"{counted(len(config.robot.movable_joints), 'joint')} that can move",
-                 *config.warnings[:_MOST_LINES]]
+        lines = [
+            f"{config.robot.name}: {counted(len(config.robot.model.links), 'link')}, "
+            f"{counted(len(config.robot.movable_joints), 'joint')} that can move",
+            *config.warnings[:_MOST_LINES],
+        ]
         if len(config.warnings) > _MOST_LINES:
             lines.append(f"and {len(config.warnings) - _MOST_LINES} more; all of them are in the terminal")
         self.say("\n".join(lines))
@@ -227,6 +238,7 @@ class Window(QMainWindow):
 def main(words: List[str]) -> int:
     """Open the window; the exit code of the program."""
     import rospy
+
     parser = argparse.ArgumentParser(prog="moveit_setup_assistant", description="Make or edit a MoveIt configuration package.")
     parser.add_argument("--config_pkg", "--config-pkg", "-c", default="", help="package, or its folder, to edit")
     parser.add_argument("--urdf_path", "--urdf-path", "-u", default="", help="robot description to begin with")

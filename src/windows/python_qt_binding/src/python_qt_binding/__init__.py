@@ -8,6 +8,7 @@ is preferred; set ``sys.SELECT_QT_BINDING`` or ``sys.SELECT_QT_BINDING_ORDER`` b
 same binding's versions Qt 5's comes first, which is what plugins are written for; the environment variable ``QT_API=pyqt6``
 (``pyside6``) asks for Qt 6's, as it does of matplotlib.
 """
+
 import sys
 
 from python_qt_binding.binding_helper import QT_BINDING, QT_BINDING_MODULES, QT_BINDING_VERSION, loadUi

@@ -1,4 +1,5 @@
 """Finds a Python binding of Qt and evens out what they call differently."""
+
 from __future__ import annotations
 
 import importlib
@@ -10,10 +11,39 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 #: Packages of each binding, the best first. One process can work with one version of Qt only.
 _PACKAGES = {"pyqt": ("PyQt5", "PyQt6"), "pyside": ("PySide2", "PySide6")}
 _REQUIRED = ("QtCore", "QtGui", "QtWidgets")
-_OPTIONAL = ("QtBluetooth", "QtDBus", "QtDesigner", "QtHelp", "QtLocation", "QtMultimedia", "QtMultimediaWidgets", "QtNetwork",
-             "QtNetworkAuth", "QtNfc", "QtOpenGL", "QtOpenGLWidgets", "QtPositioning", "QtPrintSupport", "QtQml", "QtQuick",
-             "QtQuickWidgets", "QtSensors", "QtSerialPort", "QtSql", "QtSvg", "QtSvgWidgets", "QtTest", "QtWebChannel",
-             "QtWebEngine", "QtWebEngineCore", "QtWebEngineWidgets", "QtWebSockets", "QtX11Extras", "QtXml", "QtXmlPatterns")
+_OPTIONAL = (
+    "QtBluetooth",
+    "QtDBus",
+    "QtDesigner",
+    "QtHelp",
+    "QtLocation",
+    "QtMultimedia",
+    "QtMultimediaWidgets",
+    "QtNetwork",
+    "QtNetworkAuth",
+    "QtNfc",
+    "QtOpenGL",
+    "QtOpenGLWidgets",
+    "QtPositioning",
+    "QtPrintSupport",
+    "QtQml",
+    "QtQuick",
+    "QtQuickWidgets",
+    "QtSensors",
+    "QtSerialPort",
+    "QtSql",
+    "QtSvg",
+    "QtSvgWidgets",
+    "QtTest",
+    "QtWebChannel",
+    "QtWebEngine",
+    "QtWebEngineCore",
+    "QtWebEngineWidgets",
+    "QtWebSockets",
+    "QtX11Extras",
+    "QtXml",
+    "QtXmlPatterns",
+)
 
 
 def _packages(binding: str) -> List[str]:
@@ -48,15 +78,15 @@ def _select(wanted: Optional[str], order: Optional[Sequence[str]]) -> Tuple[str,
                 return binding, package, _load(package)
             except ImportError as error:
                 tried.append(f"{package}: {error}")
-    raise ImportError(f"Could not find Qt binding (looked for: {', '.join(tried) or order}); "
-                      "sudo apt install python3-pyqt5 python3-pyqt5.qtsvg brings one")
+    raise ImportError(
+        f"Could not find Qt binding (looked for: {', '.join(tried) or order}); "
+        "sudo apt install python3-pyqt5 python3-pyqt5.qtsvg brings one"
+    )
 
 
-QT_BINDING, _package, QT_BINDING_MODULES = _select(getattr(sys, "SELECT_QT_BINDING", None),
-                                                   getattr(sys, "SELECT_QT_BINDING_ORDER", None))
+QT_BINDING, _package, QT_BINDING_MODULES = _select(getattr(sys, "SELECT_QT_BINDING", None), getattr(sys, "SELECT_QT_BINDING_ORDER", None))
 _core: Any = QT_BINDING_MODULES["QtCore"]
-QT_BINDING_VERSION: str = (_core.PYQT_VERSION_STR if QT_BINDING == "pyqt"
-                           else importlib.import_module(_package).__version__)
+QT_BINDING_VERSION: str = _core.PYQT_VERSION_STR if QT_BINDING == "pyqt" else importlib.import_module(_package).__version__
 os.environ["QT_API"] = QT_BINDING if _package in ("PyQt5", "PySide2") else _package.lower()  # matplotlib reads it
 for _one, _other in (("Signal", "pyqtSignal"), ("Slot", "pyqtSlot"), ("Property", "pyqtProperty")):
     setattr(_core, *(_one, getattr(_core, _other)) if QT_BINDING == "pyqt" else (_other, getattr(_core, _one)))
@@ -76,4 +106,5 @@ def loadUi(uifile: str, baseinstance: Any = None, custom_widgets: Optional[Dict[
     if QT_BINDING == "pyqt":
         return importlib.import_module(f"{_package}.uic").loadUi(uifile, baseinstance=baseinstance)
     from python_qt_binding.pyside_loader import load
+
     return load(_package, uifile, baseinstance, custom_widgets or {})

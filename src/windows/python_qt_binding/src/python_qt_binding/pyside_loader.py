@@ -1,4 +1,5 @@
 """loadUi for PySide, whose own loader knows no base instance."""
+
 from __future__ import annotations
 
 import importlib
@@ -16,8 +17,7 @@ def load(package: str, uifile: str, baseinstance: Any, custom_widgets: Dict[str,
         def createWidget(self, class_name: str, parent: Any = None, name: str = "") -> Any:
             if baseinstance is not None and parent is None:
                 return baseinstance
-            made = (custom_widgets[class_name](parent) if class_name in custom_widgets
-                    else super().createWidget(class_name, parent, name))
+            made = custom_widgets[class_name](parent) if class_name in custom_widgets else super().createWidget(class_name, parent, name)
             if baseinstance is not None and name:
                 setattr(baseinstance, name, made)
             return made

@@ -1,12 +1,16 @@
 """Names that plugins written for PyQt5 use and PyQt6 has elsewhere: so that such plugins load in a window on Qt 6 too."""
+
 from __future__ import annotations
 
 import enum
 from typing import Any, Dict
 
 _MOVED = ("QAction", "QActionGroup", "QShortcut", "QUndoCommand", "QUndoGroup", "QUndoStack")  # to QtGui
-_RUNNING = {"QtCore": ("QCoreApplication", "QEventLoop", "QThread"), "QtGui": ("QDrag", "QGuiApplication"),
-            "QtWidgets": ("QApplication", "QDialog", "QMenu")}
+_RUNNING = {
+    "QtCore": ("QCoreApplication", "QEventLoop", "QThread"),
+    "QtGui": ("QDrag", "QGuiApplication"),
+    "QtWidgets": ("QApplication", "QDialog", "QMenu"),
+}
 
 
 def add(modules: Dict[str, Any]) -> None:

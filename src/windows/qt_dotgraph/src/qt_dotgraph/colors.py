@@ -1,4 +1,5 @@
 """A colour for each word, the same every time."""
+
 import zlib
 
 from python_qt_binding.QtGui import QColor

@@ -1,4 +1,5 @@
 """DOT text to items of a QGraphicsScene."""
+
 from typing import Any, Dict, List
 
 from python_qt_binding.QtCore import QPointF, QRectF
@@ -68,8 +69,14 @@ class DotToQtGenerator:
     def _node_item(self, node, highlight_level):
         width, height = node.size[0] - 1, node.size[1] - 1  # edges end at the outline, not within
         box = QRectF(node.center[0] - width / 2, -node.center[1] - height / 2, width, height)
-        return NodeItem(highlight_level, box, node.label, node.attributes.get("shape", "ellipse"), _color(node.attributes),
-                        tooltip=node.attributes.get("tooltip"))
+        return NodeItem(
+            highlight_level,
+            box,
+            node.label,
+            node.attributes.get("shape", "ellipse"),
+            _color(node.attributes),
+            tooltip=node.attributes.get("tooltip"),
+        )
 
     def _edge_item(self, edge, nodes, highlight_level):
         attributes = edge.attributes
@@ -77,8 +84,17 @@ class DotToQtGenerator:
         if {"colorR", "colorG", "colorB"} <= set(attributes):
             color = QColor(*(int(float(attributes[name])) for name in ("colorR", "colorG", "colorB")))
         center = QPointF(edge.label_center[0], -edge.label_center[1]) if edge.label_center else None
-        item = EdgeItem(highlight_level, attributes["pos"], center, edge.label, nodes[edge.tail], nodes[edge.head],
-                        penwidth=float(attributes.get("penwidth") or 1), edge_color=color, style=attributes.get("style"))
+        item = EdgeItem(
+            highlight_level,
+            attributes["pos"],
+            center,
+            edge.label,
+            nodes[edge.tail],
+            nodes[edge.head],
+            penwidth=float(attributes.get("penwidth") or 1),
+            edge_color=color,
+            style=attributes.get("style"),
+        )
         if attributes.get("tooltip"):
             item.setToolTip(attributes["tooltip"])
         return item

@@ -1,4 +1,5 @@
 """An edge of a graph: curve, arrow head, label."""
+
 import math
 
 from python_qt_binding.QtCore import QPointF, Qt
@@ -18,8 +19,9 @@ class EdgeItem(GraphItem):
     :param label_center: ``QPointF`` in the scene
     """
 
-    def __init__(self, highlight_level, spline, label_center, label, from_node, to_node, parent=None, penwidth=1, edge_color=None,
-                 style="solid"):
+    def __init__(
+        self, highlight_level, spline, label_center, label, from_node, to_node, parent=None, penwidth=1, edge_color=None, style="solid"
+    ):
         super().__init__(highlight_level, parent)
         self.from_node, self.to_node = from_node, to_node
         from_node.add_outgoing_edge(self)
@@ -119,7 +121,7 @@ def _curve(spline):
             points.append(point)
     path = QPainterPath(points[0])
     for index in range(1, len(points) - 2, 3):
-        path.cubicTo(*points[index:index + 3])
+        path.cubicTo(*points[index : index + 3])
     return path, tip
 
 

@@ -1,4 +1,5 @@
 """What nodes and edges have in common."""
+
 from python_qt_binding.QtGui import QColor, QFont
 from python_qt_binding.QtWidgets import QGraphicsItemGroup
 

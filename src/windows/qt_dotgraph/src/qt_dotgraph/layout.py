@@ -1,4 +1,5 @@
 """Graphviz's layout of DOT text, as plain data. No Qt in here, so that it can run in any thread."""
+
 from __future__ import annotations
 
 import json
@@ -126,8 +127,16 @@ def _parse(data: bytes) -> Layout:
             nodes.append(Node(thing["name"], _label(thing), _point(thing["pos"]), size, _texts(thing)))
         elif thing["name"].startswith("cluster") and thing.get("bb"):
             left, bottom, right, top = map(float, thing["bb"].split(","))
-            clusters.append(Cluster(thing["name"], _label(thing, ""), (left, bottom), (right - left, top - bottom),
-                                    _point(thing["lp"]) if "lp" in thing else None, _texts(thing)))
+            clusters.append(
+                Cluster(
+                    thing["name"],
+                    _label(thing, ""),
+                    (left, bottom),
+                    (right - left, top - bottom),
+                    _point(thing["lp"]) if "lp" in thing else None,
+                    _texts(thing),
+                )
+            )
     edges = [_edge(thing, names) for thing in graph.get("edges", []) if "pos" in thing and thing.get("style") != "invis"]
     left, bottom, right, top = map(float, (graph.get("bb") or "0,0,0,0").split(","))
     return Layout(nodes, clusters, edges, (right - left, top - bottom))
@@ -143,8 +152,16 @@ def _edge(thing, names) -> Edge:
             end = _point(part[2:])
         else:
             points.append(_point(part))
-    return Edge(names[thing["tail"]], names[thing["head"]], _label(thing, ""), points, start, end,
-                _point(thing["lp"]) if thing.get("lp") else None, _texts(thing))
+    return Edge(
+        names[thing["tail"]],
+        names[thing["head"]],
+        _label(thing, ""),
+        points,
+        start,
+        end,
+        _point(thing["lp"]) if thing.get("lp") else None,
+        _texts(thing),
+    )
 
 
 def _point(text: str) -> Point:

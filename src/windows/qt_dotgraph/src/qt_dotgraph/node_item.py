@@ -1,8 +1,14 @@
 """A node of a graph, or the box of a cluster."""
+
 from python_qt_binding.QtCore import QPointF, QRectF
 from python_qt_binding.QtGui import QBrush, QColor, QPainterPath, QPen, QPolygonF
-from python_qt_binding.QtWidgets import QGraphicsEllipseItem, QGraphicsPathItem, QGraphicsPolygonItem, QGraphicsRectItem, \
-    QGraphicsSimpleTextItem
+from python_qt_binding.QtWidgets import (
+    QGraphicsEllipseItem,
+    QGraphicsPathItem,
+    QGraphicsPolygonItem,
+    QGraphicsRectItem,
+    QGraphicsSimpleTextItem,
+)
 
 from qt_dotgraph.graph_item import GraphItem
 
@@ -42,9 +48,16 @@ class NodeItem(GraphItem):
             return QGraphicsEllipseItem(bounding_box)
         if shape == "diamond":
             middle = bounding_box.center()
-            return QGraphicsPolygonItem(QPolygonF([
-                QPointF(middle.x(), bounding_box.top()), QPointF(bounding_box.right(), middle.y()),
-                QPointF(middle.x(), bounding_box.bottom()), QPointF(bounding_box.left(), middle.y())]))
+            return QGraphicsPolygonItem(
+                QPolygonF(
+                    [
+                        QPointF(middle.x(), bounding_box.top()),
+                        QPointF(bounding_box.right(), middle.y()),
+                        QPointF(middle.x(), bounding_box.bottom()),
+                        QPointF(bounding_box.left(), middle.y()),
+                    ]
+                )
+            )
         if shape == "box3d":
             return QGraphicsPathItem(_box3d(bounding_box))
         return QGraphicsRectItem(bounding_box)
@@ -104,8 +117,18 @@ def _box3d(box: QRectF) -> QPainterPath:
     path = QPainterPath()
     front = box.adjusted(0, _FOLD, -_FOLD, 0)
     path.addRect(front)
-    path.addPolygon(QPolygonF([front.topLeft(), box.topLeft() + QPointF(_FOLD, 0), box.topRight(),
-                               box.bottomRight() - QPointF(0, _FOLD), front.bottomRight(), front.topRight()]))
+    path.addPolygon(
+        QPolygonF(
+            [
+                front.topLeft(),
+                box.topLeft() + QPointF(_FOLD, 0),
+                box.topRight(),
+                box.bottomRight() - QPointF(0, _FOLD),
+                front.bottomRight(),
+                front.topRight(),
+            ]
+        )
+    )
     path.moveTo(front.topRight())
     path.lineTo(box.topRight())
     return path

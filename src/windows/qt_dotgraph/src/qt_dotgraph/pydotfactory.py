@@ -1,4 +1,5 @@
 """Graphs made with pydot, for plugins that build theirs piece by piece."""
+
 import os
 from urllib.parse import quote
 
@@ -39,16 +40,29 @@ class PydotFactory:
             node.set_color(color)
         graph.add_node(node)
 
-    def add_subgraph_to_graph(self, graph, subgraphname, rank="same", simplify=True, rankdir="TB", ranksep=0.2, compound=True,
-                              color=None, shape="box", style="bold", subgraphlabel=None):
+    def add_subgraph_to_graph(
+        self,
+        graph,
+        subgraphname,
+        rank="same",
+        simplify=True,
+        rankdir="TB",
+        ranksep=0.2,
+        compound=True,
+        color=None,
+        shape="box",
+        style="bold",
+        subgraphlabel=None,
+    ):
         """A cluster, which is returned; give it to the other methods in the place of the graph.
 
         :raises ValueError: no name.
         """
         if not subgraphname:
             raise ValueError("Empty subgraph name")
-        cluster = pydot.Cluster(self.escape_name(subgraphname), rank=rank, rankdir=rankdir, simplify=simplify, style=style,
-                                ranksep=ranksep, compound=compound)
+        cluster = pydot.Cluster(
+            self.escape_name(subgraphname), rank=rank, rankdir=rankdir, simplify=simplify, style=style, ranksep=ranksep, compound=compound
+        )
         label = self.escape_label(subgraphname if subgraphlabel is None else subgraphlabel)
         if label:
             cluster.set("label", _quoted(label))
@@ -57,8 +71,7 @@ class PydotFactory:
         graph.add_subgraph(cluster)
         return cluster
 
-    def add_edge_to_graph(self, graph, nodename1, nodename2, label=None, url=None, simplify=True, style=None, penwidth=1,
-                          color=None):
+    def add_edge_to_graph(self, graph, nodename1, nodename2, label=None, url=None, simplify=True, style=None, penwidth=1, color=None):
         """An edge; ``color`` is (red, green, blue) from 0 to 255."""
         edge = pydot.Edge(self.escape_name(nodename1), self.escape_name(nodename2), penwidth=str(penwidth))
         if label:

@@ -1,4 +1,5 @@
 """The same as PydotFactory with pygraphviz (Debian package python3-pygraphviz), for plugins that ask for it."""
+
 import pygraphviz
 
 
@@ -6,8 +7,9 @@ class PygraphvizFactory:
     """See :class:`qt_dotgraph.pydotfactory.PydotFactory`."""
 
     def get_graph(self, graph_type="digraph", rank="same", simplify=True, rankdir="TB", ranksep=0.2, compound=True):
-        graph = pygraphviz.AGraph(directed=graph_type == "digraph", ranksep=ranksep, rankdir=rankdir, rank=rank, compound=compound,
-                                  simplify=simplify)
+        graph = pygraphviz.AGraph(
+            directed=graph_type == "digraph", ranksep=ranksep, rankdir=rankdir, rank=rank, compound=compound, simplify=simplify
+        )
         return graph
 
     def add_node_to_graph(self, graph, nodename, nodelabel=None, shape="box", color=None, url=None, tooltip=None):
@@ -15,20 +17,40 @@ class PygraphvizFactory:
         if not nodename:
             raise ValueError("Empty Node name")
         options = {"URL": url, "tooltip": url if tooltip is None else tooltip, "color": color}
-        graph.add_node(nodename, label=str(nodelabel or nodename), shape=shape,
-                       **{key: value for key, value in options.items() if value is not None})
+        graph.add_node(
+            nodename, label=str(nodelabel or nodename), shape=shape, **{key: value for key, value in options.items() if value is not None}
+        )
 
-    def add_subgraph_to_graph(self, graph, subgraphname, rank="same", simplify=True, rankdir="TB", ranksep=0.2, compound=True,
-                              color=None, shape="box", style="bold", subgraphlabel=None):
+    def add_subgraph_to_graph(
+        self,
+        graph,
+        subgraphname,
+        rank="same",
+        simplify=True,
+        rankdir="TB",
+        ranksep=0.2,
+        compound=True,
+        color=None,
+        shape="box",
+        style="bold",
+        subgraphlabel=None,
+    ):
         """:raises ValueError: no name."""
         if not subgraphname:
             raise ValueError("Empty subgraph name")
         options = {"color": color} if color is not None else {}
-        return graph.add_subgraph(name=f"cluster_{subgraphname}", rank=rank, rankdir=rankdir, ranksep=ranksep, compound=compound,
-                                  style=style, label=str(subgraphname if subgraphlabel is None else subgraphlabel), **options)
+        return graph.add_subgraph(
+            name=f"cluster_{subgraphname}",
+            rank=rank,
+            rankdir=rankdir,
+            ranksep=ranksep,
+            compound=compound,
+            style=style,
+            label=str(subgraphname if subgraphlabel is None else subgraphlabel),
+            **options,
+        )
 
-    def add_edge_to_graph(self, graph, nodename1, nodename2, label=None, url=None, simplify=True, style=None, penwidth=1,
-                          color=None):
+    def add_edge_to_graph(self, graph, nodename1, nodename2, label=None, url=None, simplify=True, style=None, penwidth=1, color=None):
         options = {"label": label, "URL": url, "style": style, "penwidth": penwidth}
         if color is not None:
             options.update(zip(("colorR", "colorG", "colorB"), map(str, color)))

@@ -3,6 +3,7 @@
 Noetic's Python 3.8 took a float where Qt wants an int, and cut it off. Python 3.10 and later refuse
 (``setValue(self, int): argument 1 has unexpected type 'float'``), and every second plugin computes its sizes.
 """
+
 import functools
 
 from python_qt_binding import QtCore, QtGui, QtWidgets
@@ -21,12 +22,12 @@ _METHODS = {
     "QDoubleSpinBox": "setDecimals",
     "QLCDNumber": "setDigitCount",
     "QWidget": "resize move setGeometry setFixedSize setFixedWidth setFixedHeight setMinimumSize setMinimumWidth "
-               "setMinimumHeight setMaximumSize setMaximumWidth setMaximumHeight setBaseSize setContentsMargins update repaint "
-               "scroll",
+    "setMinimumHeight setMaximumSize setMaximumWidth setMaximumHeight setBaseSize setContentsMargins update repaint "
+    "scroll",
     "QLayout": "setContentsMargins setSpacing",
     "QBoxLayout": "addSpacing addStretch addStrut insertSpacing insertStretch setSpacing setStretch",
     "QGridLayout": "setSpacing setHorizontalSpacing setVerticalSpacing setRowStretch setColumnStretch setRowMinimumHeight "
-                   "setColumnMinimumWidth",
+    "setColumnMinimumWidth",
     "QFormLayout": "setSpacing setHorizontalSpacing setVerticalSpacing",
     "QSplitter": "setSizes setHandleWidth setStretchFactor moveSplitter",
     "QHeaderView": "resizeSection setDefaultSectionSize setMinimumSectionSize setMaximumSectionSize",
@@ -51,18 +52,29 @@ _METHODS = {
     "QPoint": "setX setY",
     "QSize": "setWidth setHeight scaled",
     "QRect": "setX setY setWidth setHeight setLeft setRight setTop setBottom setRect setCoords adjust adjusted translate "
-             "translated moveTo moveLeft moveRight moveTop moveBottom contains",
+    "translated moveTo moveLeft moveRight moveTop moveBottom contains",
     "QImage": "scaled scaledToWidth scaledToHeight copy pixel setPixel pixelColor setPixelColor",
     "QPixmap": "scaled scaledToWidth scaledToHeight copy",
     "QIcon": "pixmap",
     "QPainter": "drawLine drawRect drawRoundedRect drawEllipse drawArc drawPie drawChord drawPoint drawText drawPixmap drawImage "
-                "drawTiledPixmap fillRect eraseRect setViewport setWindow setClipRect",
+    "drawTiledPixmap fillRect eraseRect setViewport setWindow setClipRect",
     "QCursor": "setPos",
     "QStandardItemModel": "setRowCount setColumnCount",
     "QTextCursor": "setPosition",
 }
-_CONSTRUCTORS = ("QPoint", "QSize", "QRect", "QMargins", "QColor", "QImage", "QPixmap", "QFont", "QTableWidget", "QSpacerItem",
-                 "QStandardItemModel")
+_CONSTRUCTORS = (
+    "QPoint",
+    "QSize",
+    "QRect",
+    "QMargins",
+    "QColor",
+    "QImage",
+    "QPixmap",
+    "QFont",
+    "QTableWidget",
+    "QSpacerItem",
+    "QStandardItemModel",
+)
 _state = {"installed": False}
 
 
@@ -90,6 +102,7 @@ def _call_cut(function, arguments, options):
 
 def _lenient(function):
     """``function``, tried again with whole numbers when it refuses floats."""
+
     @functools.wraps(function)
     def call(*arguments, **options):
         try:
@@ -99,6 +112,7 @@ def _lenient(function):
             if not done:
                 raise
             return result
+
     return call
 
 

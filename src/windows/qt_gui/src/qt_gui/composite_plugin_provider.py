@@ -1,4 +1,5 @@
 """Several providers as one."""
+
 from python_qt_binding.QtCore import qCritical
 
 from qt_gui.errors import PluginLoadError

@@ -1,4 +1,5 @@
 """Docks: one for each widget of a plugin, and containers that hold docks themselves."""
+
 from python_qt_binding.QtCore import QEvent, QPoint, QRect, Qt, Signal
 from python_qt_binding.QtGui import QCursor, QIcon
 from python_qt_binding.QtWidgets import QApplication, QDockWidget, QMainWindow
@@ -137,15 +138,17 @@ class Containers:
     def under(self, point, dock):
         """The inner window of the container at a point on the screen which could take ``dock``, or None."""
         for container in self._containers.values():
-            if container is not dock and container.isVisible() and container.contains(point) \
-                    and not self._within(container, dock):
+            if container is not dock and container.isVisible() and container.contains(point) and not self._within(container, dock):
                 return container.inner
         return None
 
     def places_for(self, dock):
         here = dock.container()
-        places = [(f"Move into {c.windowTitle()}", lambda c=c: dock.move_to(c.inner)) for c in self._containers.values()
-                  if c is not here and c is not dock and not self._within(c, dock)]
+        places = [
+            (f"Move into {c.windowTitle()}", lambda c=c: dock.move_to(c.inner))
+            for c in self._containers.values()
+            if c is not here and c is not dock and not self._within(c, dock)
+        ]
         return places + ([("Move out of the container", lambda: dock.move_to(self._root))] if here is not None else [])
 
     def _within(self, container, dock):

@@ -1,4 +1,5 @@
 """The title bar of a dock: icon, title, and the buttons D C R ? - O X."""
+
 from python_qt_binding.QtCore import QEvent, QSize, Qt, QTimer
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import QDockWidget, QHBoxLayout, QLabel, QLineEdit, QMenu, QSizePolicy, QToolButton, QWidget
@@ -11,7 +12,8 @@ _BUTTONS = (
     ("help_button", "?", "help-browser", "Help about this plugin"),
     ("minimize_button", "-", "", "Minimize to the bar below"),
     ("float_button", "O", "", "Undock into a window of its own, or dock again"),
-    ("close_button", "X", "", "Close"))
+    ("close_button", "X", "", "Close"),
+)
 
 
 class DockWidgetTitleBar(QWidget):
@@ -122,7 +124,8 @@ class DockWidgetTitleBar(QWidget):
     def _show_menu(self, position):
         menu = QMenu(self)
         menu.addAction("Rename dock widget").triggered.connect(
-            lambda checked=False: QTimer.singleShot(0, self._start_rename))  # the menu, when it goes, gives the focus back
+            lambda checked=False: QTimer.singleShot(0, self._start_rename)
+        )  # the menu, when it goes, gives the focus back
         for title, move in self._dock.other_places():
             menu.addAction(title).triggered.connect(lambda checked=False, move=move: move())
         menu.popup(self.mapToGlobal(position))

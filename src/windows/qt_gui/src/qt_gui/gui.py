@@ -1,4 +1,5 @@
 """The whole of a window: plugins, perspectives, menus, wired together."""
+
 from typing import Any
 
 from python_qt_binding.QtCore import QObject, Qt
@@ -38,8 +39,10 @@ class Gui(QObject):
         """
         found = self.plugins.find_plugins_by_name(name)
         if not found:
-            raise UsageError(self.plugins.reason_against(name) or f"found no plugin matching '{name}'; rqt --list-plugins shows "
-                             "those of all packages on ROS_PACKAGE_PATH")
+            raise UsageError(
+                self.plugins.reason_against(name)
+                or f"found no plugin matching '{name}'; rqt --list-plugins shows those of all packages on ROS_PACKAGE_PATH"
+            )
         if len(found) > 1:
             raise UsageError(f"found multiple plugins matching '{name}'\n" + "\n".join(sorted(found.values())))
         return next(iter(found))

@@ -1,4 +1,5 @@
 """What the help button of a dock and Help/About show."""
+
 import webbrowser
 
 from python_qt_binding import QT_BINDING, QT_BINDING_VERSION
@@ -16,10 +17,13 @@ def show_plugin_help(parent, descriptor):
     box = QMessageBox(parent)
     box.setObjectName("plugin_help")
     box.setWindowTitle(descriptor.action_attributes().get("label", descriptor.plugin_id()))
-    lines = [descriptor.action_attributes().get("statustip") or facts.get("description", ""),
-             f"Package: {attributes.get('package_name', '')} {facts.get('version', '')}",
-             f"Class: {attributes.get('class_type', '')}", f"Maintainer: {facts['maintainer']}" if facts.get("maintainer") else "",
-             url]
+    lines = [
+        descriptor.action_attributes().get("statustip") or facts.get("description", ""),
+        f"Package: {attributes.get('package_name', '')} {facts.get('version', '')}",
+        f"Class: {attributes.get('class_type', '')}",
+        f"Maintainer: {facts['maintainer']}" if facts.get("maintainer") else "",
+        url,
+    ]
     box.setText("\n".join(line for line in lines if line))
     box.addButton(QMessageBox.StandardButton.Close)
     if url:
@@ -29,5 +33,9 @@ def show_plugin_help(parent, descriptor):
 
 
 def show_about(parent):
-    QMessageBox.about(parent, "About rqt", "<b>rqt</b><p>Windows for ROS: plugins side by side, in perspectives of your own.</p>"
-                      f"<p>Part of noetic_labs, BSD licence.<br>Qt {qVersion()} through {QT_BINDING} {QT_BINDING_VERSION}</p>")
+    QMessageBox.about(
+        parent,
+        "About rqt",
+        "<b>rqt</b><p>Windows for ROS: plugins side by side, in perspectives of your own.</p>"
+        f"<p>Part of noetic_labs, BSD licence.<br>Qt {qVersion()} through {QT_BINDING} {QT_BINDING_VERSION}</p>",
+    )

@@ -1,4 +1,5 @@
 """Icons by theme name or file, and a theme for systems that have none."""
+
 import os
 
 from python_qt_binding.QtCore import qWarning

@@ -1,4 +1,5 @@
 """Ctrl-C and SIGTERM close the window at once; Qt's event loop would let Python see them only at its next own work."""
+
 import signal
 import socket
 

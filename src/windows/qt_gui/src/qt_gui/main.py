@@ -1,4 +1,5 @@
 """The program: options, application, window, end."""
+
 import os
 import signal
 import sys
@@ -6,6 +7,7 @@ import threading
 from typing import Any, Optional
 
 from node_signals.display import missing_display
+
 from qt_gui import options as command_line
 from qt_gui.errors import PerspectiveError, UsageError
 
@@ -46,17 +48,20 @@ class Main:
         if options.qt_binding is not None:
             setattr(sys, "SELECT_QT_BINDING", options.qt_binding)  # noqa: B010  as python_qt_binding is told which one
         from python_qt_binding.QtCore import QSettings
+
         from qt_gui import reporting
         from qt_gui.compatibility import accept_floats
 
         if options.command_start_plugin is not None or options.command_switch_perspective is not None:
             from qt_gui.remote_control import send_command
+
             return send_command(options)
         settings = QSettings(QSettings.Format.IniFormat, QSettings.Scope.UserScope, "ros.org", self._settings_filename)
         if options.clear_config:
             settings.clear()
         reporting.install(options.verbose)
         from qt_gui.gui import Gui
+
         if options.list_perspectives:
             print("\n".join(sorted(Gui([], settings, options).perspectives.perspectives)))
             return 0
@@ -94,6 +99,7 @@ class Main:
         """The ``QApplication``; a derived class may dress it."""
         from python_qt_binding.QtCore import QCoreApplication, Qt
         from python_qt_binding.QtWidgets import QApplication
+
         if hasattr(Qt, "AA_ShareOpenGLContexts"):
             QCoreApplication.setAttribute(Qt.AA_ShareOpenGLContexts)  # web views ask for it before the application is made
         app = QApplication.instance() or QApplication(argv)

@@ -1,4 +1,5 @@
 """The window: its geometry and the places of docks and toolbars, stored per perspective."""
+
 from python_qt_binding.QtCore import QByteArray, Qt, Signal
 from python_qt_binding.QtGui import QPainter
 from python_qt_binding.QtWidgets import QDockWidget, QLabel, QMainWindow, QToolBar

@@ -1,4 +1,5 @@
 """A menu in three parts: prefix, items in alphabetical order, suffix."""
+
 from python_qt_binding.QtCore import QObject
 from python_qt_binding.QtWidgets import QMenu
 

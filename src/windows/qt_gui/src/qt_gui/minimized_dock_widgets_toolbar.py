@@ -1,4 +1,5 @@
 """The bar at the bottom with a button for each minimised dock."""
+
 from python_qt_binding.QtWidgets import QToolBar
 
 from qt_gui.compatibility import QAction

@@ -1,4 +1,5 @@
 """The dialog that asks for the name of a new perspective."""
+
 from python_qt_binding.QtWidgets import QCheckBox, QDialog, QDialogButtonBox, QFormLayout, QLabel, QLineEdit
 
 

@@ -3,6 +3,7 @@
 ``{"keys": {name: value}, "groups": {name: {...}}}``, a value being ``{"type": "repr", "repr": "'text'"}`` or
 ``{"type": "repr(QByteArray.hex)", "repr(QByteArray.hex)": "QtCore.QByteArray(b'00ff')", "pretty-print": "..."}``.
 """
+
 from __future__ import annotations
 
 import ast
@@ -45,8 +46,10 @@ def _read_group(data, path, place) -> Dict[str, Any]:
         raise PerspectiveError(f"perspective file {path}: {where} is not an object with keys and groups")
     if len(place) > _DEEPEST:
         raise PerspectiveError(f"perspective file {path}: over {_DEEPEST} groups within each other at {'/'.join(place[:3])}...")
-    return {"keys": {name: _read_value(value, path, "/".join((*place, name))) for name, value in data.get("keys", {}).items()},
-            "groups": {name: _read_group(group, path, (*place, name)) for name, group in data.get("groups", {}).items()}}
+    return {
+        "keys": {name: _read_value(value, path, "/".join((*place, name))) for name, value in data.get("keys", {}).items()},
+        "groups": {name: _read_group(group, path, (*place, name)) for name, group in data.get("groups", {}).items()},
+    }
 
 
 def _read_value(value, path, where):
@@ -88,8 +91,10 @@ def write(path: str, data: Dict[str, Any]) -> None:
 
 
 def _to_write(group):
-    return {"keys": {name: _value_to_write(name, value) for name, value in group["keys"].items()},
-            "groups": {name: _to_write(inner) for name, inner in group["groups"].items()}}
+    return {
+        "keys": {name: _value_to_write(name, value) for name, value in group["keys"].items()},
+        "groups": {name: _to_write(inner) for name, inner in group["groups"].items()},
+    }
 
 
 def _value_to_write(name, value):
@@ -102,6 +107,5 @@ def _value_to_write(name, value):
         if ast.literal_eval(text) != value:
             raise ValueError
     except (ValueError, SyntaxError) as error:
-        raise PerspectiveError(f"the setting {name} of a plugin is a {type(value).__name__}, which no perspective file can "
-                               "hold") from error
+        raise PerspectiveError(f"the setting {name} of a plugin is a {type(value).__name__}, which no perspective file can hold") from error
     return {"repr": text, "type": "repr"}

@@ -1,4 +1,5 @@
 """Perspectives: named sets of plugins, places and settings."""
+
 import os
 from typing import Any, Optional
 
@@ -182,18 +183,16 @@ class PerspectiveManager(QObject):
             self.create_perspective(name, clone)
 
     def _on_remove(self):
-        name, accepted = QInputDialog.getItem(self._parent(), "Remove perspective", "Select the perspective",
-                                              self._removable(), 0, False)
+        name, accepted = QInputDialog.getItem(self._parent(), "Remove perspective", "Select the perspective", self._removable(), 0, False)
         if accepted:
             self.remove_perspective(str(name))
 
     def _on_import(self):
-        path, _ = QFileDialog.getOpenFileName(self._parent(), "Import perspective from file", self._folder,
-                                              f"Perspectives (*{SUFFIX})")
+        path, _ = QFileDialog.getOpenFileName(self._parent(), "Import perspective from file", self._folder, f"Perspectives (*{SUFFIX})")
         if not path:
             return
         name = os.path.basename(path)
-        name = name[:-len(SUFFIX)] if name.endswith(SUFFIX) else name
+        name = name[: -len(SUFFIX)] if name.endswith(SUFFIX) else name
         if name in self.perspectives:
             name, _ = ask_new_name(self._parent(), self.perspectives, cloning=False)
         if name:
@@ -222,5 +221,7 @@ def _store(settings, data):
 
 
 def _load(settings):
-    return {"keys": {str(key): settings.value(key) for key in settings.child_keys()},
-            "groups": {str(name): _load(settings.get_settings(name)) for name in settings.child_groups()}}
+    return {
+        "keys": {str(key): settings.value(key) for key in settings.child_keys()},
+        "groups": {str(name): _load(settings.get_settings(name)) for name in settings.child_groups()},
+    }

@@ -1,4 +1,5 @@
 """The base class of plugins. Deriving from it is optional: any class with some of its methods will do."""
+
 from python_qt_binding.QtCore import QObject
 
 

@@ -1,4 +1,5 @@
 """What a plugin is given to talk to the window that holds it."""
+
 from python_qt_binding.QtCore import QObject
 
 

@@ -1,4 +1,5 @@
 """One running plugin: its instance, its docks and toolbars, its settings."""
+
 from typing import Any
 
 from python_qt_binding.QtCore import QEvent, QObject, QSize, Qt, Signal, qCritical, qWarning
@@ -121,8 +122,10 @@ class PluginHandler(QObject):
         title_bar.show_button("configuration_button", self._plugin is not None and self._has_configuration())
         dock.setObjectName(f"{self._instance_id.tidy_str()}__{widget.objectName()}")
         if self._window.findChild(QDockWidget, dock.objectName()) is not None:
-            qWarning(f"plugin '{self._instance_id}' adds two widgets named '{widget.objectName()}'; their places in the window "
-                     "can only be kept when their object names differ")
+            qWarning(
+                f"plugin '{self._instance_id}' adds two widgets named '{widget.objectName()}'; their places in the window "
+                "can only be kept when their object names differ"
+            )
         dock.setWidget(widget)
         self._docks[widget] = dock
         self._window.addDockWidget(Qt.DockWidgetArea.BottomDockWidgetArea, dock)
@@ -173,8 +176,10 @@ class PluginHandler(QObject):
         if not toolbar.objectName().startswith(prefix):
             toolbar.setObjectName(prefix + toolbar.objectName())
         if self._window.findChild(QToolBar, toolbar.objectName()) is not None:
-            qWarning(f"plugin '{self._instance_id}' adds two toolbars named '{toolbar.objectName()[len(prefix):]}'; their object "
-                     "names must differ")
+            qWarning(
+                f"plugin '{self._instance_id}' adds two toolbars named '{toolbar.objectName()[len(prefix) :]}'; their object "
+                "names must differ"
+            )
         if self._options.freeze_layout:
             toolbar.setMovable(False)
         self._toolbars.append(toolbar)

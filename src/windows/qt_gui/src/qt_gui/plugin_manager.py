@@ -1,4 +1,5 @@
 """Which plugins there are and which run; loads, unloads, reloads, and restores those of a perspective."""
+
 from typing import Any, Dict
 
 from python_qt_binding.QtCore import QObject, Qt, Signal, qCritical, qWarning
@@ -12,8 +13,12 @@ from qt_gui.reporting import describe
 
 #: Names under which perspectives have plugins that are called otherwise here: pluginlib's names of compiled ones have no package, and two
 #: of this platform's had names of their own once.
-OTHER_NAMES = {"MultiplotPlugin": "rqt_multiplot/MultiplotPlugin", "rosmon": "rqt_rosmon/rosmon", "rqt_rosmon/ROSMon": "rqt_rosmon/rosmon",
-               "rqt_topic/Topic": "rqt_topic/TopicPlugin"}
+OTHER_NAMES = {
+    "MultiplotPlugin": "rqt_multiplot/MultiplotPlugin",
+    "rosmon": "rqt_rosmon/rosmon",
+    "rqt_rosmon/ROSMon": "rqt_rosmon/rosmon",
+    "rqt_topic/Topic": "rqt_topic/TopicPlugin",
+}
 CONTAINER = "__DockWidgetContainer"  # the id under which containers are stored among the plugins
 
 
@@ -71,8 +76,11 @@ class PluginManager(QObject):
 
     def _class_paths(self, wanted):
         self.discover()
-        return {i: "/".join(d.attributes().get("class_type", "unknown").split("::")) for i, d in self._descriptors.items()
-                if i != CONTAINER and wanted(d)}
+        return {
+            i: "/".join(d.attributes().get("class_type", "unknown").split("::"))
+            for i, d in self._descriptors.items()
+            if i != CONTAINER and wanted(d)
+        }
 
     def find_plugins_by_name(self, name):
         """Those of :meth:`get_plugins` whose id or class path contains ``name``, in upper or lower case. An id, package or
@@ -113,8 +121,10 @@ class PluginManager(QObject):
         """The handler of a new running instance, or None after a report."""
         descriptor = self.get_plugin_descriptor(instance_id.plugin_id)
         if descriptor is None:
-            qWarning(f"could not load plugin '{instance_id.plugin_id}': {self._why_absent(instance_id.plugin_id)}; rqt --list-plugins "
-                     "shows those that there are")
+            qWarning(
+                f"could not load plugin '{instance_id.plugin_id}': {self._why_absent(instance_id.plugin_id)}; rqt --list-plugins "
+                "shows those that there are"
+            )
             return None
         kind = ContainerHandler if instance_id.plugin_id == CONTAINER else PluginHandler
         handler = kind(self._window, descriptor, instance_id, argv)
@@ -144,6 +154,7 @@ class PluginManager(QObject):
     def _why_absent(self, plugin_id):
         """What is known of a plugin that nobody has: its package is not here, or has others."""
         from node_signals.absent import explanation  # where everything is there it would take its time for nothing
+
         package = plugin_id.split("/")[0]
         others = sorted(i for i in self._descriptors if i.split("/")[0] == package)
         if others:
@@ -207,8 +218,10 @@ class PluginManager(QObject):
 
     def _settings_of(self, handler):
         name = handler.instance_id()
-        return (self._global_settings.get_settings("plugin__" + name.tidy_plugin_str()),
-                self._perspective_settings.get_settings("plugin__" + name.tidy_str()))
+        return (
+            self._global_settings.get_settings("plugin__" + name.tidy_plugin_str()),
+            self._perspective_settings.get_settings("plugin__" + name.tidy_str()),
+        )
 
     def save_settings(self, global_settings, perspective_settings):
         """Store which plugins run, and what each of them wants to keep."""

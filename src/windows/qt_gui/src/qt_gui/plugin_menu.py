@@ -1,4 +1,5 @@
 """The menus Plugins (what there is) and Running (what runs)."""
+
 from python_qt_binding.QtCore import QObject, Signal
 from python_qt_binding.QtWidgets import QMenu
 

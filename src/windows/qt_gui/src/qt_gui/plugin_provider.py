@@ -1,4 +1,5 @@
 """The interface of whatever finds, loads and unloads plugins; packages may export providers of their own."""
+
 from python_qt_binding.QtCore import QObject
 
 

@@ -1,4 +1,5 @@
 """Providers that are plugins themselves: packages export them, this loads them and asks them for their plugins."""
+
 from python_qt_binding.QtCore import qCritical
 
 from qt_gui.composite_plugin_provider import CompositePluginProvider

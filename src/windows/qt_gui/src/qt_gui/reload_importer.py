@@ -1,4 +1,5 @@
 """Reloading a plugin brings its code along: what was edited since it was imported is imported anew."""
+
 import importlib
 import os
 import sys

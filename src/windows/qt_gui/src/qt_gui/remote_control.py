@@ -2,6 +2,7 @@
 
 Every window owns the name ``org.ros.qt_gui.pid<PID>`` on the session bus, the oldest one ``org.ros.qt_gui`` as well.
 """
+
 import os
 import shlex
 
@@ -20,8 +21,9 @@ _TIMEOUT = 30000  # ms that a plugin may take to start
 
 def _session_bus():
     """The session bus, or None where there is none."""
-    if QtDBus is None or not (os.environ.get("DBUS_SESSION_BUS_ADDRESS") or os.path.exists(
-            os.path.join(os.environ.get("XDG_RUNTIME_DIR", "/nowhere"), "bus"))):
+    if QtDBus is None or not (
+        os.environ.get("DBUS_SESSION_BUS_ADDRESS") or os.path.exists(os.path.join(os.environ.get("XDG_RUNTIME_DIR", "/nowhere"), "bus"))
+    ):
         return None
     bus = QtDBus.QDBusConnection.sessionBus()
     return bus if bus.isConnected() else None
@@ -68,14 +70,15 @@ def send_command(options):
     """
     bus = _session_bus()
     if bus is None:
-        raise UsageError("the --command-* options need a D-Bus session, which this shell has not (DBUS_SESSION_BUS_ADDRESS); "
-                         "desktops start one, dbus-run-session COMMAND does it by hand")
+        raise UsageError(
+            "the --command-* options need a D-Bus session, which this shell has not (DBUS_SESSION_BUS_ADDRESS); "
+            "desktops start one, dbus-run-session COMMAND does it by hand"
+        )
     name = _NAME if options.command_pid is None else f"{_NAME}.pid{options.command_pid}"
     window = QtDBus.QDBusInterface(name, "/RemoteControl", "", bus)
     window.setTimeout(_TIMEOUT)
     if not window.isValid():
-        raise UsageError("no running rqt has been found" + ("" if options.command_pid is None else
-                                                            f" with pid {options.command_pid}"))
+        raise UsageError("no running rqt has been found" + ("" if options.command_pid is None else f" with pid {options.command_pid}"))
     if options.command_start_plugin is not None:
         reply = window.call("start_plugin", options.command_start_plugin, shlex.join(options.plugin_args))
         done = "started plugin"

@@ -1,4 +1,5 @@
 """What plugins raise and what Qt says, as lines on the terminal; the container lives on."""
+
 from __future__ import annotations
 
 import os

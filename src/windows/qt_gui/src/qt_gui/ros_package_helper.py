@@ -1,4 +1,5 @@
 """Facts of a ROS package, for the help of its plugins."""
+
 import xml.etree.ElementTree as ET
 
 import rospkg
@@ -20,6 +21,9 @@ def package_facts(name, path=None):
         return {}
     urls = [(element.get("type", "website") != "website", (element.text or "").strip()) for element in root.findall("url")]
     described = root.find("description")
-    return {"version": (root.findtext("version") or "").strip(),
-            "description": "" if described is None else " ".join("".join(described.itertext()).split())[:500],
-            "maintainer": (root.findtext("maintainer") or "").strip(), "url": min(urls)[1] if urls else ""}
+    return {
+        "version": (root.findtext("version") or "").strip(),
+        "description": "" if described is None else " ".join("".join(described.itertext()).split())[:500],
+        "maintainer": (root.findtext("maintainer") or "").strip(),
+        "url": min(urls)[1] if urls else "",
+    }

@@ -1,4 +1,5 @@
 """Settings as plugins see them: keys and values within a group."""
+
 from python_qt_binding.QtCore import QObject
 
 _NONE = "__NoneType__"  # how None is written into a file that has no word for it

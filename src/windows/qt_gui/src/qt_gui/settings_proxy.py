@@ -1,4 +1,5 @@
 """A QSettings that several threads may use, addressed by group and key."""
+
 import contextlib
 import threading
 

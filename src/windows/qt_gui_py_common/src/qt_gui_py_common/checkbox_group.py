@@ -1,4 +1,5 @@
 """A box of check boxes."""
+
 from python_qt_binding.QtWidgets import QButtonGroup, QCheckBox, QGroupBox, QLabel, QVBoxLayout
 
 

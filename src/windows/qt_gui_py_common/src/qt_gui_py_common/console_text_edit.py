@@ -1,4 +1,5 @@
 """A text field that behaves like a terminal."""
+
 import sys
 
 from python_qt_binding.QtCore import Qt

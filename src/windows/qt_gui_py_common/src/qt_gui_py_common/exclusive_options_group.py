@@ -1,4 +1,5 @@
 """A box of radio buttons."""
+
 from python_qt_binding.QtWidgets import QButtonGroup, QGroupBox, QRadioButton
 
 from qt_gui_py_common.checkbox_group import fill

@@ -1,4 +1,5 @@
 """A dialog made of groups of options."""
+
 from python_qt_binding.QtWidgets import QDialog, QDialogButtonBox, QLabel, QVBoxLayout, QWidget
 
 from qt_gui_py_common.checkbox_group import CheckBoxGroup

@@ -1,4 +1,5 @@
 """A function in a thread of its own, and another one in the thread of the widgets when it has ended."""
+
 from typing import List
 
 from python_qt_binding.QtCore import QThread

@@ -1,4 +1,5 @@
 """Bag files on a time line: the plugin rqt_bag of rqt, and the bases of plugins for it."""
+
 from rqt_bag import bag_helper
 from rqt_bag.plugins.message_view import MessageView
 from rqt_bag.plugins.timeline_renderer import TimelineRenderer

@@ -1,4 +1,5 @@
 """The plugin Bag of rqt."""
+
 from __future__ import annotations
 
 import argparse

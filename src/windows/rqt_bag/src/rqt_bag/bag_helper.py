@@ -1,4 +1,5 @@
 """Small questions to `rosbag.Bag`, and texts of stamps and sizes."""
+
 from __future__ import annotations
 
 import time

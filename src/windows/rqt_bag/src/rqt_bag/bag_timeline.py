@@ -1,4 +1,5 @@
 """The bags, the playhead and who watches it: what views and renderers know as the time line."""
+
 from __future__ import annotations
 
 import threading
@@ -71,6 +72,7 @@ class BagTimeline(QObject):
 
     def load_bag(self, name: str) -> None:
         """Open a bag in another thread and add it; what is wrong is told."""
+
         def work() -> None:
             self.progress.emit(f"opening {name}", 0.0)
             try:
@@ -323,6 +325,7 @@ class BagTimeline(QObject):
         def report(share: float) -> bool:
             self.progress.emit(text, share)
             return not self._over.is_set()
+
         return report
 
     @property

@@ -1,4 +1,5 @@
 """The window: buttons, the time line, the status."""
+
 from __future__ import annotations
 
 import threading
@@ -7,8 +8,17 @@ import time
 import rosgraph
 from python_qt_binding.QtCore import QSize, Qt, Signal, qWarning
 from python_qt_binding.QtGui import QIcon
-from python_qt_binding.QtWidgets import (QFileDialog, QGraphicsView, QHBoxLayout, QLabel, QProgressBar, QScrollArea, QToolButton,
-                                         QVBoxLayout, QWidget)
+from python_qt_binding.QtWidgets import (
+    QFileDialog,
+    QGraphicsView,
+    QHBoxLayout,
+    QLabel,
+    QProgressBar,
+    QScrollArea,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 from rqt_bag.bag_helper import filesize_to_str
 from rqt_bag.bag_timeline import BagTimeline
@@ -50,17 +60,22 @@ class BagWidget(QWidget):
         buttons = (
             ("record", "media-record", "Record", "Record topics, or stop", self.record),
             ("load", "document-open", "Load", "Load bags", self.ask_load),
-            ("save", "document-save", "Save", "Save the marked region as a bag", self.ask_save), None,
+            ("save", "document-save", "Save", "Save the marked region as a bag", self.ask_save),
+            None,
             ("begin", "media-skip-backward", "|<", "To the beginning (Home)", timeline.navigate_start),
             ("slower", "media-seek-backward", "<<", "Slower, or back (-)", timeline.navigate_rewind),
             ("previous", "go-previous", "<", "Previous message", timeline.navigate_previous),
             ("play", "media-playback-start", "Play", "Play or pause (Space)", timeline.toggle_play),
             ("next", "go-next", ">", "Next message", timeline.navigate_next),
             ("faster", "media-seek-forward", ">>", "Faster (+)", timeline.navigate_fastforward),
-            ("end", "media-skip-forward", ">|", "To the end (End)", timeline.navigate_end), None,
-            ("zoom_in", "zoom-in", "+", "Zoom in (Up)", frame.zoom_in), ("zoom_out", "zoom-out", "-", "Zoom out (Down)", frame.zoom_out),
-            ("zoom_home", "zoom-original", "All", "Show all", frame.reset_zoom), None,
-            ("thumbnails", "insert-image", "Thumbnails", "Thumbnails on the time line, or none", frame.toggle_renderers))
+            ("end", "media-skip-forward", ">|", "To the end (End)", timeline.navigate_end),
+            None,
+            ("zoom_in", "zoom-in", "+", "Zoom in (Up)", frame.zoom_in),
+            ("zoom_out", "zoom-out", "-", "Zoom out (Down)", frame.zoom_out),
+            ("zoom_home", "zoom-original", "All", "Show all", frame.reset_zoom),
+            None,
+            ("thumbnails", "insert-image", "Thumbnails", "Thumbnails on the time line, or none", frame.toggle_renderers),
+        )
         self.buttons = {}
         for entry in buttons:
             if entry is None:
@@ -144,8 +159,13 @@ class BagWidget(QWidget):
         self.date_label.setText(date_text(stamp))
         self.seconds_label.setText(f"{(stamp - self.frame.start_stamp).to_sec():.3f}s")
         speed = self._timeline.play_speed
-        self.speed_label.setText("" if not speed else f"{'>' if speed > 0 else '<'} {abs(speed):g}x" if abs(speed) >= 1
-                                 else f"{'>' if speed > 0 else '<'} 1/{1 / abs(speed):g}x")
+        self.speed_label.setText(
+            ""
+            if not speed
+            else f"{'>' if speed > 0 else '<'} {abs(speed):g}x"
+            if abs(speed) >= 1
+            else f"{'>' if speed > 0 else '<'} 1/{1 / abs(speed):g}x"
+        )
 
     def _open_menu(self, place, topic) -> None:
         self._menu = TimelinePopupMenu(self._timeline, topic, self._popups, self)
@@ -153,11 +173,20 @@ class BagWidget(QWidget):
 
     def keyPressEvent(self, event) -> None:
         key, timeline, frame = Qt.Key, self._timeline, self.frame
-        actions = {key.Key_Space: timeline.toggle_play, key.Key_Home: timeline.navigate_start, key.Key_End: timeline.navigate_end,
-                   key.Key_Plus: timeline.navigate_fastforward, key.Key_Equal: timeline.navigate_fastforward,
-                   key.Key_Minus: timeline.navigate_rewind, key.Key_Left: frame.translate_timeline_left,
-                   key.Key_Right: frame.translate_timeline_right, key.Key_Up: frame.zoom_in, key.Key_PageUp: frame.zoom_in,
-                   key.Key_Down: frame.zoom_out, key.Key_PageDown: frame.zoom_out}
+        actions = {
+            key.Key_Space: timeline.toggle_play,
+            key.Key_Home: timeline.navigate_start,
+            key.Key_End: timeline.navigate_end,
+            key.Key_Plus: timeline.navigate_fastforward,
+            key.Key_Equal: timeline.navigate_fastforward,
+            key.Key_Minus: timeline.navigate_rewind,
+            key.Key_Left: frame.translate_timeline_left,
+            key.Key_Right: frame.translate_timeline_right,
+            key.Key_Up: frame.zoom_in,
+            key.Key_PageUp: frame.zoom_in,
+            key.Key_Down: frame.zoom_out,
+            key.Key_PageDown: frame.zoom_out,
+        }
         if event.key() in actions:
             actions[event.key()]()
         else:
@@ -200,8 +229,7 @@ class BagWidget(QWidget):
         self.selection.show()
 
     def _ask_record_name(self, all_topics: bool, topics) -> None:
-        name, _ = QFileDialog.getSaveFileName(self, "Select name for new bag", time.strftime("%Y-%m-%d-%H-%M-%S.bag"),
-                                              "Bag files (*.bag)")
+        name, _ = QFileDialog.getSaveFileName(self, "Select name for new bag", time.strftime("%Y-%m-%d-%H-%M-%S.bag"), "Bag files (*.bag)")
         if name:
             self._timeline.record_bag(name, all_topics, topics)
 

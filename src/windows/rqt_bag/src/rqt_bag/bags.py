@@ -1,4 +1,5 @@
 """Several bag files as one: which messages there are, when, and their contents. No Qt in here."""
+
 from __future__ import annotations
 
 import os
@@ -50,6 +51,7 @@ def open_bag(name: str) -> rosbag.Bag:
 def _open_mcap(name: str) -> rosbag.Bag:
     from bag_tools import files
     from bag_tools.convert import convert
+
     with tempfile.TemporaryDirectory(prefix="rqt_bag_") as folder:
         try:
             convert(Path(name), Path(folder, "whole.bag"))

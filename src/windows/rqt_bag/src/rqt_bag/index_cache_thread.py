@@ -1,4 +1,5 @@
 """For time lines of other packages: keeps their caches of stamps up to date."""
+
 import threading
 
 

@@ -1,4 +1,5 @@
 """Finds the plugins that packages export for rqt_bag."""
+
 from __future__ import annotations
 
 from typing import Dict, List, Tuple

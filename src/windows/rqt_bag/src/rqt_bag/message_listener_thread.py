@@ -1,4 +1,5 @@
 """For time lines of other packages: tells a view of messages that a thread has loaded."""
+
 import threading
 
 from python_qt_binding.QtCore import QCoreApplication, QEvent

@@ -1,4 +1,5 @@
 """Messages of bags onto topics again, in a thread of its own."""
+
 from __future__ import annotations
 
 import threading

@@ -1,13 +1,14 @@
 """Messages of topics into a bag file, as they arrive."""
+
 from __future__ import annotations
 
 import threading
 from typing import Callable, Dict, List, Optional
 
 import genpy.dynamic
-import roslib.message
 import rosbag
 import rosgraph
+import roslib.message
 import rospy
 
 from rqt_bag.bags import BagError
@@ -66,8 +67,7 @@ class Recorder:
                 self.problem = f"{topic} is not recorded: its type {kind} is not built here"
                 return
             try:
-                self.bag.write(topic, (kind, raw._buff, header["md5sum"], self._classes[kind]), stamp, raw=True,
-                               connection_header=header)
+                self.bag.write(topic, (kind, raw._buff, header["md5sum"], self._classes[kind]), stamp, raw=True, connection_header=header)
             except (OSError, ValueError, rosbag.ROSBagException) as error:
                 self.problem = f"{self.name} cannot be written: {getattr(error, 'strerror', None) or error}"
                 return

@@ -1,4 +1,5 @@
 """Pictures or the like for a time line, loaded in another thread and kept while they are used."""
+
 from __future__ import annotations
 
 import bisect
@@ -67,7 +68,7 @@ class TimelineCache(threading.Thread):
         with self.lock:
             stamps = self._stamps.get(topic, [])
             at = bisect.bisect_left(stamps, stamp)
-            near = min(stamps[max(0, at - 1):at + 1], key=lambda other: abs(other - stamp), default=None)
+            near = min(stamps[max(0, at - 1) : at + 1], key=lambda other: abs(other - stamp), default=None)
             if near is None or abs(near - stamp) > time_threshold:
                 return None
             self.items[topic].move_to_end(near)

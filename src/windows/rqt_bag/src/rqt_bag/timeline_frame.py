@@ -1,4 +1,5 @@
 """The picture of the time line: a row per topic, the playhead, the marked region; and the mouse on it."""
+
 from __future__ import annotations
 
 import math
@@ -20,12 +21,30 @@ _COMBINE = 1.5  # px: messages that are closer are one bar
 _MOST_NAME_WIDTH = 0.35  # of the window
 _CLOSEST, _FARTHEST = 1e-7, 1.2  # s per pixel at least; spans of all messages at most
 _ZOOM = 0.8  # per notch of the wheel: 20 % nearer
-_DIVISIONS = [base * 10.0 ** power for power in range(-9, 1) for base in (1, 2, 5)] + [
-    15.0, 30.0, 60.0, 300.0, 900.0, 1800.0, 3600.0, 10800.0, 21600.0, 43200.0, 86400.0, 604800.0]
-_TYPE_COLORS = {"sensor_msgs/Image": QColor(0, 77, 77), "sensor_msgs/CompressedImage": QColor(0, 120, 120),
-                "sensor_msgs/LaserScan": QColor(153, 0, 0), "sensor_msgs/PointCloud2": QColor(128, 0, 128),
-                "tf2_msgs/TFMessage": QColor(0, 153, 0), "tf/tfMessage": QColor(0, 153, 0),
-                "sensor_msgs/JointState": QColor(180, 100, 0), "rosgraph_msgs/Log": QColor(110, 110, 110)}
+_DIVISIONS = [base * 10.0**power for power in range(-9, 1) for base in (1, 2, 5)] + [
+    15.0,
+    30.0,
+    60.0,
+    300.0,
+    900.0,
+    1800.0,
+    3600.0,
+    10800.0,
+    21600.0,
+    43200.0,
+    86400.0,
+    604800.0,
+]
+_TYPE_COLORS = {
+    "sensor_msgs/Image": QColor(0, 77, 77),
+    "sensor_msgs/CompressedImage": QColor(0, 120, 120),
+    "sensor_msgs/LaserScan": QColor(153, 0, 0),
+    "sensor_msgs/PointCloud2": QColor(128, 0, 128),
+    "tf2_msgs/TFMessage": QColor(0, 153, 0),
+    "tf/tfMessage": QColor(0, 153, 0),
+    "sensor_msgs/JointState": QColor(180, 100, 0),
+    "rosgraph_msgs/Log": QColor(110, 110, 110),
+}
 
 
 def type_color(datatype: Optional[str]) -> QColor:
@@ -303,8 +322,9 @@ class TimelineFrame(QWidget):
             if not self._draw_by(renderer, painter, topic, begin, end, x, y, right - x, height):
                 break
 
-    def _draw_by(self, renderer, painter: QPainter, topic: str, begin: float, end: float, x: float, y: int, width: float,
-                 height: int) -> bool:
+    def _draw_by(
+        self, renderer, painter: QPainter, topic: str, begin: float, end: float, x: float, y: int, width: float, height: int
+    ) -> bool:
         painter.save()
         try:
             renderer.draw_timeline_segment(painter, topic, begin, end, int(x), y, max(1, int(width)), height)
@@ -351,8 +371,9 @@ class TimelineFrame(QWidget):
             painter.setPen(QColor("red"))
             painter.setBrush(QColor("red"))
             painter.drawLine(QPointF(x, _TIME_HEIGHT - 8), QPointF(x, bottom))
-            painter.drawPolygon(QPolygonF([QPointF(x - 5, _TIME_HEIGHT - 12), QPointF(x + 5, _TIME_HEIGHT - 12),
-                                           QPointF(x, _TIME_HEIGHT - 3)]))
+            painter.drawPolygon(
+                QPolygonF([QPointF(x - 5, _TIME_HEIGHT - 12), QPointF(x + 5, _TIME_HEIGHT - 12), QPointF(x, _TIME_HEIGHT - 3)])
+            )
 
     # Mouse
 
@@ -369,7 +390,8 @@ class TimelineFrame(QWidget):
         x, y = event.pos().x(), event.pos().y()
         self.setFocus()
         panning = event.button() == Qt.MouseButton.MiddleButton or (
-            event.button() == Qt.MouseButton.LeftButton and event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
+            event.button() == Qt.MouseButton.LeftButton and event.modifiers() & Qt.KeyboardModifier.ShiftModifier
+        )
         if event.button() == Qt.MouseButton.RightButton:
             self.menu_wanted.emit(self.mapToGlobal(event.pos()), self.map_y_to_topic(y))
         elif self._start is None:
@@ -388,8 +410,11 @@ class TimelineFrame(QWidget):
         x, y = event.pos().x(), event.pos().y()
         if self._drag is None:
             part = self._region_part(x) if y < _TIME_HEIGHT else ""
-            self.setCursor({"begin": Qt.CursorShape.SizeHorCursor, "end": Qt.CursorShape.SizeHorCursor,
-                            "inside": Qt.CursorShape.OpenHandCursor}.get(part, Qt.CursorShape.ArrowCursor))
+            self.setCursor(
+                {"begin": Qt.CursorShape.SizeHorCursor, "end": Qt.CursorShape.SizeHorCursor, "inside": Qt.CursorShape.OpenHandCursor}.get(
+                    part, Qt.CursorShape.ArrowCursor
+                )
+            )
             return
         kind, begin, second, region = self._drag
         stamp = self.map_x_to_stamp(x)
@@ -417,7 +442,7 @@ class TimelineFrame(QWidget):
     def wheelEvent(self, event) -> None:
         notches = event.angleDelta().y() / 120
         position = event.position() if hasattr(event, "position") else event.posF()
-        self.zoom_timeline(_ZOOM ** notches, self.map_x_to_stamp(position.x()))
+        self.zoom_timeline(_ZOOM**notches, self.map_x_to_stamp(position.x()))
         event.accept()
 
     def contextMenuEvent(self, event) -> None:

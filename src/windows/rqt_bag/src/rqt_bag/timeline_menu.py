@@ -1,4 +1,5 @@
 """The menu of the time line, and the windows that it opens."""
+
 from __future__ import annotations
 
 from typing import Optional

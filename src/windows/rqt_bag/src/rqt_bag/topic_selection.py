@@ -1,4 +1,5 @@
 """Asks which topics are to be recorded."""
+
 from __future__ import annotations
 
 from typing import List

@@ -1,4 +1,5 @@
 """Images of bags as pictures. Messages of bags have classes of their own, made from the definitions in the file."""
+
 from __future__ import annotations
 
 import numpy as np

@@ -1,4 +1,5 @@
 """Images in rqt_bag."""
+
 from rqt_bag.plugins.plugin import Plugin
 
 from rqt_bag_plugins.image_timeline_renderer import ImageTimelineRenderer

@@ -1,4 +1,5 @@
 """Thumbnails of images on the time line."""
+
 from __future__ import annotations
 
 import cv2

@@ -1,4 +1,5 @@
 """The image at the playhead, in a window of its own."""
+
 from __future__ import annotations
 
 from python_qt_binding.QtCore import QSize, Qt

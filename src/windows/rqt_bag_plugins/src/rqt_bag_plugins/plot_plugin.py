@@ -1,4 +1,5 @@
 """Plots in rqt_bag."""
+
 from rqt_bag.plugins.plugin import Plugin
 
 from rqt_bag_plugins.plot_view import PlotView

@@ -1,4 +1,5 @@
 """Numbers of a topic over the time of the bag, with the playhead as a line."""
+
 from __future__ import annotations
 
 import threading

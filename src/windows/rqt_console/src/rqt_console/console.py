@@ -1,4 +1,5 @@
 """The plugin: log messages of a topic, several thousand a second if need be."""
+
 from collections import deque
 from typing import Any, Deque
 
@@ -84,8 +85,9 @@ class Console(Plugin):
         buttons.accepted.connect(dialog.accept)
         buttons.rejected.connect(dialog.reject)
         form.addRow(buttons)
-        self._background.run("topics", lambda: sorted(name for name, kind in rospy.get_published_topics() if kind == Log._type),
-                             topics.onSetItems)
+        self._background.run(
+            "topics", lambda: sorted(name for name, kind in rospy.get_published_topics() if kind == Log._type), topics.onSetItems
+        )
         dialog.accepted.connect(lambda: self._configure(topics.currentText(), limit.value()))
         dialog.open()
 

@@ -1,12 +1,26 @@
 """The console: table, buttons, rules."""
+
 from types import SimpleNamespace
 
 import rospy
 from python_qt_binding.QtCore import QSize, Qt
 from python_qt_binding.QtGui import QIcon
-from python_qt_binding.QtWidgets import (QApplication, QDialog, QFileDialog, QHBoxLayout, QHeaderView, QLabel, QMenu, QMessageBox,
-                                         QPushButton, QSplitter, QTableView, QToolButton, QVBoxLayout, QWidget)
-
+from python_qt_binding.QtWidgets import (
+    QApplication,
+    QDialog,
+    QFileDialog,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QMenu,
+    QMessageBox,
+    QPushButton,
+    QSplitter,
+    QTableView,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
 from rqt_py_common.empty_text import EmptyText
 
 from . import saved_messages
@@ -113,11 +127,17 @@ class ConsoleWidget(QWidget):
 
         self.load_button = button("load_button", "document-open", "Load", "Load messages from a file; pauses", self.ask_and_load)
         self.save_button = button("save_button", "document-save", "Save", "Save the messages to a file", self.ask_and_save)
-        self.pause_button = button("pause_button", "media-playback-pause", "Pause", "Drop new messages",
-                                   lambda: self.set_paused(not self.paused))
+        self.pause_button = button(
+            "pause_button", "media-playback-pause", "Pause", "Drop new messages", lambda: self.set_paused(not self.paused)
+        )
         self.clear_button = button("clear_button", "edit-clear", "Clear", "Delete all messages", self.model.clear)
-        self.column_button = button("column_resize_button", "zoom-fit-best", "Fit Columns", "Fit the columns to their contents",
-                                    self.table_view.resizeColumnsToContents)
+        self.column_button = button(
+            "column_resize_button",
+            "zoom-fit-best",
+            "Fit Columns",
+            "Fit the columns to their contents",
+            self.table_view.resizeColumnsToContents,
+        )
         self.only_button = QToolButton()
         self.only_button.setObjectName("show_highlighted_button")
         self.only_button.setCheckable(True)
@@ -177,10 +197,17 @@ class ConsoleWidget(QWidget):
             into = menu.addMenu(title)
             into.setEnabled(bool(selected))
             for label, kind, values in (
-                    ("Severity", "severity", lambda m: [m.severity]), ("Node", "node", lambda m: [m.node]),
-                    ("Topic", "topic", lambda m: m.topics), ("Selected Message(s)", "message", lambda m: [m.message])):
-                into.addAction(label, lambda box=box, kind=kind, values=values: [
-                    box.add_value(kind, value) for value in sorted({v for m in selected for v in values(m)})])
+                ("Severity", "severity", lambda m: [m.severity]),
+                ("Node", "node", lambda m: [m.node]),
+                ("Topic", "topic", lambda m: m.topics),
+                ("Selected Message(s)", "message", lambda m: [m.message]),
+            ):
+                into.addAction(
+                    label,
+                    lambda box=box, kind=kind, values=values: [
+                        box.add_value(kind, value) for value in sorted({v for m in selected for v in values(m)})
+                    ],
+                )
         menu.addSeparator()
         menu.addAction("Copy Selected", lambda: QApplication.clipboard().setText("".join(m.pretty_print() for m in selected)))
         menu.addAction("Browse Selected", lambda: self.browse(selected))
@@ -252,8 +279,10 @@ class ConsoleWidget(QWidget):
         settings.set_value("paused", self.paused)
 
     def restore_settings(self, plugin_settings, settings) -> None:
-        for key, restore in (("header_state", self.table_view.horizontalHeader().restoreState),
-                             ("splitter_sizes", self.splitter.restoreState)):
+        for key, restore in (
+            ("header_state", self.table_view.horizontalHeader().restoreState),
+            ("splitter_sizes", self.splitter.restoreState),
+        ):
             if settings.contains(key):
                 restore(settings.value(key))
         self.exclude_box.restore(stored.load(settings, "exclude", [["severity", True, {}]]))

@@ -1,4 +1,5 @@
 """One log message."""
+
 import time
 from dataclasses import dataclass
 from typing import Sequence, Tuple
@@ -24,8 +25,14 @@ class Message:
 
     @classmethod
     def from_log(cls, log: Log) -> "Message":
-        return cls(log.msg, log.level, log.name, (log.header.stamp.secs, log.header.stamp.nsecs), sorted(log.topics),
-                   f"{log.file}:{log.function}:{log.line}")
+        return cls(
+            log.msg,
+            log.level,
+            log.name,
+            (log.header.stamp.secs, log.header.stamp.nsecs),
+            sorted(log.topics),
+            f"{log.file}:{log.function}:{log.line}",
+        )
 
     def severity_text(self) -> str:
         return SEVERITIES.get(self.severity, str(self.severity))
@@ -38,5 +45,7 @@ class Message:
         return ", ".join(self.topics)
 
     def pretty_print(self) -> str:
-        return (f"Node: {self.node}\nTime: {self.stamp_text()}\nSeverity: {self.severity_text()}\n"
-                f"Published Topics: {self.topics_text()}\n\n{self.message}\n\nLocation:\n{self.location}\n\n{'-' * 100}\n\n")
+        return (
+            f"Node: {self.node}\nTime: {self.stamp_text()}\nSeverity: {self.severity_text()}\n"
+            f"Published Topics: {self.topics_text()}\n\n{self.message}\n\nLocation:\n{self.location}\n\n{'-' * 100}\n\n"
+        )

@@ -1,4 +1,5 @@
 """The table of messages: keeps the newest, hides what is excluded, sorts."""
+
 import itertools
 from collections import deque
 from typing import Any, Deque, Dict, Iterable, List, Optional
@@ -13,10 +14,24 @@ from .message import Message
 COLUMNS = ("#", "Message", "Severity", "Node", "Stamp", "Topics", "Location")
 _COLORS = {Log.DEBUG: "darkcyan", Log.INFO: "darkblue", Log.WARN: "#808000", Log.ERROR: "darkred", Log.FATAL: "red"}
 _ICONS = {Log.WARN: "dialog-warning", Log.ERROR: "dialog-error", Log.FATAL: "dialog-error"}
-_TEXTS = (lambda m: f"#{m.id}", lambda m: m.message, Message.severity_text, lambda m: m.node, Message.stamp_text,
-          Message.topics_text, lambda m: m.location)
-_KEYS = (lambda m: m.id, lambda m: m.message, lambda m: m.severity, lambda m: m.node, lambda m: m.stamp,
-         lambda m: m.topics_text(), lambda m: m.location)
+_TEXTS = (
+    lambda m: f"#{m.id}",
+    lambda m: m.message,
+    Message.severity_text,
+    lambda m: m.node,
+    Message.stamp_text,
+    Message.topics_text,
+    lambda m: m.location,
+)
+_KEYS = (
+    lambda m: m.id,
+    lambda m: m.message,
+    lambda m: m.severity,
+    lambda m: m.node,
+    lambda m: m.stamp,
+    lambda m: m.topics_text(),
+    lambda m: m.location,
+)
 MESSAGE_ROLE = Qt.ItemDataRole.UserRole
 
 
@@ -104,7 +119,7 @@ class MessageDataModel(QAbstractTableModel):
         self.counts_changed.emit()
 
     def insert_rows(self, messages: Iterable[Message]) -> None:
-        messages = list(messages)[-self._limit:]
+        messages = list(messages)[-self._limit :]
         for message in messages:
             self._count += 1
             message.id = self._count

@@ -1,4 +1,5 @@
 """The name under which other packages hand a console its messages."""
+
 from python_qt_binding.QtCore import QIdentityProxyModel
 
 

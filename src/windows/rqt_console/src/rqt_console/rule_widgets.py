@@ -1,10 +1,25 @@
 """The boxes with rules: one line per condition, each with its editor."""
+
 from typing import Any, Callable, Dict, List, Optional
 
 from python_qt_binding.QtCore import QDateTime, Qt
 from python_qt_binding.QtGui import QIcon
-from python_qt_binding.QtWidgets import (QCheckBox, QDateTimeEdit, QGridLayout, QGroupBox, QHBoxLayout, QLabel, QLineEdit, QListWidget,
-                                         QListWidgetItem, QMenu, QScrollArea, QToolButton, QVBoxLayout, QWidget)
+from python_qt_binding.QtWidgets import (
+    QCheckBox,
+    QDateTimeEdit,
+    QGridLayout,
+    QGroupBox,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QListWidget,
+    QListWidgetItem,
+    QMenu,
+    QScrollArea,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 from .filters.filter_collection import FilterCollection
 from .filters.kinds import KINDS
@@ -144,8 +159,14 @@ class RuleBox(QGroupBox):
         super().__init__(title)
         self._filters = filters
         self._rows: Dict[Any, tuple] = {}  # filter -> (row widget, editor, kind)
-        self._values = {"severity": lambda: list(SEVERITIES), "node": lambda: model.values("node"),
-                        "topic": lambda: model.values("topics"), "time": model.stamps, "message": None, "location": None}
+        self._values = {
+            "severity": lambda: list(SEVERITIES),
+            "node": lambda: model.values("node"),
+            "topic": lambda: model.values("topics"),
+            "time": model.stamps,
+            "message": None,
+            "location": None,
+        }
         self._list = QVBoxLayout()
         self._list.addStretch()
         inner, scroll = QWidget(), QScrollArea()
@@ -175,8 +196,9 @@ class RuleBox(QGroupBox):
             filter_.restore(state)
         filter_.set_enabled(enabled)
         if isinstance(filter_, (TextFilter, ListFilter, TimeFilter)):
-            editor = (TextEditor if isinstance(filter_, TextFilter) else TimeEditor if isinstance(filter_, TimeFilter)
-                      else ListEditor)(filter_, self._values[kind])
+            editor = (TextEditor if isinstance(filter_, TextFilter) else TimeEditor if isinstance(filter_, TimeFilter) else ListEditor)(
+                filter_, self._values[kind]
+            )
         else:
             editor = CustomEditor(filter_, self._values)
         self._rows[filter_] = (self._row(filter_, label, editor, enabled), editor, kind)

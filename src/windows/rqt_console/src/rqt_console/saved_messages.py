@@ -1,4 +1,5 @@
 """Messages in a file, one per record, separated by semicolons."""
+
 import csv
 import re
 from typing import Iterable, List
@@ -16,6 +17,7 @@ class SavedMessagesError(WindowError, ValueError):
 
 def save(path: str, messages: Iterable[Message]) -> None:
     """:raises OSError: if it cannot be written"""
+
     def quoted(*values):
         return ";".join('"' + str(value).replace("\\", "\\\\").replace('"', '\\"') + '"' for value in values) + "\n"
 
@@ -45,5 +47,6 @@ def _message(record: dict, path: str, line: int) -> Message:
     if len(record) != len(HEADER) or stamp is None or not record["severity"].isdecimal():
         raise SavedMessagesError(f"{path}: the record that ends in line {line} is no message")
     topics = [topic for topic in record["topics"].split(",") if topic]
-    return Message(record["message"], int(record["severity"]), record["node"], (int(stamp[1]), int(stamp[2].ljust(9, "0"))),
-                   topics, record["location"])
+    return Message(
+        record["message"], int(record["severity"]), record["node"], (int(stamp[1]), int(stamp[2].ljust(9, "0"))), topics, record["location"]
+    )

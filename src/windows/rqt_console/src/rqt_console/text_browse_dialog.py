@@ -1,4 +1,5 @@
 """A window with a text to read and copy."""
+
 from python_qt_binding.QtWidgets import QDialog, QDialogButtonBox, QTextEdit, QVBoxLayout
 
 

@@ -1,8 +1,22 @@
 """The plugin: controllers of a manager, with a light each and a menu."""
+
 from python_qt_binding.QtCore import Qt, QTimer
 from python_qt_binding.QtGui import QColor, QIcon, QPainter, QPixmap
-from python_qt_binding.QtWidgets import (QComboBox, QDialog, QFormLayout, QHeaderView, QLabel, QMenu, QTableWidget, QTableWidgetItem,
-                                         QTreeWidget, QTreeWidgetItem, QVBoxLayout, QHBoxLayout, QWidget)
+from python_qt_binding.QtWidgets import (
+    QComboBox,
+    QDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QMenu,
+    QTableWidget,
+    QTableWidgetItem,
+    QTreeWidget,
+    QTreeWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
 from rqt_gui_py.plugin import Plugin
 from rqt_py_common.background import Background
 from rqt_py_common.empty_text import EmptyText
@@ -12,10 +26,12 @@ from .manager_calls import UNINITIALIZED, ManagerCalls
 PERIOD = 1000  # ms
 _COLORS = {"running": "#2eb82e", "stopped": "#d93030", "initialized": "#d93030", "aborted": "#d93030", "waiting": "#e0b020"}
 #: State: (label, steps) of the menu.
-_MENUS = {"running": (("Stop", ("stop",)), ("Stop and Unload", ("stop", "unload"))),
-          "stopped": (("Start again", ("start",)), ("Unload", ("unload",))),
-          "initialized": (("Start", ("start",)), ("Unload", ("unload",))),
-          UNINITIALIZED: (("Load", ("load",)), ("Load and Start", ("load", "start")))}
+_MENUS = {
+    "running": (("Stop", ("stop",)), ("Stop and Unload", ("stop", "unload"))),
+    "stopped": (("Start again", ("start",)), ("Unload", ("unload",))),
+    "initialized": (("Start", ("start",)), ("Unload", ("unload",))),
+    UNINITIALIZED: (("Load", ("load",)), ("Load and Start", ("load", "start"))),
+}
 _MENUS["aborted"] = _MENUS["stopped"]
 
 
@@ -67,8 +83,12 @@ class ControllerManager(Plugin):
         self._background.run("managers", self._calls.managers, self._show_managers, lambda error: self._show_managers([]))
         manager = self.manager_box.currentText()
         if manager:
-            self._background.run(("controllers", manager), lambda: self._calls.controllers(manager),
-                                 lambda rows: self._show_rows(manager, rows), lambda error: self._gone(manager, error))
+            self._background.run(
+                ("controllers", manager),
+                lambda: self._calls.controllers(manager),
+                lambda rows: self._show_rows(manager, rows),
+                lambda error: self._gone(manager, error),
+            )
 
     def _show_managers(self, names) -> None:
         box = self.manager_box
@@ -103,8 +123,7 @@ class ControllerManager(Plugin):
             self.status_label.clear()
 
     def _fill(self, rows) -> None:
-        selected = {self._rows[index.row()].name for index in self.table.selectionModel().selectedRows()
-                    if index.row() < len(self._rows)}
+        selected = {self._rows[index.row()].name for index in self.table.selectionModel().selectedRows() if index.row() < len(self._rows)}
         self._rows = list(rows)
         self.table.clearSelection()
         self.table.setRowCount(len(rows))

@@ -1,11 +1,11 @@
 """What a controller manager is asked; any of it may hang."""
+
 from typing import List, NamedTuple, Tuple
 
 import rospy
-from qt_gui.errors import WindowError
-from controller_manager_msgs.srv import (ListControllers, LoadController, SwitchController, SwitchControllerRequest,
-                                         UnloadController)
+from controller_manager_msgs.srv import ListControllers, LoadController, SwitchController, SwitchControllerRequest, UnloadController
 from controller_manager_msgs.utils import ControllerManagerLister, get_rosparam_controller_names
+from qt_gui.errors import WindowError
 
 UNINITIALIZED = "uninitialized"
 
@@ -38,8 +38,10 @@ class ManagerCalls:
         :raises rospy.ServiceException: the manager is gone
         """
         loaded = rospy.ServiceProxy(f"{manager}/list_controllers", ListControllers)().controller
-        rows = [ControllerRow(c.name, c.state, c.type, tuple((r.hardware_interface, tuple(r.resources)) for r in c.claimed_resources))
-                for c in loaded]
+        rows = [
+            ControllerRow(c.name, c.state, c.type, tuple((r.hardware_interface, tuple(r.resources)) for r in c.claimed_resources))
+            for c in loaded
+        ]
         namespace = manager.rsplit("/", 1)[0] or "/"
         names = {row.name for row in rows}
         for name in get_rosparam_controller_names(namespace):

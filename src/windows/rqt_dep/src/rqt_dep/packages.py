@@ -1,4 +1,5 @@
 """Packages and what they depend on, as data and as DOT text. No Qt in here."""
+
 from __future__ import annotations
 
 import os
@@ -71,8 +72,11 @@ def _without_transitive(edges):
     for start, end in edges:
         table.setdefault(start, set()).add(end)
     below = {name: _reach(table[name], {**dict.fromkeys({end for _, end in edges}, ()), **table}, 0) for name in table}
-    return {(start, end) for start, end in edges
-            if not any(end in below.get(other, ()) and start not in below.get(other, ()) for other in table[start] - {end})}
+    return {
+        (start, end)
+        for start, end in edges
+        if not any(end in below.get(other, ()) and start not in below.get(other, ()) for other in table[start] - {end})
+    }
 
 
 def generate_dot(packages: Dict[str, Set[str]], options: Options) -> str:

@@ -1,10 +1,12 @@
 """The window of the graph of packages."""
+
 from python_qt_binding.QtWidgets import QCheckBox, QComboBox, QCompleter, QLineEdit, QVBoxLayout, QWidget
-from rqt_dep.packages import BOTH, DEPENDS, DEPENDS_ON, Options, generate_dot, read_packages
 from rqt_graph.background import Latest
 from rqt_graph.graph_pane import GraphPane
 from rqt_graph.toolbar import Row
 from rqt_gui_py.plugin import Plugin
+
+from rqt_dep.packages import BOTH, DEPENDS, DEPENDS_ON, Options, generate_dot, read_packages
 
 _DIRECTIONS = (("depends", DEPENDS), ("depends_on", DEPENDS_ON), ("both", BOTH))
 _DEPTHS = (("1 level", 1), ("2 levels", 2), ("3 levels", 3), ("4 levels", 4), ("all levels", 0))
@@ -36,12 +38,17 @@ class RosPackGraph(Plugin):
         row.addWidget(self.name_edit, 1)
         self.depth_box = self._combo("depth_combo_box", _DEPTHS, 2, row)
         self.direction_box = self._combo("directions_combo_box", _DIRECTIONS, 0, row)
-        self.transitive_box = row.check("transitives_check_box", "No transitive", "Leave out edges that a longer way replaces", True,
-                                        self.update)
+        self.transitive_box = row.check(
+            "transitives_check_box", "No transitive", "Leave out edges that a longer way replaces", True, self.update
+        )
         self.system_box = row.check("show_system_check_box", "System", "Also what is no package of ROS", False, self.update)
         self.highlight_box: QCheckBox = row.check(
-            "highlight_connections_check_box", "Highlight", "Highlight connections under the mouse", True,
-            lambda: self.pane.set_highlight(self.highlight_box.isChecked()))
+            "highlight_connections_check_box",
+            "Highlight",
+            "Highlight connections under the mouse",
+            True,
+            lambda: self.pane.set_highlight(self.highlight_box.isChecked()),
+        )
         row.button("fit_in_view_push_button", "zoom-fit-best", "Fit", "Fit graph in view", self.pane.fit)
         row.file_buttons(self.pane, "rospackgraph", self._load)
         self._reader = Latest(self)
@@ -74,9 +81,18 @@ class RosPackGraph(Plugin):
 
     def update(self):
         if self._packages and not self._loaded:
-            self.pane.show_dot(generate_dot(self._packages, Options(
-                self.name_edit.text(), self.direction_box.currentData(), self.depth_box.currentData(),
-                self.transitive_box.isChecked(), self.system_box.isChecked())))
+            self.pane.show_dot(
+                generate_dot(
+                    self._packages,
+                    Options(
+                        self.name_edit.text(),
+                        self.direction_box.currentData(),
+                        self.depth_box.currentData(),
+                        self.transitive_box.isChecked(),
+                        self.system_box.isChecked(),
+                    ),
+                )
+            )
 
     def _load(self):
         self._loaded = self.pane.ask_load_dot()

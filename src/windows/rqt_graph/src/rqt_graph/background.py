@@ -1,4 +1,5 @@
 """Work in a thread of its own, of which only the newest result counts."""
+
 import threading
 from typing import Any, Optional, Tuple
 

@@ -1,4 +1,5 @@
 """The command rqt_graph: the window, or with --output a file without one."""
+
 import os
 import sys
 
@@ -36,6 +37,7 @@ def write_file(argv):
 
     from qt_dotgraph.layout import LayoutError, render
     from rosgraph import myargv
+
     from rqt_graph.dotcode import Options, generate_dot
     from rqt_graph.ros_state import NoMaster, read
 
@@ -45,9 +47,15 @@ def write_file(argv):
     form = os.path.splitext(arguments.output)[1].lower()
     if form not in _FORMS:
         parser.error(f"--output {arguments.output}: its ending must be one of {', '.join(_FORMS)}")
-    options = Options(_TYPES[arguments.type], arguments.node_filter, arguments.topic_filter, arguments.namespaces,
-                      hide_tf="tf" in arguments.hide, **{f"group_{name}": name not in arguments.no_group for name in _GROUPS},
-                      **{f"hide_{name}": name not in arguments.show for name in _HIDDEN})
+    options = Options(
+        _TYPES[arguments.type],
+        arguments.node_filter,
+        arguments.topic_filter,
+        arguments.namespaces,
+        hide_tf="tf" in arguments.hide,
+        **{f"group_{name}": name not in arguments.no_group for name in _GROUPS},
+        **{f"hide_{name}": name not in arguments.show for name in _HIDDEN},
+    )
     try:
         dot = generate_dot(read(), options)
         data = dot.encode() if form == ".dot" else render(dot, form[1:])

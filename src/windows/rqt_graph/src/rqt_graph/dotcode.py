@@ -3,6 +3,7 @@
 :func:`generate_dot` works on what :mod:`rqt_graph.ros_state` has read; :class:`RosGraphDotcodeGenerator` is the interface that
 other packages import, on a ``rosgraph.impl.graph.Graph``. No Qt in here.
 """
+
 from __future__ import annotations
 
 import re
@@ -10,6 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any, Dict, Iterable, List, Optional, Set, Tuple
 
 import rosgraph.names
+
 from rqt_graph.ros_state import DEAD, WONKY, State
 
 NODE_NODE_GRAPH = "node_node"
@@ -17,8 +19,20 @@ NODE_TOPIC_GRAPH = "node_topic"
 NODE_TOPIC_ALL_GRAPH = "node_topic_all"
 
 #: Parts of the names of nodes and topics that are there in every system and tell little.
-QUIET_NAMES = ["/diag_agg", "/runtime_logger", "/pr2_dashboard", "/rviz", "/rosout", "/cpu_monitor", "/monitor", "/hd_monitor",
-               "/rxloggerlevel", "/clock", "/rqt", "/statistics"]
+QUIET_NAMES = [
+    "/diag_agg",
+    "/runtime_logger",
+    "/pr2_dashboard",
+    "/rviz",
+    "/rosout",
+    "/cpu_monitor",
+    "/monitor",
+    "/hd_monitor",
+    "/rxloggerlevel",
+    "/clock",
+    "/rqt",
+    "/statistics",
+]
 _QUIET_TOPICS = ("/time", "/clock", "/rosout", "/statistics")
 _TF = ("/tf", "/tf_static")
 _ACTION = ("goal", "cancel", "status", "feedback", "result")
@@ -57,8 +71,9 @@ class Statistics:
         """What a rosgraph_msgs/TopicStatistics says."""
         period = message.period_mean.to_sec()
         window = (message.window_stop - message.window_start).to_sec()
-        return Statistics(1 / period if period > 0 else 0.0, message.stamp_age_mean.to_sec(),
-                          message.traffic / window if window > 0 else 0.0)
+        return Statistics(
+            1 / period if period > 0 else 0.0, message.stamp_age_mean.to_sec(), message.traffic / window if window > 0 else 0.0
+        )
 
 
 def split_filter(text: str) -> Tuple[List[str], List[str]]:
@@ -101,8 +116,13 @@ class Graph:
 
 def select(state, options: Options) -> Graph:
     """The part of a :class:`rqt_graph.ros_state.State` that the options show."""
-    nodes = {node for node in state.nodes if passes(node, options.node_filter)
-             and not (options.hide_debug and _quiet(node)) and not (options.hide_unreachable and node in state.bad)}
+    nodes = {
+        node
+        for node in state.nodes
+        if passes(node, options.node_filter)
+        and not (options.hide_debug and _quiet(node))
+        and not (options.hide_unreachable and node in state.bad)
+    }
     every_topic = set(state.publishers) | set(state.subscribers)
     params = _parameter_topics(every_topic) if options.hide_params else set()
 
@@ -110,12 +130,16 @@ def select(state, options: Options) -> Graph:
         return passes(topic, options.topic_filter) and topic not in params and not (options.hide_tf and topic in _TF)
 
     if options.mode == NODE_NODE_GRAPH:
-        edges = {(start, end, topic) for start, topic, end in state.connections if start in nodes and end in nodes
-                 and shown(topic) and not (options.hide_debug and topic in _QUIET_TOPICS)}
+        edges = {
+            (start, end, topic)
+            for start, topic, end in state.connections
+            if start in nodes and end in nodes and shown(topic) and not (options.hide_debug and topic in _QUIET_TOPICS)
+        }
         return Graph(nodes, {}, edges)
     links = state.registered() if options.mode == NODE_TOPIC_ALL_GRAPH else set(state.active)
-    links = {(node, topic, out) for node, topic, out in links
-             if node in nodes and shown(topic) and not (options.hide_debug and _quiet(topic))}
+    links = {
+        (node, topic, out) for node, topic, out in links if node in nodes and shown(topic) and not (options.hide_debug and _quiet(topic))
+    }
     links = _without_leaves(links, options)
     topics = {topic: False for _, topic, _ in links}
     links, topics = _grouped(links, topics, options)
@@ -127,9 +151,13 @@ def _quiet(name: str) -> bool:
 
 
 def _parameter_topics(topics) -> Set[str]:
-    servers = {topic[:-len("/parameter_descriptions")] for topic in topics if topic.endswith("/parameter_descriptions")}
-    return {f"{server}/{kind}" for server in servers if f"{server}/parameter_updates" in topics
-            for kind in ("parameter_descriptions", "parameter_updates")}
+    servers = {topic[: -len("/parameter_descriptions")] for topic in topics if topic.endswith("/parameter_descriptions")}
+    return {
+        f"{server}/{kind}"
+        for server in servers
+        if f"{server}/parameter_updates" in topics
+        for kind in ("parameter_descriptions", "parameter_updates")
+    }
 
 
 def _without_leaves(links, options: Options):
@@ -137,8 +165,11 @@ def _without_leaves(links, options: Options):
     heard = {topic for _, topic, out in links if not out}
     for _, topic, _ in links:
         count[topic] = count.get(topic, 0) + 1
-    return {(node, topic, out) for node, topic, out in links
-            if not (options.hide_dead_sinks and topic not in heard) and not (options.hide_leaf_topics and count[topic] < 2)}
+    return {
+        (node, topic, out)
+        for node, topic, out in links
+        if not (options.hide_dead_sinks and topic not in heard) and not (options.hide_leaf_topics and count[topic] < 2)
+    }
 
 
 def _grouped(links, topics, options: Options):
@@ -146,7 +177,7 @@ def _grouped(links, topics, options: Options):
     stands_for: Dict[str, str] = {}
     if options.group_actions:
         for topic in topics:
-            server = topic[:-len("/feedback")] if topic.endswith("/feedback") else None
+            server = topic[: -len("/feedback")] if topic.endswith("/feedback") else None
             if server is not None and all(f"{server}/{part}" in topics for part in _ACTION):
                 stands_for.update({f"{server}/{part}": f"{server}/action_topics" for part in _ACTION})
     if options.group_images:
@@ -232,8 +263,9 @@ class _Writer:
         clusters, lines = self._root
         for namespace in namespaces:
             clusters, lines = clusters.setdefault(namespace, ({}, []))
-        lines.append(f"{quoted(key)} [label={quoted(label)} shape={shape} tooltip={quoted(tooltip)}"
-                     + (f" color={color}" if color else "") + "];")
+        lines.append(
+            f"{quoted(key)} [label={quoted(label)} shape={shape} tooltip={quoted(tooltip)}" + (f" color={color}" if color else "") + "];"
+        )
 
     def edge(self, start, end, label, look, tooltip) -> None:
         attributes = [f"tooltip={quoted(tooltip)}"] if tooltip else []
@@ -246,8 +278,9 @@ class _Writer:
         self._edges.append(f"{quoted(start)} -> {quoted(end)}" + (f" [{' '.join(attributes)}]" if attributes else "") + ";")
 
     def text(self) -> str:
-        return "\n".join(["digraph graphname {", "rankdir=LR; ranksep=0.2; compound=true;", *_lines(self._root, [0]), *self._edges,
-                          "}", ""])
+        return "\n".join(
+            ["digraph graphname {", "rankdir=LR; ranksep=0.2; compound=true;", *_lines(self._root, [0]), *self._edges, "}", ""]
+        )
 
 
 def _lines(cluster, counter) -> List[str]:
@@ -308,11 +341,29 @@ class RosGraphDotcodeGenerator:
             names += [topic.strip() for topic in graph.nt_nodes]
         return sorted({rosgraph.names.namespace(name) for name in names if not (quiet and name in QUIET_NAMES)})
 
-    def generate_dotgraph(self, rosgraphinst, ns_filter, topic_filter, graph_mode, dotcode_factory,
-                          hide_single_connection_topics=False, hide_dead_end_topics=False, cluster_namespaces_level=0,
-                          accumulate_actions=True, orientation="LR", rank="same", ranksep=0.2, rankdir="TB", simplify=True,
-                          quiet=False, unreachable=False, hide_tf_nodes=False, group_tf_nodes=False, group_image_nodes=False,
-                          hide_dynamic_reconfigure=False):
+    def generate_dotgraph(
+        self,
+        rosgraphinst,
+        ns_filter,
+        topic_filter,
+        graph_mode,
+        dotcode_factory,
+        hide_single_connection_topics=False,
+        hide_dead_end_topics=False,
+        cluster_namespaces_level=0,
+        accumulate_actions=True,
+        orientation="LR",
+        rank="same",
+        ranksep=0.2,
+        rankdir="TB",
+        simplify=True,
+        quiet=False,
+        unreachable=False,
+        hide_tf_nodes=False,
+        group_tf_nodes=False,
+        group_image_nodes=False,
+        hide_dynamic_reconfigure=False,
+    ):
         """The factory's graph of a system.
 
         :param ns_filter: which nodes: names or regular expressions between commas, a leading - excludes.
@@ -320,14 +371,34 @@ class RosGraphDotcodeGenerator:
         :param graph_mode: NODE_NODE_GRAPH, NODE_TOPIC_GRAPH or NODE_TOPIC_ALL_GRAPH
         :param orientation: LR or TB, the way in which it grows. :param unreachable: hide nodes that do not answer.
         """
-        options = Options(graph_mode, ns_filter, topic_filter, cluster_namespaces_level, accumulate_actions, group_tf_nodes,
-                          group_image_nodes, hide_dead_end_topics, hide_single_connection_topics, quiet, hide_tf_nodes, unreachable,
-                          hide_dynamic_reconfigure)
+        options = Options(
+            graph_mode,
+            ns_filter,
+            topic_filter,
+            cluster_namespaces_level,
+            accumulate_actions,
+            group_tf_nodes,
+            group_image_nodes,
+            hide_dead_end_topics,
+            hide_single_connection_topics,
+            quiet,
+            hide_tf_nodes,
+            unreachable,
+            hide_dynamic_reconfigure,
+        )
         graph = dotcode_factory.get_graph(rank=rank, ranksep=ranksep, simplify=simplify, rankdir=orientation)
-        statistics = {(publisher, topic, node): Statistics.of(message) for node, topics in self.edges.items()
-                      for topic, publishers in topics.items() for publisher, message in publishers.items()}
-        _draw(_state_of(rosgraphinst), options, statistics,
-              _FactoryWriter(dotcode_factory, graph, {"rank": rank, "rankdir": orientation, "simplify": simplify}))
+        statistics = {
+            (publisher, topic, node): Statistics.of(message)
+            for node, topics in self.edges.items()
+            for topic, publishers in topics.items()
+            for publisher, message in publishers.items()
+        }
+        _draw(
+            _state_of(rosgraphinst),
+            options,
+            statistics,
+            _FactoryWriter(dotcode_factory, graph, {"rank": rank, "rankdir": orientation, "simplify": simplify}),
+        )
         return graph
 
     def generate_dotcode(self, rosgraphinst, ns_filter, topic_filter, graph_mode, dotcode_factory, *rest, **options) -> str:

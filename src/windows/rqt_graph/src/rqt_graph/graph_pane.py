@@ -1,4 +1,5 @@
 """A graph in a view: laid out beside the window's thread, loaded, saved, highlighted."""
+
 import os
 from typing import Optional
 
@@ -8,6 +9,7 @@ from python_qt_binding.QtWidgets import QFileDialog, QGraphicsScene, QLabel, QVB
 from qt_dotgraph.dot_to_qt import DotToQtGenerator
 from qt_dotgraph.layout import LayoutError, layout, render
 from qt_gui.compatibility import QShortcut
+
 from rqt_graph.background import Latest
 from rqt_graph.interactive_graphics_view import InteractiveGraphicsView
 
@@ -82,7 +84,8 @@ class GraphPane(QWidget):
             return
         self._scene.clear()
         self.nodes, self.edges = DotToQtGenerator().layout_to_qt_items(
-            self._layout, 3 if self.highlight else 1, same_label_siblings=True, scene=self._scene)
+            self._layout, 3 if self.highlight else 1, same_label_siblings=True, scene=self._scene
+        )
         self._scene.setSceneRect(self._scene.itemsBoundingRect())
         if self.auto_fit:
             self.fit()

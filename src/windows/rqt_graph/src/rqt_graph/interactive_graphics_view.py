@@ -1,4 +1,5 @@
 """A view of a scene that is moved by dragging and zoomed by the wheel."""
+
 from python_qt_binding.QtCore import QEvent, Qt, Signal
 from python_qt_binding.QtWidgets import QGraphicsView
 

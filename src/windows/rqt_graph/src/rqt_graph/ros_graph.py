@@ -1,4 +1,5 @@
 """The window of the graph."""
+
 import threading
 
 import rospy
@@ -7,26 +8,31 @@ from python_qt_binding.QtGui import QKeySequence
 from python_qt_binding.QtWidgets import QCheckBox, QComboBox, QCompleter, QLineEdit, QSpinBox, QToolTip, QVBoxLayout, QWidget
 from qt_gui.compatibility import QShortcut
 from rosgraph_msgs.msg import TopicStatistics
+from rqt_gui_py.plugin import Plugin
+
 from rqt_graph.background import Latest
 from rqt_graph.command import add_arguments
 from rqt_graph.dotcode import NODE_NODE_GRAPH, NODE_TOPIC_ALL_GRAPH, NODE_TOPIC_GRAPH, Options, Statistics, generate_dot
 from rqt_graph.graph_pane import GraphPane
 from rqt_graph.ros_state import WONKY, NoMaster, read, service_types
 from rqt_graph.toolbar import Row
-from rqt_gui_py.plugin import Plugin
 
 _TYPES = (("Nodes only", NODE_NODE_GRAPH), ("Nodes/Topics (active)", NODE_TOPIC_GRAPH), ("Nodes/Topics (all)", NODE_TOPIC_ALL_GRAPH))
 PERIOD = 2000  # ms between two automatic refreshes
 # object name, name of the setting, option, text, tool tip
-_GROUPS = (("actionlib_check_box", "group_actions", "Actions", "Summarize action topics into one, named <server>/action_topics"),
-           ("group_tf_check_box", "group_tf", "tf", "Summarize tf and tf_static into one, named /tf"),
-           ("group_image_check_box", "group_images", "Images", "Summarize the transports of an image, named <image>/image_topics"))
-_HIDES = (("dead_sinks_check_box", "hide_dead_sinks", "Dead sinks", "Hide topics without subscribers"),
-          ("leaf_topics_check_box", "hide_leaf_topics", "Leaf topics", "Hide topics with one connection only"),
-          ("quiet_check_box", "hide_debug", "Debug", "Hide common debugging nodes and topics"),
-          ("hide_tf_nodes_check_box", "hide_tf", "tf", "Hide tf and tf_static"),
-          ("unreachable_check_box", "hide_unreachable", "Unreachable", "Hide nodes that do not answer"),
-          ("hide_dynamic_reconfigure_check_box", "hide_params", "Params", "Hide the parameter topics of dynamic_reconfigure"))
+_GROUPS = (
+    ("actionlib_check_box", "group_actions", "Actions", "Summarize action topics into one, named <server>/action_topics"),
+    ("group_tf_check_box", "group_tf", "tf", "Summarize tf and tf_static into one, named /tf"),
+    ("group_image_check_box", "group_images", "Images", "Summarize the transports of an image, named <image>/image_topics"),
+)
+_HIDES = (
+    ("dead_sinks_check_box", "hide_dead_sinks", "Dead sinks", "Hide topics without subscribers"),
+    ("leaf_topics_check_box", "hide_leaf_topics", "Leaf topics", "Hide topics with one connection only"),
+    ("quiet_check_box", "hide_debug", "Debug", "Hide common debugging nodes and topics"),
+    ("hide_tf_nodes_check_box", "hide_tf", "tf", "Hide tf and tf_static"),
+    ("unreachable_check_box", "hide_unreachable", "Unreachable", "Hide nodes that do not answer"),
+    ("hide_dynamic_reconfigure_check_box", "hide_params", "Params", "Hide the parameter topics of dynamic_reconfigure"),
+)
 
 
 class RosGraph(Plugin):
@@ -96,18 +102,27 @@ class RosGraph(Plugin):
         second.addWidget(self.namespaces)
         second.label("Namespaces")
         defaults = Options()
-        self._boxes = {option: second.check(name, text, tip, getattr(defaults, option), self.update)
-                       for name, option, text, tip in _GROUPS}
+        self._boxes = {option: second.check(name, text, tip, getattr(defaults, option), self.update) for name, option, text, tip in _GROUPS}
         second.addStretch(1)
         self.highlight_box: QCheckBox = second.check(
-            "highlight_connections_check_box", "Highlight", "Highlight connections under the mouse", True,
-            lambda: self.pane.set_highlight(self.highlight_box.isChecked()))
-        self.fit_box: QCheckBox = second.check("auto_fit_graph_check_box", "Fit", "Automatically fit graph into view", True,
-                                    lambda: self.pane.set_auto_fit(self.fit_box.isChecked()))
+            "highlight_connections_check_box",
+            "Highlight",
+            "Highlight connections under the mouse",
+            True,
+            lambda: self.pane.set_highlight(self.highlight_box.isChecked()),
+        )
+        self.fit_box: QCheckBox = second.check(
+            "auto_fit_graph_check_box",
+            "Fit",
+            "Automatically fit graph into view",
+            True,
+            lambda: self.pane.set_auto_fit(self.fit_box.isChecked()),
+        )
         second.button("fit_in_view_push_button", "zoom-fit-best", "Fit", "Fit graph in view", self.pane.fit)
         third.label("Hide:")
-        self._boxes.update({option: third.check(name, text, tip, getattr(defaults, option), self.update)
-                            for name, option, text, tip in _HIDES})
+        self._boxes.update(
+            {option: third.check(name, text, tip, getattr(defaults, option), self.update) for name, option, text, tip in _HIDES}
+        )
         third.addStretch(1)
 
     def _filter(self, name, kind, example, row):
@@ -121,8 +136,13 @@ class RosGraph(Plugin):
 
     def options(self):
         """What the controls say."""
-        return Options(self.type_box.currentData(), self.node_filter.text(), self.topic_filter.text(), self.namespaces.value(),
-                       **{option: box.isChecked() for option, box in self._boxes.items()})
+        return Options(
+            self.type_box.currentData(),
+            self.node_filter.text(),
+            self.topic_filter.text(),
+            self.namespaces.value(),
+            **{option: box.isChecked() for option, box in self._boxes.items()},
+        )
 
     def refresh(self):
         """Read the graph again, soon."""
@@ -157,8 +177,10 @@ class RosGraph(Plugin):
         slow = sorted(node for node, bad in self._state.bad.items() if bad == WONKY)
         if slow and self.options().hide_unreachable:
             more = f" and {len(slow) - 3} more" if len(slow) > 3 else ""
-            self.pane.show_problem(f"not shown, because they gave no answer within a second: {', '.join(slow[:3])}{more}; "
-                                   "Refresh asks again, and without Unreachable they are drawn in orange")
+            self.pane.show_problem(
+                f"not shown, because they gave no answer within a second: {', '.join(slow[:3])}{more}; "
+                "Refresh asks again, and without Unreachable they are drawn in orange"
+            )
 
     def _set_auto(self):
         self._timer.start(PERIOD) if self.auto_box.isChecked() else self._timer.stop()

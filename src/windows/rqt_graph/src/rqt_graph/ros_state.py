@@ -1,4 +1,5 @@
 """What the master and the nodes say about themselves, read at one moment. Neither Qt nor rospy in here."""
+
 from __future__ import annotations
 
 import concurrent.futures
@@ -43,8 +44,12 @@ class State:
 
     def registered(self) -> Set[Tuple[str, str, bool]]:
         """As ``active``, of all registrations."""
-        return {(node, topic, out) for table, out in ((self.publishers, True), (self.subscribers, False))
-                for topic, nodes in table.items() for node in nodes}
+        return {
+            (node, topic, out)
+            for table, out in ((self.publishers, True), (self.subscribers, False))
+            for topic, nodes in table.items()
+            for node in nodes
+        }
 
 
 def read() -> State:

@@ -1,4 +1,5 @@
 """Rows of small controls, each found by its object name."""
+
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton
 
@@ -34,5 +35,4 @@ class Row(QHBoxLayout):
         self.button("load_dot_push_button", "document-open", "Load", "Load DOT graph from file", load or pane.ask_load_dot)
         self.button("save_dot_push_button", "document-save-as", "DOT", "Save as DOT graph", lambda: pane.ask_save_dot(stem + ".dot"))
         self.button("save_as_svg_push_button", "document-save-as", "SVG", "Save as SVG", lambda: pane.ask_save_svg(stem + ".svg"))
-        self.button("save_as_image_push_button", "image-x-generic", "Image", "Save as image",
-                    lambda: pane.ask_save_image(stem + ".png"))
+        self.button("save_as_image_push_button", "image-x-generic", "Image", "Save as image", lambda: pane.ask_save_image(stem + ".png"))

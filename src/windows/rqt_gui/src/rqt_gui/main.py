@@ -1,4 +1,5 @@
 """rqt: the window of qt_gui, with the plugins of all packages that ROS finds."""
+
 import os
 import sys
 
@@ -19,8 +20,12 @@ class Main(Base):
         """See :meth:`qt_gui.main.Main.main`; ROS remappings are taken out of ``argv`` first."""
         argv = rospy.myargv(sys.argv if argv is None else argv)
         try:
-            return super().main(argv, standalone=standalone, plugin_argument_provider=plugin_argument_provider,
-                                plugin_manager_settings_prefix=plugin_manager_settings_prefix)
+            return super().main(
+                argv,
+                standalone=standalone,
+                plugin_argument_provider=plugin_argument_provider,
+                plugin_manager_settings_prefix=plugin_manager_settings_prefix,
+            )
         finally:
             if rospy.core.is_initialized():
                 rospy.signal_shutdown("the window is closed")
@@ -34,6 +39,7 @@ class Main(Base):
 
     def _add_plugin_providers(self):
         from qt_gui.recursive_plugin_provider import RecursivePluginProvider
+
         from rqt_gui.rospkg_plugin_provider import CompiledPluginProvider, RospkgPluginProvider
 
         RospkgPluginProvider.rospack = self._ros_pack

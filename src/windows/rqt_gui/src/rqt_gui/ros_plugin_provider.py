@@ -1,10 +1,11 @@
 """Plugins described by files which packages export: reading the files, importing the classes."""
+
 import importlib
 import inspect
 import os
 import sys
-from xml.etree import ElementTree
 from typing import Any, Dict, Optional, Tuple
+from xml.etree import ElementTree
 
 from python_qt_binding.QtCore import qWarning
 from qt_gui.errors import PluginLoadError
@@ -45,8 +46,9 @@ class RosPluginProvider(PluginProvider):
         module = importlib.import_module(attributes["module_name"])
         cls = getattr(module, attributes["class_from_class_type"], None)
         if cls is None:
-            raise PluginLoadError(f"module {attributes['module_name']} ({getattr(module, '__file__', '')}) has no class "
-                                  f"{attributes['class_from_class_type']}")
+            raise PluginLoadError(
+                f"module {attributes['module_name']} ({getattr(module, '__file__', '')}) has no class {attributes['class_from_class_type']}"
+            )
         if plugin_context is None and _takes_nothing(cls):
             return cls()
         return cls(plugin_context)
@@ -75,9 +77,16 @@ class RosPluginProvider(PluginProvider):
         name = element.get("name")
         plugin_id = f"{package}/{name}" if name else package
         attributes = {f"class_{key}": value for key, value in element.items()}
-        attributes.update(package_name=package, plugin_path=os.path.dirname(path), package_path=self.package_path(package, path),
-                          library_path=library.get("path") or ".", plugin_id=plugin_id, module_name=module,
-                          class_from_class_type=cls, not_available="")
+        attributes.update(
+            package_name=package,
+            plugin_path=os.path.dirname(path),
+            package_path=self.package_path(package, path),
+            library_path=library.get("path") or ".",
+            plugin_id=plugin_id,
+            module_name=module,
+            class_from_class_type=cls,
+            not_available="",
+        )
         return describe_menu(PluginDescriptor(plugin_id, attributes), element)
 
     def package_path(self, package, path):
@@ -119,15 +128,20 @@ def describe_menu(descriptor, element):
 
 def _action(element, label):
     icon = element.find("icon")
-    return {"label": (element.findtext("label") or "").strip() or label,
-            "statustip": " ".join((element.findtext("statustip") or "").split()) or None,
-            "icon": ((icon.text or "").strip() or None) if icon is not None else None,
-            "icontype": icon.get("type") if icon is not None else None}
+    return {
+        "label": (element.findtext("label") or "").strip() or label,
+        "statustip": " ".join((element.findtext("statustip") or "").split()) or None,
+        "icon": ((icon.text or "").strip() or None) if icon is not None else None,
+        "icontype": icon.get("type") if icon is not None else None,
+    }
 
 
 def _takes_nothing(cls):
     try:
-        return not [p for p in inspect.signature(cls.__init__).parameters.values()
-                    if p.name != "self" and p.default is p.empty and p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)]
+        return not [
+            p
+            for p in inspect.signature(cls.__init__).parameters.values()
+            if p.name != "self" and p.default is p.empty and p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)
+        ]
     except (TypeError, ValueError):
         return False

@@ -2,15 +2,17 @@
 
 Every start reads all manifests anew: two hundred take some ten milliseconds, and a plugin that was built a moment ago is there.
 """
+
 import os
 import re
-from typing import Any, Dict
 import xml.etree.ElementTree as ET
+from typing import Any, Dict
 
 import rospkg
 from python_qt_binding.QtCore import qWarning
 from qt_gui.errors import PluginLoadError
 from qt_gui.plugin_descriptor import PluginDescriptor
+
 from rqt_gui.ros_plugin_provider import RosPluginProvider, describe_menu
 
 _MANIFESTS = ("package.xml", "manifest.xml")
@@ -51,8 +53,12 @@ class CompiledPluginProvider(RospkgPluginProvider):
     def _descriptor(self, package, path, library, element):
         name, kind = element.get("name") or package, element.get("type") or ""
         reason = f"'{name}' of package {package} is a compiled C++ plugin ({kind}); only Python plugins can be loaded here"
-        return describe_menu(PluginDescriptor(name, {"package_name": package, "plugin_path": os.path.dirname(path),
-                                                     "class_type": kind, "not_available": reason}), element)
+        return describe_menu(
+            PluginDescriptor(
+                name, {"package_name": package, "plugin_path": os.path.dirname(path), "class_type": kind, "not_available": reason}
+            ),
+            element,
+        )
 
     def load(self, plugin_id, plugin_context):
         raise PluginLoadError(self._plugin_descriptors[plugin_id].attributes()["not_available"])
@@ -68,8 +74,9 @@ def exports(rospack, tags=_WINDOWS):
         _known.update(of=rospack, paths=_packages(rospack))
     if tags not in _known:
         mentions = re.compile(rb"<\s*(" + "|".join(map(re.escape, tags)).encode() + rb")\b")
-        _known[tags] = [entry for package, folder in sorted(_known["paths"].items())
-                        for entry in _of_package(package, folder, tags, mentions)]
+        _known[tags] = [
+            entry for package, folder in sorted(_known["paths"].items()) for entry in _of_package(package, folder, tags, mentions)
+        ]
     return _known[tags]
 
 

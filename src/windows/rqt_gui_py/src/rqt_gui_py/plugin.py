@@ -1,4 +1,5 @@
 """The base class of plugins that use rospy."""
+
 from qt_gui.plugin import Plugin as Base
 
 

@@ -1,4 +1,5 @@
 """Loads the plugins that use rospy: waits for a master, starts the node once."""
+
 import os
 import sys
 import threading
@@ -82,9 +83,13 @@ class RosPyPluginProvider(CompositePluginProvider):
             return
         uri = rosgraph.get_master_uri()
         print(f"rqt: waiting for the ROS master at {uri}; start roscore, or press Abort", file=sys.stderr, flush=True)
-        dialog = QMessageBox(QMessageBox.Icon.Question, "Waiting for ROS master",
-                             f"Could not find the ROS master at {uri}.\nEither start a 'roscore' or abort loading the plugin.",
-                             QMessageBox.StandardButton.Abort, QApplication.activeWindow())
+        dialog = QMessageBox(
+            QMessageBox.Icon.Question,
+            "Waiting for ROS master",
+            f"Could not find the ROS master at {uri}.\nEither start a 'roscore' or abort loading the plugin.",
+            QMessageBox.StandardButton.Abort,
+            QApplication.activeWindow(),
+        )
         dialog.setObjectName("waiting_for_master")
         self._master_found.connect(dialog.accept, Qt.ConnectionType.QueuedConnection)
         if not found.is_set():

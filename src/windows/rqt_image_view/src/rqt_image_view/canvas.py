@@ -1,4 +1,5 @@
 """The area of a window that shows a picture."""
+
 from __future__ import annotations
 
 from typing import Optional

@@ -1,4 +1,5 @@
 """The plugin Image View of rqt."""
+
 from __future__ import annotations
 
 import argparse
@@ -112,7 +113,8 @@ class ImageView(Plugin):
         self._widget.canvas.set_picture(None, f"waiting for {topic}" if topic else _EMPTY[self._widget.topics.count() > 1])
         if topic:
             self._source = source = ImageSource(
-                topic, lambda picture: self._arrived.emit(picture, source), lambda text: self._failed.emit(text, source))
+                topic, lambda picture: self._arrived.emit(picture, source), lambda text: self._failed.emit(text, source)
+            )
             source.depth = self._widget.depth_view()
         if self._widget.suggest_click_topic(topic):
             self._advertise()
@@ -154,8 +156,7 @@ class ImageView(Plugin):
         picture = self._widget.canvas.final_picture()
         if picture is None:
             return
-        name, _ = QFileDialog.getSaveFileName(self._widget, "Save as image", "image.png",
-                                              "Image (*.bmp *.jpg *.png *.tiff)")
+        name, _ = QFileDialog.getSaveFileName(self._widget, "Save as image", "image.png", "Image (*.bmp *.jpg *.png *.tiff)")
         if name:
             self.save_picture(name)
 
@@ -164,8 +165,9 @@ class ImageView(Plugin):
         picture = self._widget.canvas.final_picture()
         saved = picture is not None and to_qimage(picture).save(name)
         if not saved:
-            qWarning(f"rqt_image_view: cannot write {name}: use a name that ends with .png, .jpg, .bmp or .tiff, "
-                     "in a folder that may be written")
+            qWarning(
+                f"rqt_image_view: cannot write {name}: use a name that ends with .png, .jpg, .bmp or .tiff, in a folder that may be written"
+            )
         return saved
 
     # Settings
@@ -175,8 +177,7 @@ class ImageView(Plugin):
             instance_settings.set_value(key, value)
 
     def restore_settings(self, plugin_settings, instance_settings) -> None:
-        self._widget.restore({key: instance_settings.value(key) for key in self._widget.settings()
-                              if instance_settings.contains(key)})
+        self._widget.restore({key: instance_settings.value(key) for key in self._widget.settings() if instance_settings.contains(key)})
         topic = self._argument or instance_settings.value("topic", "")
         if topic and not self._argument:
             self.select_topic(topic)

@@ -1,4 +1,5 @@
 """Pixels of messages to pictures for the screen: uint8, (h, w) grey or (h, w, 3) RGB. No ROS and no Qt in here."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -15,8 +16,13 @@ class PictureError(WindowError, ValueError):
 
 
 #: names of the colour schemes of depth pictures -> OpenCV's map, or None for grey
-COLOR_SCHEMES = {"Gray": None, **{name: getattr(cv2, f"COLORMAP_{name.upper()}") for name in (
-    "Autumn", "Bone", "Cool", "Hot", "Hsv", "Jet", "Ocean", "Pink", "Rainbow", "Spring", "Summer", "Winter")}}
+COLOR_SCHEMES = {
+    "Gray": None,
+    **{
+        name: getattr(cv2, f"COLORMAP_{name.upper()}")
+        for name in ("Autumn", "Bone", "Cool", "Hot", "Hsv", "Jet", "Ocean", "Pink", "Rainbow", "Spring", "Summer", "Winter")
+    },
+}
 
 
 @dataclass(frozen=True)
@@ -29,8 +35,9 @@ class DepthView:
     scheme: str = "Gray"
 
 
-def from_raw(encoding: str, height: int, width: int, step: int, data, big_endian: bool = False,
-             depth: DepthView = DepthView()) -> np.ndarray:
+def from_raw(
+    encoding: str, height: int, width: int, step: int, data, big_endian: bool = False, depth: DepthView = DepthView()
+) -> np.ndarray:
     """A picture from the fields of a sensor_msgs/Image.
 
     :param step: bytes per row. :param data: bytes. :returns: uint8, (h, w) or (h, w, 3) RGB; perhaps a view of ``data``.
@@ -120,10 +127,10 @@ class TheoraDecoder:
 
 def _full_range(frame) -> np.ndarray:
     """RGB of a 4:2:0 frame whose Y is 0..255, as theora_image_transport's are."""
-    y, u, v = (np.frombuffer(plane, np.uint8).reshape(-1, plane.line_size)[:plane.height, :plane.width] for plane in frame.planes)
+    y, u, v = (np.frombuffer(plane, np.uint8).reshape(-1, plane.line_size)[: plane.height, : plane.width] for plane in frame.planes)
     size = (frame.width, frame.height)
-    u, v = (cv2.resize(np.repeat(np.repeat(part, 2, 0), 2, 1)[:frame.height, :frame.width], size) for part in (u, v))
-    return cv2.cvtColor(cv2.merge((y[:frame.height, :frame.width], v, u)), cv2.COLOR_YCrCb2RGB)
+    u, v = (cv2.resize(np.repeat(np.repeat(part, 2, 0), 2, 1)[: frame.height, : frame.width], size) for part in (u, v))
+    return cv2.cvtColor(cv2.merge((y[: frame.height, : frame.width], v, u)), cv2.COLOR_YCrCb2RGB)
 
 
 def rotated(picture: np.ndarray, quarters: int) -> np.ndarray:

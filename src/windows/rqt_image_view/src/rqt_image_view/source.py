@@ -1,12 +1,13 @@
 """Pictures of an image topic, whatever its type turns out to be."""
+
 from __future__ import annotations
 
 import threading
 from typing import Callable, List, Optional
 
 import numpy as np
-import roslib.message
 import rosgraph
+import roslib.message
 import rospy
 
 from rqt_image_view.pictures import DepthView, PictureError, TheoraDecoder, from_compressed, from_raw
@@ -34,8 +35,7 @@ def picture_of(message, depth: DepthView = DepthView()) -> np.ndarray:
     :raises PictureError: it cannot be shown; one line that says why.
     """
     if message._type == RAW:
-        return from_raw(message.encoding, message.height, message.width, message.step, message.data,
-                        bool(message.is_bigendian), depth)
+        return from_raw(message.encoding, message.height, message.width, message.step, message.data, bool(message.is_bigendian), depth)
     if message._type == COMPRESSED:
         return from_compressed(message.format, message.data, depth)
     raise PictureError(f"{message._type} is no image")

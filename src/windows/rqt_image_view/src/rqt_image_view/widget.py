@@ -1,13 +1,26 @@
 """The tool bar of the image view, and the picture below it. It knows no ROS."""
+
 from __future__ import annotations
 
 from typing import Dict, List
 
 from python_qt_binding.QtCore import QSize, Qt, Signal, qWarning
 from python_qt_binding.QtGui import QIcon
-from python_qt_binding.QtWidgets import (QCheckBox, QComboBox, QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QLineEdit,
-                                         QScrollArea, QSizePolicy, QSpinBox, QToolButton, QVBoxLayout, QWidget)
-
+from python_qt_binding.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDoubleSpinBox,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QScrollArea,
+    QSizePolicy,
+    QSpinBox,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
 from qt_gui.compatibility import QAction
 
 from rqt_image_view.canvas import Canvas
@@ -62,8 +75,7 @@ class ImageViewWidget(QWidget):
         self.topics.setMinimumContentsLength(12)
         self.topics.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.refresh_button = self._button("refresh_topics_push_button", "view-refresh", "Refresh", "Look for image topics")
-        self.zoom = self._button("zoom_1_push_button", "zoom-original", "1:1", "One pixel of the image per pixel of the screen",
-                                 True)
+        self.zoom = self._button("zoom_1_push_button", "zoom-original", "1:1", "One pixel of the image per pixel of the screen", True)
         self.grid = QSpinBox()
         self.grid.setObjectName("num_gridlines_spin_box")
         self.grid.setPrefix("# ")
@@ -106,9 +118,20 @@ class ImageViewWidget(QWidget):
         self.toolbar = QWidget()
         grid = QGridLayout(self.toolbar)
         grid.setContentsMargins(0, 0, 0, 0)
-        rows = ((self.topics, self.refresh_button, self.zoom, self.grid, self.save_button, self.rotate_left, self.rotation,
-                 self.rotate_right, self.smooth),
-                (self.dynamic, self.max_depth, self.scheme, self.publish_click, self.click_topic))
+        rows = (
+            (
+                self.topics,
+                self.refresh_button,
+                self.zoom,
+                self.grid,
+                self.save_button,
+                self.rotate_left,
+                self.rotation,
+                self.rotate_right,
+                self.smooth,
+            ),
+            (self.dynamic, self.max_depth, self.scheme, self.publish_click, self.click_topic),
+        )
         for number, row in enumerate(rows):
             line = QHBoxLayout()
             for widget in row:
@@ -170,26 +193,38 @@ class ImageViewWidget(QWidget):
     # Settings, under upstream's names
 
     def settings(self) -> Dict[str, object]:
-        return {"topic": self.topics.currentText(), "zoom1": self.zoom.isChecked(), "dynamic_range": self.dynamic.isChecked(),
-                "max_range": self.max_depth.value(), "publish_click_location": self.publish_click.isChecked(),
-                "mouse_pub_topic": self.click_topic.text(), "toolbar_hidden": self.hide_toolbar.isChecked(),
-                "num_gridlines": self.grid.value(), "smooth_image": self.smooth.isChecked(), "rotate": self.canvas.quarters,
-                "color_scheme": self.scheme.currentIndex()}
+        return {
+            "topic": self.topics.currentText(),
+            "zoom1": self.zoom.isChecked(),
+            "dynamic_range": self.dynamic.isChecked(),
+            "max_range": self.max_depth.value(),
+            "publish_click_location": self.publish_click.isChecked(),
+            "mouse_pub_topic": self.click_topic.text(),
+            "toolbar_hidden": self.hide_toolbar.isChecked(),
+            "num_gridlines": self.grid.value(),
+            "smooth_image": self.smooth.isChecked(),
+            "rotate": self.canvas.quarters,
+            "color_scheme": self.scheme.currentIndex(),
+        }
 
     def restore(self, saved: Dict[str, object]) -> None:
         """Take over what :meth:`settings` gave; values may have become text. What is unfit is left out with a line."""
+
         def truth(value):
             return value in (True, "true")
 
         setters = {
-            "zoom1": lambda v: self.zoom.setChecked(truth(v)), "dynamic_range": lambda v: self.dynamic.setChecked(truth(v)),
+            "zoom1": lambda v: self.zoom.setChecked(truth(v)),
+            "dynamic_range": lambda v: self.dynamic.setChecked(truth(v)),
             "max_range": lambda v: self.max_depth.setValue(float(v)),
             "publish_click_location": lambda v: self.publish_click.setChecked(truth(v)),
             "mouse_pub_topic": lambda v: self.click_topic.setText(str(v)),
             "toolbar_hidden": lambda v: self.hide_toolbar.setChecked(truth(v)),
-            "num_gridlines": lambda v: self.grid.setValue(int(v)), "smooth_image": lambda v: self.smooth.setChecked(truth(v)),
+            "num_gridlines": lambda v: self.grid.setValue(int(v)),
+            "smooth_image": lambda v: self.smooth.setChecked(truth(v)),
             "rotate": lambda v: setattr(self.canvas, "quarters", int(v) % 4),
-            "color_scheme": lambda v: self.scheme.setCurrentIndex(max(0, int(v)))}
+            "color_scheme": lambda v: self.scheme.setCurrentIndex(max(0, int(v))),
+        }
         for key, value in saved.items():
             try:
                 setters.get(key, lambda _value: None)(value)

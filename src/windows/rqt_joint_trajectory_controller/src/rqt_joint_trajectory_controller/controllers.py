@@ -1,4 +1,5 @@
 """Which trajectory controllers can be moved by sliders, and why the others cannot."""
+
 from typing import Dict, List, NamedTuple, Tuple
 
 import rospy
@@ -26,8 +27,11 @@ class ControllerFinder:
 
     def controllers(self, manager: str) -> Found:
         """:raises rospy.ServiceException: the manager is gone"""
-        running = [c for c in rospy.ServiceProxy(f"{manager}/list_controllers", ListControllers)().controller
-                   if c.state == "running" and "JointTrajectoryController" in c.type]
+        running = [
+            c
+            for c in rospy.ServiceProxy(f"{manager}/list_controllers", ListControllers)().controller
+            if c.state == "running" and "JointTrajectoryController" in c.type
+        ]
         if not running:
             return Found({}, (f"{manager} runs no controller whose type contains JointTrajectoryController",))
         limits, reasons = self._limits(manager.rsplit("/", 1)[0])
@@ -40,8 +44,11 @@ class ControllerFinder:
             if joints and not missing:
                 usable[controller.name] = {joint: limits[joint] for joint in joints}
             else:
-                reasons += (f"{controller.name}: robot_description has no limits of position and velocity for "
-                            f"{', '.join(missing)}" if missing else f"{controller.name} claims no joints",)
+                reasons += (
+                    f"{controller.name}: robot_description has no limits of position and velocity for {', '.join(missing)}"
+                    if missing
+                    else f"{controller.name} claims no joints",
+                )
         return Found(usable, reasons)
 
     @staticmethod

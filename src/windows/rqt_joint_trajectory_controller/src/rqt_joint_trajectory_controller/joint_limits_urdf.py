@@ -1,4 +1,5 @@
 """Limits of joints from a robot description."""
+
 import math
 import xml.etree.ElementTree as ET
 from typing import Dict, NamedTuple

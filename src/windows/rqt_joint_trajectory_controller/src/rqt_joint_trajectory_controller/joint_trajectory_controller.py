@@ -1,4 +1,5 @@
 """The plugin: sliders for the joints of a running trajectory controller."""
+
 import math
 
 import rospy
@@ -22,8 +23,9 @@ def duration(positions, targets, velocities, scale: float) -> float:
     :param velocities: the joints' limits
     :param scale: share of them, above 0
     """
-    return max([abs(target - position) / velocity for position, target, velocity in zip(positions, targets, velocities)]
-               + [SHORTEST]) / scale
+    return (
+        max([abs(target - position) / velocity for position, target, velocity in zip(positions, targets, velocities)] + [SHORTEST]) / scale
+    )
 
 
 class JointTrajectoryController(Plugin):
@@ -98,9 +100,12 @@ class JointTrajectoryController(Plugin):
         self._background.run("managers", self._finder.managers, self._show_managers, lambda error: self._show_managers([]))
         manager = self.manager_box.currentText()
         if manager:
-            self._background.run(("controllers", manager), lambda: self._finder.controllers(manager),
-                                 lambda found: self._show_controllers(manager, found),
-                                 lambda error: self._show_controllers(manager, Found({}, (f"{manager} does not answer: {error}",))))
+            self._background.run(
+                ("controllers", manager),
+                lambda: self._finder.controllers(manager),
+                lambda found: self._show_controllers(manager, found),
+                lambda error: self._show_controllers(manager, Found({}, (f"{manager} does not answer: {error}",))),
+            )
 
     def _show_managers(self, names) -> None:
         if self._refill(self.manager_box, names, self._wanted[0]):
@@ -191,8 +196,14 @@ class JointTrajectoryController(Plugin):
         names = [name for name in self.joints if name in self._positions and name in limits]
         targets = [self.joints[name].value() for name in names]
         point = JointTrajectoryPoint(positions=targets)
-        point.time_from_start = rospy.Duration(duration([self._positions[name] for name in names], targets,
-                                                        [limits[name].velocity for name in names], self.speed_slider.value() / 100))
+        point.time_from_start = rospy.Duration(
+            duration(
+                [self._positions[name] for name in names],
+                targets,
+                [limits[name].velocity for name in names],
+                self.speed_slider.value() / 100,
+            )
+        )
         try:
             self._publisher.publish(JointTrajectory(joint_names=names, points=[point]))
         except rospy.ROSException:  # the node is being shut down

@@ -1,4 +1,5 @@
 """One joint: a slider and a number."""
+
 from python_qt_binding.QtCore import Qt, Signal
 from python_qt_binding.QtWidgets import QDoubleSpinBox, QHBoxLayout, QSlider, QWidget
 

@@ -1,11 +1,22 @@
 """Choose a launch file; start and stop its nodes."""
+
 import time
 from typing import Any, Dict, List
 
 from python_qt_binding.QtCore import QSize, QTimer
 from python_qt_binding.QtGui import QBrush, QColor, QIcon
-from python_qt_binding.QtWidgets import (QComboBox, QHBoxLayout, QHeaderView, QLabel, QLineEdit, QPushButton, QTableWidget,
-                                         QTableWidgetItem, QVBoxLayout, QWidget)
+from python_qt_binding.QtWidgets import (
+    QComboBox,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
 from rqt_py_common.background import Background
 
 from . import launched_node
@@ -72,8 +83,11 @@ class LaunchWidget(QWidget):
         return button
 
     def choice(self) -> dict:
-        return {"package": self.package_box.currentText() or self._wanted.get("package", ""),
-                "file": self.file_box.currentText() or self._wanted.get("file", ""), "arguments": self.arguments_edit.text()}
+        return {
+            "package": self.package_box.currentText() or self._wanted.get("package", ""),
+            "file": self.file_box.currentText() or self._wanted.get("file", ""),
+            "arguments": self.arguments_edit.text(),
+        }
 
     def choose(self, choice: dict) -> None:
         """What :meth:`choice` gave, as soon as the packages are known."""
@@ -100,8 +114,9 @@ class LaunchWidget(QWidget):
             self.status_label.setText("stop the running nodes first")
             return
         choice = self.choice()
-        if self._background.run("load", lambda: self._launching.load(choice["package"], choice["file"], choice["arguments"]),
-                                self._loaded, self._failed):
+        if self._background.run(
+            "load", lambda: self._launching.load(choice["package"], choice["file"], choice["arguments"]), self._loaded, self._failed
+        ):
             self.status_label.setText(f"loading {choice['file']} ...")
 
     def _loaded(self, nodes) -> None:

@@ -1,17 +1,18 @@
 """Launch files and the processes of their nodes. Knows no Qt; loading and stopping take their time."""
+
 import os
 import shlex
 import threading
 import time
 from typing import Any, List, Optional
 
-import rospy
 import rosgraph
 import roslaunch.config
 import roslaunch.nodeprocess
 import roslaunch.pmon
 import roslaunch.substitution_args
 import rospkg
+import rospy
 from qt_gui.errors import WindowError
 from roslaunch import RLException
 from roslaunch.core import Node
@@ -106,8 +107,15 @@ def load(package: str, file: str, arguments: str) -> List[LaunchedNode]:
         loader.load(path, config, argv=[path, *shlex.split(arguments)], verbose=False)
         config.assign_machines()
         RqtRoscommUtil.load_parameters(config, rospy.get_name())
-    except (RLException, roslaunch.xmlloader.XmlParseException, roslaunch.loader.LoadException, rospkg.ResourceNotFound,
-            roslaunch.substitution_args.SubstitutionException, ValueError, OSError) as error:
+    except (
+        RLException,
+        roslaunch.xmlloader.XmlParseException,
+        roslaunch.loader.LoadException,
+        rospkg.ResourceNotFound,
+        roslaunch.substitution_args.SubstitutionException,
+        ValueError,
+        OSError,
+    ) as error:
         raise LaunchError(f"{package} {file}: {_one_line(error)}") from error
     run_id = rospy.get_param("/run_id", "rqt_launch")
     return [LaunchedNode(node, str(run_id)) for node in config.nodes]

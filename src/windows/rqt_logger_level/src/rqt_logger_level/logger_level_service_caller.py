@@ -1,4 +1,5 @@
 """What the master and the nodes are asked. Every call may take its time."""
+
 from typing import Dict, List
 
 import rosgraph
@@ -21,7 +22,7 @@ class LoggerLevelServiceCaller:
         :raises OSError, rosgraph.MasterException, rosservice.ROSServiceIOException: the master does not answer
         """
         ending = "/set_logger_level"
-        return sorted(name[:-len(ending)] for name in rosservice.get_service_list() if name.endswith(ending))
+        return sorted(name[: -len(ending)] for name in rosservice.get_service_list() if name.endswith(ending))
 
     def get_loggers(self, node: str) -> Dict[str, str]:
         """Logger to level; :raises rospy.ServiceException: the node is gone"""

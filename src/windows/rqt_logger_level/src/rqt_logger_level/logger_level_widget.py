@@ -1,4 +1,5 @@
 """Three lists: nodes, loggers, levels."""
+
 from python_qt_binding.QtCore import QSize
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import QGridLayout, QLabel, QListWidget, QPushButton, QWidget
@@ -94,8 +95,12 @@ class LoggerLevelWidget(QWidget):
         node, logger = self.node_list.currentItem(), self.logger_list.currentItem()
         if level and node is not None and logger is not None:
             node, logger = node.text(), logger.text()
-            self._background.run(("set", node, logger, level), lambda: self._caller.set_logger_level(node, logger, level),
-                                 lambda _: self._was_set(node, logger, level), self._failed)
+            self._background.run(
+                ("set", node, logger, level),
+                lambda: self._caller.set_logger_level(node, logger, level),
+                lambda _: self._was_set(node, logger, level),
+                self._failed,
+            )
 
     def _was_set(self, node: str, logger: str, level: str) -> None:
         self.status_label.setText(f"{node}: {logger} is at {level}")

@@ -1,4 +1,5 @@
 """Definitions of installed types: their parts, and their text."""
+
 import os
 from typing import List, Tuple
 

@@ -1,4 +1,5 @@
 """The plugin."""
+
 from rqt_msg.types_widget import TypesPlugin
 
 

@@ -1,10 +1,20 @@
 """Browsers of types: messages here, services and actions in packages of their own."""
+
 from typing import Dict, List
 
 from python_qt_binding.QtCore import QSize, Qt
 from python_qt_binding.QtGui import QIcon
-from python_qt_binding.QtWidgets import (QComboBox, QDialog, QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QSizePolicy,
-                                         QVBoxLayout, QWidget)
+from python_qt_binding.QtWidgets import (
+    QComboBox,
+    QDialog,
+    QHBoxLayout,
+    QLabel,
+    QPlainTextEdit,
+    QPushButton,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
 from rqt_gui_py.plugin import Plugin
 from rqt_py_common.background import Background
 from rqt_py_common.installed_types import installed_types
@@ -83,8 +93,10 @@ class TypesWidget(QWidget):
             box.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.package_combo.currentTextChanged.connect(self._package_changed)
         self.add_button, self.remove_button = QPushButton(QIcon.fromTheme("list-add"), ""), QPushButton(QIcon.fromTheme("list-remove"), "")
-        for button, name, call, mark in ((self.add_button, "add_button", self.add_chosen, "+"),
-                                         (self.remove_button, "remove_button", lambda: self._remove_selected(), "-")):
+        for button, name, call, mark in (
+            (self.add_button, "add_button", self.add_chosen, "+"),
+            (self.remove_button, "remove_button", lambda: self._remove_selected(), "-"),
+        ):
             button.setObjectName(name)
             button.setText(mark if button.icon().isNull() else "")
             button.clicked.connect(lambda checked=False, call=call: call())

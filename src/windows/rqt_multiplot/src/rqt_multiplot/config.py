@@ -3,6 +3,7 @@
 The names of the attributes are those of the elements. Files are written with the bytes that rqt_multiplot wrote on Noetic, so
 that a change of one title is a change of one line in version control.
 """
+
 from __future__ import annotations
 
 import copy
@@ -185,8 +186,9 @@ class Table:
 
     def resize(self, rows: int, columns: int) -> None:
         """Add empty plots or drop the last ones."""
-        self.plots = [[self.plots[r][c] if r < len(self.plots) and c < len(self.plots[r]) else Plot() for c in range(columns)]
-                      for r in range(rows)]
+        self.plots = [
+            [self.plots[r][c] if r < len(self.plots) and c < len(self.plots[r]) else Plot() for c in range(columns)] for r in range(rows)
+        ]
 
 
 def automatic_color(index: int) -> Tuple[int, int, int]:
@@ -198,6 +200,7 @@ def automatic_color(index: int) -> Tuple[int, int, int]:
 
 
 # Reading
+
 
 def read(text: str, name: str = "the configuration") -> Tuple[Table, List[str]]:
     """A table from the text of a file, and what was wrong in it, one line each: such values are left at their defaults.
@@ -235,8 +238,12 @@ def read_curve(text: str) -> Curve:
 
 def _numbered(parent: Optional[ET.Element], prefix: str) -> List[ET.Element]:
     """Children ``prefix_N`` in the order of their numbers."""
-    found = [(int(match.group(1)), child) for child in (parent if parent is not None else ())
-             for match in [re.fullmatch(prefix + r"_(\d{1,9})", child.tag)] if match]
+    found = [
+        (int(match.group(1)), child)
+        for child in (parent if parent is not None else ())
+        for match in [re.fullmatch(prefix + r"_(\d{1,9})", child.tag)]
+        if match
+    ]
     return [child for _, child in sorted(found, key=lambda pair: pair[0])]
 
 
@@ -285,6 +292,7 @@ def _parse(text: str, default, bounds):
 
 
 # Writing
+
 
 def write(table: Table) -> str:
     """The text of a file."""

@@ -1,4 +1,5 @@
 """The window in which one curve is configured."""
+
 from __future__ import annotations
 
 from typing import List, Optional
@@ -7,13 +8,27 @@ import roslib.message
 import roslib.msgs
 from python_qt_binding.QtCore import QStringListModel, Qt
 from python_qt_binding.QtGui import QColor
-from python_qt_binding.QtWidgets import (QCheckBox, QColorDialog, QComboBox, QCompleter, QDialog, QDialogButtonBox, QDoubleSpinBox,
-                                         QFormLayout, QGridLayout, QGroupBox, QHBoxLayout, QLabel, QLineEdit, QPushButton,
-                                         QSpinBox, QVBoxLayout)
+from python_qt_binding.QtWidgets import (
+    QCheckBox,
+    QColorDialog,
+    QComboBox,
+    QCompleter,
+    QDialog,
+    QDialogButtonBox,
+    QDoubleSpinBox,
+    QFormLayout,
+    QGridLayout,
+    QGroupBox,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QSpinBox,
+    QVBoxLayout,
+)
 from rqt_plot.fields import FieldError, slot_of
 
-from rqt_multiplot.config import (ColorType, Curve, CurveAxis, DataType, FieldType, Orientation, PenStyle, ScaleType, StyleType,
-                                  copied)
+from rqt_multiplot.config import ColorType, Curve, CurveAxis, DataType, FieldType, Orientation, PenStyle, ScaleType, StyleType, copied
 
 _PREFIXES = {ScaleType.ABSOLUTE: "absolute", ScaleType.RELATIVE: "relative"}
 _DEEPEST = 8  # messages within messages that the list of fields goes into
@@ -78,8 +93,14 @@ class AxisBox(QGroupBox):
         for widget in (self.scale, QLabel("from"), self.low, QLabel("to"), self.high):
             limits.addWidget(widget)
         form = QFormLayout(self)
-        for label, item in (("Topic", self.topic), ("Type", self.type), ("Field", self.field), ("", self.receipt),
-                            ("Scale", limits), ("", self.reason)):
+        for label, item in (
+            ("Topic", self.topic),
+            ("Type", self.type),
+            ("Field", self.field),
+            ("", self.receipt),
+            ("Scale", limits),
+            ("", self.reason),
+        ):
             form.addRow(label, item)
         self.topic.currentTextChanged.connect(self._topic_changed)
         self.type.textChanged.connect(lambda _text: self._type_changed())
@@ -191,8 +212,11 @@ class CurveDialog(QDialog):
 
     def _axis_buttons(self) -> QHBoxLayout:
         row = QHBoxLayout()
-        for text, action in (("Copy X to Y", lambda: self.y.show_axis(self.x.result())),
-                             ("Copy Y to X", lambda: self.x.show_axis(self.y.result())), ("Swap axes", self._swap)):
+        for text, action in (
+            ("Copy X to Y", lambda: self.y.show_axis(self.x.result())),
+            ("Copy Y to X", lambda: self.x.show_axis(self.y.result())),
+            ("Swap axes", self._swap),
+        ):
             button = QPushButton(text)
             button.setAutoDefault(False)
             button.clicked.connect(lambda _checked=False, action=action: action())
@@ -236,8 +260,12 @@ class CurveDialog(QDialog):
 
         self.data.currentIndexChanged.connect(lambda _index: enable())
         enable()
-        for label, widget in (("Kept as", self.data), ("Capacity", self.capacity), ("Time frame", self.frame),
-                              ("Subscriber queue", self.queue)):
+        for label, widget in (
+            ("Kept as", self.data),
+            ("Capacity", self.capacity),
+            ("Time frame", self.frame),
+            ("Subscriber queue", self.queue),
+        ):
             form.addRow(label, widget)
         return box
 
@@ -253,9 +281,16 @@ class CurveDialog(QDialog):
         self.pen_width = QSpinBox()
         self.pen_width.setRange(0, 100)
         self.pen_width.setValue(style.pen_width)
-        for label, widget in (("Type", self.style_type), ("Lines", self.interpolate), ("Sticks", self.orientation),
-                              ("Baseline", self.baseline), ("Steps", self.invert), ("Pen", self.pen_style),
-                              ("Pen width", self.pen_width), ("Render", self.antialias)):
+        for label, widget in (
+            ("Type", self.style_type),
+            ("Lines", self.interpolate),
+            ("Sticks", self.orientation),
+            ("Baseline", self.baseline),
+            ("Steps", self.invert),
+            ("Pen", self.pen_style),
+            ("Pen width", self.pen_width),
+            ("Render", self.antialias),
+        ):
             form.addRow(label, widget)
         return box
 

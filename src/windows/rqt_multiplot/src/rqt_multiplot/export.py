@@ -1,4 +1,5 @@
 """Plots to files: a picture, or a table of numbers."""
+
 from __future__ import annotations
 
 from itertools import zip_longest
@@ -35,8 +36,12 @@ def _draw(painter: QPainter, cell: QRectF, panel) -> None:
     painter.fillRect(cell, background)
     painter.setPen(foreground)
     painter.drawText(QRectF(cell.x(), cell.y(), cell.width(), title), panel.plot.title, QTextOption(Qt.AlignmentFlag.AlignCenter))
-    panel.view.render(painter, QRectF(cell.x(), cell.y() + title, cell.width(), cell.height() - title), panel.view.rect(),
-                      Qt.AspectRatioMode.IgnoreAspectRatio)
+    panel.view.render(
+        painter,
+        QRectF(cell.x(), cell.y() + title, cell.width(), cell.height() - title),
+        panel.view.rect(),
+        Qt.AspectRatioMode.IgnoreAspectRatio,
+    )
 
 
 def write_text(name: str, panels: List[PlotPanel]) -> None:

@@ -1,9 +1,10 @@
 """One plot of the table with its bar: run, pause, clear, export, configure, maximise."""
+
 from __future__ import annotations
 
 from typing import List, Optional, Tuple
 
-from python_qt_binding.QtCore import QTimer, Qt, Signal, qWarning
+from python_qt_binding.QtCore import Qt, QTimer, Signal, qWarning
 from python_qt_binding.QtGui import QColor, QIcon
 from python_qt_binding.QtWidgets import QFileDialog, QHBoxLayout, QLineEdit, QMenu, QToolButton, QVBoxLayout, QWidget
 
@@ -251,8 +252,10 @@ class PlotPanel(QWidget):
         self.changed.emit()
 
     def _export(self, kind: str) -> None:
-        suggestion, pattern = {"image": ("rqt_multiplot.png", "Portable Network Graphics (*.png)"),
-                               "text": ("rqt_multiplot.txt", "Text (*.txt)")}[kind]
+        suggestion, pattern = {
+            "image": ("rqt_multiplot.png", "Portable Network Graphics (*.png)"),
+            "text": ("rqt_multiplot.txt", "Text (*.txt)"),
+        }[kind]
         name, _ = QFileDialog.getSaveFileName(self, f"Export to {kind} file", suggestion, pattern)
         if name:
             try:

@@ -1,12 +1,24 @@
 """The windows in which a plot and its curves are configured. They change a copy; OK hands it over."""
+
 from __future__ import annotations
 
 from typing import List, Optional
 
 from python_qt_binding.QtCore import QMimeData, Qt
 from python_qt_binding.QtGui import QDrag, QGuiApplication
-from python_qt_binding.QtWidgets import (QAbstractItemView, QCheckBox, QDialog, QDialogButtonBox, QDoubleSpinBox, QFormLayout,
-                                         QHBoxLayout, QLineEdit, QListWidget, QPushButton, QVBoxLayout)
+from python_qt_binding.QtWidgets import (
+    QAbstractItemView,
+    QCheckBox,
+    QDialog,
+    QDialogButtonBox,
+    QDoubleSpinBox,
+    QFormLayout,
+    QHBoxLayout,
+    QLineEdit,
+    QListWidget,
+    QPushButton,
+    QVBoxLayout,
+)
 
 from rqt_multiplot.config import ConfigError, Curve, Plot, PlotAxis, TitleType, copied, read_curve, write_curve
 from rqt_multiplot.curve_dialog import CurveDialog
@@ -99,9 +111,13 @@ class PlotDialog(QDialog):
 
     def _curve_row(self) -> QHBoxLayout:
         row, column = QHBoxLayout(), QVBoxLayout()
-        for text, tip, action in (("Add...", "A new curve", self.add_curve), ("Edit...", "The selected curve", self.edit_curve),
-                                  ("Remove", "The selected curves", self.remove_curves),
-                                  ("Copy", "To the clipboard", self.copy_curve), ("Paste", "From the clipboard", self.paste_curve)):
+        for text, tip, action in (
+            ("Add...", "A new curve", self.add_curve),
+            ("Edit...", "The selected curve", self.edit_curve),
+            ("Remove", "The selected curves", self.remove_curves),
+            ("Copy", "To the clipboard", self.copy_curve),
+            ("Paste", "From the clipboard", self.paste_curve),
+        ):
             button = QPushButton(text)
             button.setObjectName(text.strip(".").lower() + "_curve")
             button.setToolTip(tip)

@@ -1,4 +1,5 @@
 """One plot drawn by pyqtgraph: axes that can show times, the mouse, the cursor. It knows no ROS."""
+
 from __future__ import annotations
 
 import math
@@ -38,8 +39,10 @@ class Axis(pg.AxisItem):
         return time.strftime(" [s since %Y-%m-%d %H:%M:%S]", time.localtime(self.offset)) if self.offset else ""
 
     def tickValues(self, low, high, size):
-        return [(step, [value + self.offset for value in values])
-                for step, values in super().tickValues(low - self.offset, high - self.offset, size)]
+        return [
+            (step, [value + self.offset for value in values])
+            for step, values in super().tickValues(low - self.offset, high - self.offset, size)
+        ]
 
     def tickStrings(self, values, scale, spacing):
         return super().tickStrings([value - self.offset for value in values], scale, spacing)
@@ -154,11 +157,16 @@ class PlotView(pg.PlotWidget):
             color = QColor(*automatic_color(index)) if curve.color.type == ColorType.AUTO else QColor(curve.color.custom_color)
             pen = pg.mkPen(color, width=curve.style.pen_width, style=Qt.PenStyle(int(curve.style.pen_style)))
             if curve.style.type == StyleType.POINTS:
-                item = pg.ScatterPlotItem(pen=None, brush=color, size=curve.style.pen_width + 2,
-                                          antialias=curve.style.render_antialias, name=curve.title)
+                item = pg.ScatterPlotItem(
+                    pen=None, brush=color, size=curve.style.pen_width + 2, antialias=curve.style.render_antialias, name=curve.title
+                )
             else:
-                item = pg.PlotCurveItem(pen=pen, antialias=curve.style.render_antialias, name=curve.title,
-                                        connect="pairs" if curve.style.type == StyleType.STICKS else "finite")
+                item = pg.PlotCurveItem(
+                    pen=pen,
+                    antialias=curve.style.render_antialias,
+                    name=curve.title,
+                    connect="pairs" if curve.style.type == StyleType.STICKS else "finite",
+                )
             self.plotItem.addItem(item)
             self._items.append(item)
             self._colors.append(color)
@@ -214,9 +222,7 @@ class PlotView(pg.PlotWidget):
         tracked = {}
         if place is not None and self.track_points:
             tracked = {
-                name: point
-                for name, point in ((name, points.nearest(place[0])) for name, points in (curves or {}).items())
-                if point
+                name: point for name, point in ((name, points.nearest(place[0])) for name, points in (curves or {}).items()) if point
             }
         for item in (*self._lines, self._label):
             item.setVisible(place is not None)
@@ -231,8 +237,9 @@ class PlotView(pg.PlotWidget):
         if tracked:
             points = list(tracked.values())
             self._tracked.setData([p[0] for p in points], [p[1] for p in points], brush=self._foreground)
-            self._track_label.setText("\n".join(
-                f"{name}: {x - self.x_axis.offset:.6g}, {y - self.y_axis.offset:.6g}" for name, (x, y) in tracked.items()))
+            self._track_label.setText(
+                "\n".join(f"{name}: {x - self.x_axis.offset:.6g}, {y - self.y_axis.offset:.6g}" for name, (x, y) in tracked.items())
+            )
             self._track_label.setPos(*place)
 
 
@@ -258,7 +265,6 @@ def smooth(x: np.ndarray, y: np.ndarray, pieces: int = 8) -> Tuple[np.ndarray, n
     for values in (x, y):
         slope = np.gradient(values)
         a, b, ma, mb = (part[:, None] for part in (values[:-1], values[1:], slope[:-1], slope[1:]))
-        curve = ((2 * t ** 3 - 3 * t ** 2 + 1) * a + (t ** 3 - 2 * t ** 2 + t) * ma
-                 + (-2 * t ** 3 + 3 * t ** 2) * b + (t ** 3 - t ** 2) * mb)
+        curve = (2 * t**3 - 3 * t**2 + 1) * a + (t**3 - 2 * t**2 + t) * ma + (-2 * t**3 + 3 * t**2) * b + (t**3 - t**2) * mb
         result.append(np.append(curve.ravel(), values[-1]))
     return result[0], result[1]

@@ -1,4 +1,5 @@
 """The plugin Multiplot of rqt."""
+
 from __future__ import annotations
 
 import argparse
@@ -42,8 +43,9 @@ class MultiplotPlugin(Plugin):
         group = parser.add_argument_group("Options for rqt_multiplot plugin")
         group.add_argument("-c", "--multiplot-config", default="", metavar="URL", help="Load an xml plot configuration")
         group.add_argument("-r", "--multiplot-run-all", action="store_true", help="Run all plots on startup")
-        group.add_argument("--multiplot-bag", default="", metavar="FILE",
-                           help="Show the messages of a bag in the plots of the configuration")
+        group.add_argument(
+            "--multiplot-bag", default="", metavar="FILE", help="Show the messages of a bag in the plots of the configuration"
+        )
 
     def _set_title(self, title: str) -> None:
         self._widget.setWindowTitle(title + (f" ({self._number})" if self._number > 1 else ""))

@@ -1,4 +1,5 @@
 """The points that a curve keeps, and the few of them that a picture needs. NumPy alone."""
+
 from __future__ import annotations
 
 from typing import Optional, Tuple
@@ -33,7 +34,7 @@ class Points(Series):
             jumps = np.flatnonzero(steps < -_CLOCK_SET_BACK)
             if len(jumps):
                 self.clear()
-                new = new[jumps[-1]:]
+                new = new[jumps[-1] :]
         if len(new):
             before = self.x[-1] if len(self) else -np.inf
             self.ascending = self.ascending and bool(new[0, 0] >= before) and not np.any(np.diff(new[:, 0]) < 0)
@@ -61,8 +62,9 @@ class Points(Series):
             return self.x.copy(), self.y.copy()
         # A path that runs anywhere: of consecutive points in one pixel the first is enough.
         with np.errstate(invalid="ignore"):
-            pixel = (np.floor((self.x - x_range[0]) * (columns / ((x_range[1] - x_range[0]) or 1.0))) * (4 * rows)
-                     + np.floor((self.y - y_range[0]) * (rows / ((y_range[1] - y_range[0]) or 1.0))))
+            pixel = np.floor((self.x - x_range[0]) * (columns / ((x_range[1] - x_range[0]) or 1.0))) * (4 * rows) + np.floor(
+                (self.y - y_range[0]) * (rows / ((y_range[1] - y_range[0]) or 1.0))
+            )
         keep = np.concatenate(([True], pixel[1:] != pixel[:-1]))
         return self.x[keep], self.y[keep]
 

@@ -1,4 +1,5 @@
 """Points of a curve from messages. No node in here: messages come from topics or bags alike."""
+
 from __future__ import annotations
 
 import threading

@@ -1,4 +1,5 @@
 """Where messages come from: topics, one subscription for all curves of a topic, or a bag file."""
+
 from __future__ import annotations
 
 import threading
@@ -35,7 +36,8 @@ class Topics:
             if fresh:
                 queue_size = sampler.curve.subscriber_queue_size or None
                 self._subscribers[topic] = rospy.Subscriber(
-                    topic, rospy.AnyMsg, lambda raw, topic=topic: self._receive(topic, raw), queue_size=queue_size)
+                    topic, rospy.AnyMsg, lambda raw, topic=topic: self._receive(topic, raw), queue_size=queue_size
+                )
 
     def remove(self, sampler: Sampler) -> None:
         """Feed it no longer; the last sampler of a topic takes the subscription along."""

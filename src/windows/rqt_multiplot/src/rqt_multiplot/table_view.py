@@ -1,4 +1,5 @@
 """The plots of a table, side by side; what links them."""
+
 from __future__ import annotations
 
 import threading

@@ -1,4 +1,5 @@
 """Where configurations are: plain names, ``file:///...``, ``home://...`` (below the home folder), ``package://NAME/...``."""
+
 from __future__ import annotations
 
 import os

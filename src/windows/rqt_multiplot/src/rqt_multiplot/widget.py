@@ -1,12 +1,25 @@
 """The window: which configuration, the bar of the table, the table."""
+
 from __future__ import annotations
 
 from pathlib import Path
 from typing import List, Optional
 
 from python_qt_binding.QtCore import QSize, Signal, qWarning
-from python_qt_binding.QtWidgets import (QCheckBox, QComboBox, QFileDialog, QHBoxLayout, QLabel, QMenu, QMessageBox, QProgressBar,
-                                         QSpinBox, QToolButton, QVBoxLayout, QWidget)
+from python_qt_binding.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QFileDialog,
+    QHBoxLayout,
+    QLabel,
+    QMenu,
+    QMessageBox,
+    QProgressBar,
+    QSpinBox,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 from rqt_multiplot.config import ConfigError, Table, read, write
 from rqt_multiplot.curve_dialog import ColorButton
@@ -50,10 +63,11 @@ class MultiplotWidget(QWidget):
         config_bar.addWidget(QLabel("Config"))
         config_bar.addWidget(self.history, 1)
         for name, icon, text, tip, action in (
-                ("new", "document-new", "New", "New configuration", self.new),
-                ("open", "document-open", "Open", "Open configuration", self.ask_open),
-                ("save", "document-save", "Save", "Save configuration", self.save),
-                ("save_as", "document-save-as", "Save as", "Save configuration as", self.ask_save_as)):
+            ("new", "document-new", "New", "New configuration", self.new),
+            ("open", "document-open", "Open", "Open configuration", self.ask_open),
+            ("save", "document-save", "Save", "Save configuration", self.save),
+            ("save_as", "document-save-as", "Save as", "Save configuration as", self.ask_save_as),
+        ):
             button = tool_button(name, icon, text, tip)
             button.clicked.connect(lambda _checked=False, action=action: action())
             config_bar.addWidget(button)
@@ -93,15 +107,19 @@ class MultiplotWidget(QWidget):
             bar.addWidget(box)
         bar.addStretch()
         for name, icon, text, tip, action in (
-                ("run_all", "media-playback-start", "Run", "Run all plots", self.view.run_all),
-                ("pause_all", "media-playback-pause", "Pause", "Pause all plots", self.view.pause_all),
-                ("clear_all", "edit-clear", "Clear", "Clear all plots", self.view.clear_all)):
+            ("run_all", "media-playback-start", "Run", "Run all plots", self.view.run_all),
+            ("pause_all", "media-playback-pause", "Pause", "Pause all plots", self.view.pause_all),
+            ("clear_all", "edit-clear", "Clear", "Clear all plots", self.view.clear_all),
+        ):
             button = tool_button(name, icon, text, tip)
             button.clicked.connect(lambda _checked=False, action=action: action())
             bar.addWidget(button)
         menu = QMenu(self)
-        for text, action in (("Import from bag file...", self.ask_bag), ("Export to image file...", self.ask_image),
-                             ("Export to text file...", self.ask_text)):
+        for text, action in (
+            ("Import from bag file...", self.ask_bag),
+            ("Export to image file...", self.ask_image),
+            ("Export to text file...", self.ask_text),
+        ):
             menu.addAction(text).triggered.connect(lambda _checked=False, action=action: action())
         files = tool_button("files", "document-save-as", "Import/Export", "Import from bag file, export to image or text")
         files.setText("Import/Export")
@@ -162,8 +180,9 @@ class MultiplotWidget(QWidget):
         if not self.modified:
             return True
         button = QMessageBox.StandardButton
-        answer = QMessageBox.question(self, "rqt_multiplot", "The configuration has been changed. Save it?",
-                                      button.Save | button.Discard | button.Cancel, button.Save)
+        answer = QMessageBox.question(
+            self, "rqt_multiplot", "The configuration has been changed. Save it?", button.Save | button.Discard | button.Cancel, button.Save
+        )
         return self.save() if answer == button.Save else answer == button.Discard
 
     def unsaved(self) -> str:

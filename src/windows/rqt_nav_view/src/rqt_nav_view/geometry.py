@@ -1,4 +1,5 @@
 """Messages of navigation to arrays and pictures. No Qt and no node in here."""
+
 from __future__ import annotations
 
 import math
@@ -39,8 +40,12 @@ def transformed(points: np.ndarray, transform) -> np.ndarray:
     """(n, 2) points of a frame in the frame above it. :param points: (n, 3), m. :param transform: geometry_msgs/Transform"""
     q, t = transform.rotation, transform.translation
     x, y, z, w = q.x, q.y, q.z, q.w
-    rotation = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                         [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)]])
+    rotation = np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        ]
+    )
     return points @ rotation.T + np.array([t.x, t.y])
 
 

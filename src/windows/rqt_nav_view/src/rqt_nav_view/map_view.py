@@ -1,4 +1,5 @@
 """The picture: a map, what is drawn on it, and the mouse that sets poses."""
+
 from __future__ import annotations
 
 import math
@@ -15,8 +16,9 @@ from python_qt_binding.QtWidgets import QGraphicsScene, QGraphicsView
 
 from rqt_nav_view.geometry import MapError, map_pixels, points_of, quaternion_of, transformed, yaw
 
-_COLORS = [QColor(*rgb) for rgb in ((238, 34, 116), (68, 134, 252), (200, 180, 20), (60, 180, 18), (242, 156, 6), (240, 64, 10),
-                                    (196, 30, 250))]
+_COLORS = [
+    QColor(*rgb) for rgb in ((238, 34, 116), (68, 134, 252), (200, 180, 20), (60, 180, 18), (242, 156, 6), (240, 64, 10), (196, 30, 250))
+]
 #: variances of the pose that is set: x, y in m^2, yaw in rad^2
 _COVARIANCE = {0: 0.25, 7: 0.25, 35: 0.06853891945200942}
 
@@ -53,12 +55,12 @@ class NavView(QGraphicsView):
         self._failed.connect(self._tell)
         self._publishers = {
             "pose": rospy.Publisher("/initialpose", PoseWithCovarianceStamped, queue_size=100),
-            "goal": rospy.Publisher("/move_base_simple/goal", PoseStamped, queue_size=100)}
+            "goal": rospy.Publisher("/move_base_simple/goal", PoseStamped, queue_size=100),
+        }
         self._subscribers = [rospy.Subscriber(map_topic, OccupancyGrid, self.map_cb)]
         for name, kind in [(name, Path) for name in paths] + [(name, PolygonStamped) for name in polygons]:
             self._lines[name] = None
-            self._subscribers.append(rospy.Subscriber(
-                name, kind, lambda message, name=name: self.line_cb(name, message), queue_size=1))
+            self._subscribers.append(rospy.Subscriber(name, kind, lambda message, name=name: self.line_cb(name, message), queue_size=1))
         self._colors = {name: _COLORS[number % len(_COLORS)] for number, name in enumerate(self._lines)}
 
     def shutdown(self) -> None:
@@ -96,8 +98,9 @@ class NavView(QGraphicsView):
         first = self._map_item is None
         if not first:
             self._scene.removeItem(self._map_item)
-        image = QImage(np.ascontiguousarray(pixels).data, pixels.shape[1], pixels.shape[0], pixels.shape[1],
-                       QImage.Format.Format_Grayscale8)
+        image = QImage(
+            np.ascontiguousarray(pixels).data, pixels.shape[1], pixels.shape[0], pixels.shape[1], QImage.Format.Format_Grayscale8
+        )
         self._map_item = self._scene.addPixmap(QPixmap.fromImage(image))
         origin, resolution = message.info.origin, message.info.resolution
         self._map_item.setZValue(-1)
@@ -154,10 +157,21 @@ class NavView(QGraphicsView):
         end = self.mapToScene(event.pos())
         angle = math.atan2(end.y() - self._pressed.y(), end.x() - self._pressed.x())
         length = 40 / abs(self.transform().m11() or 1.0)
-        tip = [(length, 0), (0.6 * length, 0.2 * length), (0.6 * length, 0.05 * length), (0, 0.05 * length), (0, -0.05 * length),
-               (0.6 * length, -0.05 * length), (0.6 * length, -0.2 * length)]
-        corners = [QPointF(self._pressed.x() + x * math.cos(angle) - y * math.sin(angle),
-                           self._pressed.y() + x * math.sin(angle) + y * math.cos(angle)) for x, y in tip]
+        tip = [
+            (length, 0),
+            (0.6 * length, 0.2 * length),
+            (0.6 * length, 0.05 * length),
+            (0, 0.05 * length),
+            (0, -0.05 * length),
+            (0.6 * length, -0.05 * length),
+            (0.6 * length, -0.2 * length),
+        ]
+        corners = [
+            QPointF(
+                self._pressed.x() + x * math.cos(angle) - y * math.sin(angle), self._pressed.y() + x * math.sin(angle) + y * math.cos(angle)
+            )
+            for x, y in tip
+        ]
         self._arrow = self._scene.addPolygon(QPolygonF(corners), QPen(Qt.PenStyle.NoPen), QColor("red"))
 
     def _remove_arrow(self) -> None:

@@ -1,4 +1,5 @@
 """The picture with its buttons, and the dialog of its topics."""
+
 from __future__ import annotations
 
 import threading
@@ -7,8 +8,18 @@ from typing import Dict, List, Optional, Sequence
 import rosgraph
 import tf2_ros
 from python_qt_binding.QtCore import Qt, Signal, qWarning
-from python_qt_binding.QtWidgets import (QComboBox, QDialog, QDialogButtonBox, QFormLayout, QHBoxLayout, QListWidget, QListWidgetItem,
-                                         QPushButton, QVBoxLayout, QWidget)
+from python_qt_binding.QtWidgets import (
+    QComboBox,
+    QDialog,
+    QDialogButtonBox,
+    QFormLayout,
+    QHBoxLayout,
+    QListWidget,
+    QListWidgetItem,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
 from rqt_py_common.ini_helper import pack, unpack
 
 from rqt_nav_view.map_view import NavView
@@ -62,8 +73,10 @@ class NavViewWidget(QWidget):
         self._listener = tf2_ros.TransformListener(self._tf)
         self.view: Optional[NavView] = None
         buttons = QHBoxLayout()
-        for name, text, action in (("set_pose", "Set Pose", lambda: self.view and self.view.pose_mode()),
-                                   ("set_goal", "Set Goal", lambda: self.view and self.view.goal_mode())):
+        for name, text, action in (
+            ("set_pose", "Set Pose", lambda: self.view and self.view.pose_mode()),
+            ("set_goal", "Set Goal", lambda: self.view and self.view.goal_mode()),
+        ):
             button = QPushButton(text)
             button.setObjectName(name)
             button.setToolTip("Press the mouse at the place, drag towards the heading")
@@ -84,6 +97,7 @@ class NavViewWidget(QWidget):
 
     def ask_topics(self) -> None:
         """Ask which topics are to be shown."""
+
         def look() -> None:
             found: Dict[str, List[str]] = {"map": [], "paths": [], "polygons": []}
             try:
@@ -114,8 +128,11 @@ class NavViewWidget(QWidget):
 
     def restore_settings(self, plugin_settings, instance_settings) -> None:
         if instance_settings.contains("map_topic"):
-            self.show_topics(str(instance_settings.value("map_topic")), list(unpack(instance_settings.value("paths", [])) or []),
-                             list(unpack(instance_settings.value("polygons", [])) or []))
+            self.show_topics(
+                str(instance_settings.value("map_topic")),
+                list(unpack(instance_settings.value("paths", [])) or []),
+                list(unpack(instance_settings.value("polygons", [])) or []),
+            )
 
     def shutdown(self) -> None:
         """Let go of topics; the widget is of no use afterwards."""

@@ -1,4 +1,5 @@
 """The plugin Navigation Viewer of rqt."""
+
 from rqt_gui_py.plugin import Plugin
 
 from rqt_nav_view.nav_view import NavViewWidget

@@ -2,6 +2,7 @@
 
 A *field path* is what follows the topic: steps separated by ``/``; an index is ``[0]`` behind a step, or a step of digits.
 """
+
 from __future__ import annotations
 
 import re
@@ -104,8 +105,11 @@ def number_paths(message_class, path: str = "") -> Tuple[List[str], str]:
     owner = roslib.message.get_message_class(slot.type)
     if owner is None:
         return [], f"has the type {slot.type}, which is not built here"
-    plain = [name for name, kind in zip(owner.__slots__, owner._slot_types)
-             if kind in _FLOATS or kind in _INTEGERS or (kind == "bool" and len(owner.__slots__) == 1)]
+    plain = [
+        name
+        for name, kind in zip(owner.__slots__, owner._slot_types)
+        if kind in _FLOATS or kind in _INTEGERS or (kind == "bool" and len(owner.__slots__) == 1)
+    ]
     return [f"{path}/{name}" for name in plain], f"has {len(plain) or 'no'} plottable fields"
 
 
@@ -127,6 +131,7 @@ def getter(path: str) -> Callable[[object], float]:
         if isinstance(value, bytes):  # an element of char[] or uint8[] would be an int; the whole of it is no number
             raise TypeError(f"{path} is an array")
         return value.to_sec() if isinstance(value, genpy.TVal) else float(value)
+
     return number
 
 
@@ -137,7 +142,7 @@ def split_topic(name: str, types: Dict[str, str]) -> Tuple[Optional[str], str]:
     """
     fitting = [topic for topic in types if name == topic or name.startswith((topic + "/", topic + "["))]
     topic = max(fitting, key=len, default=None)
-    return (None, "") if topic is None else (topic, name[len(topic):])
+    return (None, "") if topic is None else (topic, name[len(topic) :])
 
 
 def expand(name: str, types: Dict[str, str]) -> Tuple[Optional[List[str]], str]:
@@ -166,5 +171,5 @@ def split_arguments(arguments: Iterable[str]) -> List[str]:
         first, *others = part.split(":")
         if others and "/" not in first:
             raise FieldError(f"{part} must contain a topic and field name")
-        names += [first] + [f"{first[:first.rfind('/')]}/{other}" for other in others if other]
+        names += [first] + [f"{first[: first.rfind('/')]}/{other}" for other in others if other]
     return names

@@ -1,4 +1,5 @@
 """The plugin Plot of rqt."""
+
 from __future__ import annotations
 
 import argparse
@@ -42,8 +43,7 @@ class Plot(Plugin):
     def add_arguments(parser) -> None:
         group = parser.add_argument_group("Options for rqt_plot plugin")
         group.add_argument("-P", "--pause", action="store_true", dest="start_paused", help="Start in paused state")
-        group.add_argument("-e", "--empty", action="store_true", dest="start_empty",
-                           help="Start without restoring previous topics")
+        group.add_argument("-e", "--empty", action="store_true", dest="start_empty", help="Start without restoring previous topics")
         group.add_argument("topics", nargs="*", default=[], help="Topics to plot, as /odom/twist/twist/linear/x:y")
 
     def _update_title(self) -> None:

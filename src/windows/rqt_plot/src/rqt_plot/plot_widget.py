@@ -1,4 +1,5 @@
 """The plot with its tool bar: which topics, pause, autoscroll, clear."""
+
 from __future__ import annotations
 
 import time
@@ -7,8 +8,7 @@ from typing import Any, Dict, List, Optional, Tuple
 import rospy
 from python_qt_binding.QtCore import Qt, QTimer, Slot, qWarning
 from python_qt_binding.QtGui import QIcon
-from python_qt_binding.QtWidgets import (QCheckBox, QHBoxLayout, QLabel, QLineEdit, QMenu, QPushButton, QToolButton, QVBoxLayout,
-                                         QWidget)
+from python_qt_binding.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QLineEdit, QMenu, QPushButton, QToolButton, QVBoxLayout, QWidget
 from rqt_py_common.topic_completer import TopicCompleter
 
 from rqt_plot.fields import FieldError, expand, parse_path

@@ -1,4 +1,5 @@
 """Numbers of topics as they arrive. `ROSData` is a curve's source; `TopicTypes` knows which topics there are."""
+
 from __future__ import annotations
 
 import socket

@@ -1,4 +1,5 @@
 """A growing curve that forgets its beginning, and its reduction to what a screen can show. NumPy alone."""
+
 from __future__ import annotations
 
 from typing import Optional, Tuple
@@ -33,12 +34,12 @@ class Series:
     @property
     def x(self) -> np.ndarray:
         """(n,) view, valid until the next change."""
-        return self._data[0, self._begin:self._end]
+        return self._data[0, self._begin : self._end]
 
     @property
     def y(self) -> np.ndarray:
         """(n,) view, valid until the next change."""
-        return self._data[1, self._begin:self._end]
+        return self._data[1, self._begin : self._end]
 
     def extend(self, x, y, sort: bool = True) -> None:
         """Append samples; with ``sort``, what is older than the newest one goes to its place.
@@ -50,16 +51,15 @@ class Series:
             raise ValueError(f"{len(x)} values of x, {len(y)} of y")
         if self.capacity is not None and len(x) > self.capacity and not sort:
             self.dropped += len(x) - self.capacity
-            x, y = x[-self.capacity:], y[-self.capacity:]
+            x, y = x[-self.capacity :], y[-self.capacity :]
         self._make_room(len(x))
-        ordered = not sort or len(x) == 0 or (
-            (len(self) == 0 or not x[0] < self._data[0, self._end - 1]) and not np.any(x[1:] < x[:-1]))
-        self._data[0, self._end:self._end + len(x)] = x
-        self._data[1, self._end:self._end + len(x)] = y
+        ordered = not sort or len(x) == 0 or ((len(self) == 0 or not x[0] < self._data[0, self._end - 1]) and not np.any(x[1:] < x[:-1]))
+        self._data[0, self._end : self._end + len(x)] = x
+        self._data[1, self._end : self._end + len(x)] = y
         self._end += len(x)
         if not ordered:
             order = np.argsort(self.x, kind="stable")
-            self._data[:, self._begin:self._end] = self._data[:, self._begin:self._end][:, order]
+            self._data[:, self._begin : self._end] = self._data[:, self._begin : self._end][:, order]
         if self.capacity is not None:
             self._drop(max(0, len(self) - self.capacity))
 
@@ -81,8 +81,7 @@ class Series:
         if self.capacity is not None:
             wanted = min(wanted, self.capacity + self.capacity // 4 + count)
         target = self._data if kept + count <= 0.85 * size else np.empty((2, max(wanted, kept + count)))
-        target[:, :kept] = self._data[:, self._begin:self._end].copy() if target is self._data else \
-            self._data[:, self._begin:self._end]
+        target[:, :kept] = self._data[:, self._begin : self._end].copy() if target is self._data else self._data[:, self._begin : self._end]
         self._data, self._begin, self._end = target, 0, kept
 
 
@@ -112,7 +111,7 @@ def decimate(x: np.ndarray, y: np.ndarray, columns: int, offset: int = 0) -> Tup
     out[0, 0::2], out[0, 1::2] = grouped_x[:, 0], grouped_x[:, -1]
     np.fmin.reduce(grouped, axis=1, out=out[1, 0::2])
     np.fmax.reduce(grouped, axis=1, out=out[1, 1::2])
-    return (np.concatenate((x[:head], out[0], x[middle.stop:])), np.concatenate((y[:head], out[1], y[middle.stop:])))
+    return (np.concatenate((x[:head], out[0], x[middle.stop :])), np.concatenate((y[:head], out[1], y[middle.stop :])))
 
 
 def limits(values: np.ndarray) -> Optional[Tuple[float, float]]:

@@ -1,4 +1,5 @@
 """The plugin Pose View of rqt."""
+
 from __future__ import annotations
 
 import math

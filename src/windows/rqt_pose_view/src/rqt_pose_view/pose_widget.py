@@ -1,4 +1,5 @@
 """Draws the box, and turns the view with the mouse. It knows no ROS."""
+
 from __future__ import annotations
 
 from typing import Optional

@@ -1,4 +1,5 @@
 """Where a message holds a pose, and the projection of a box that is turned by it. No Qt and no node in here."""
+
 from __future__ import annotations
 
 import math
@@ -33,10 +34,12 @@ def quaternion_path(message_class, wanted: str = "geometry_msgs/Quaternion") -> 
 
 def reader(path: List[str]) -> Callable:
     """Reads (x, y, z, w) out of a message."""
+
     def read(message) -> Tuple[float, float, float, float]:
         for name in path:
             message = getattr(message, name)
         return message.x, message.y, message.z, message.w
+
     return read
 
 
@@ -47,14 +50,24 @@ def rotation(quaternion) -> Optional[np.ndarray]:
     if not (math.isfinite(length) and length > 1e-9):
         return None
     x, y, z, w = x / length, y / length, z / length, w / length
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
 
 
 #: faces of a box: normal in its own frame, colour; +x red, +y green, +z blue, the others paler
-FACES = (((1, 0, 0), (230, 40, 40)), ((-1, 0, 0), (255, 150, 150)), ((0, 1, 0), (40, 180, 40)), ((0, -1, 0), (150, 230, 150)),
-         ((0, 0, 1), (50, 80, 240)), ((0, 0, -1), (150, 165, 255)))
+FACES = (
+    ((1, 0, 0), (230, 40, 40)),
+    ((-1, 0, 0), (255, 150, 150)),
+    ((0, 1, 0), (40, 180, 40)),
+    ((0, -1, 0), (150, 230, 150)),
+    ((0, 0, 1), (50, 80, 240)),
+    ((0, 0, -1), (150, 165, 255)),
+)
 BOX = np.array([1.4, 1.0, 0.6])  #: half lengths along x, y and z: each is told from the others
 
 

@@ -1,4 +1,5 @@
 """The plugin: publishers with a rate each, whose fields are expressions."""
+
 import ast
 import math
 from typing import List, Optional
@@ -129,9 +130,15 @@ class Publisher(Plugin):
             entry.close()
 
     def save_settings(self, plugin_settings, instance_settings) -> None:
-        instance_settings.set_value("publishers", repr([
-            {"topic_name": entry.topic, "type_name": entry.type_name, "rate": entry.rate, "expressions": entry.template.state()}
-            for entry in self.entries]))
+        instance_settings.set_value(
+            "publishers",
+            repr(
+                [
+                    {"topic_name": entry.topic, "type_name": entry.type_name, "rate": entry.rate, "expressions": entry.template.state()}
+                    for entry in self.entries
+                ]
+            ),
+        )
 
     def restore_settings(self, plugin_settings, instance_settings) -> None:
         """All publishers come back disabled: opening a window shall move nothing."""

@@ -1,8 +1,18 @@
 """What is seen of the publishers."""
+
 from python_qt_binding.QtCore import QSize, Qt, Signal
 from python_qt_binding.QtGui import QIcon
-from python_qt_binding.QtWidgets import (QComboBox, QHBoxLayout, QLabel, QMenu, QPushButton, QSizePolicy, QTreeWidgetItem, QVBoxLayout,
-                                         QWidget)
+from python_qt_binding.QtWidgets import (
+    QComboBox,
+    QHBoxLayout,
+    QLabel,
+    QMenu,
+    QPushButton,
+    QSizePolicy,
+    QTreeWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
 from rqt_py_common.empty_text import EmptyText
 from rqt_py_common.expression_tree import ExpressionTree
 from rqt_py_common.extended_combo_box import ExtendedComboBox
@@ -101,8 +111,11 @@ class PublisherWidget(QWidget):
             self.type_combo_box.setEditText(self._types_of[topic])
 
     def _add(self) -> None:
-        self.add_requested.emit(self.topic_combo_box.currentText().strip(), self.type_combo_box.currentText().strip(),
-                                self.frequency_combo_box.currentText().strip())
+        self.add_requested.emit(
+            self.topic_combo_box.currentText().strip(),
+            self.type_combo_box.currentText().strip(),
+            self.frequency_combo_box.currentText().strip(),
+        )
 
     def add_entry(self, entry) -> None:
         item = QTreeWidgetItem([entry.topic, entry.type_name, f"{entry.rate:1.2f}", ""])

@@ -1,4 +1,5 @@
 """Calls that may take their time, in threads; their results in the thread of the window."""
+
 import threading
 from typing import Any, Callable, Dict, Optional
 
@@ -20,8 +21,13 @@ class Background(QObject):
         self._closed = False
         self._ended.connect(self._deliver)
 
-    def run(self, key: Any, work: Callable[[], Any], done: Optional[Callable[[Any], None]] = None,
-            failed: Optional[Callable[[Exception], None]] = None) -> bool:
+    def run(
+        self,
+        key: Any,
+        work: Callable[[], Any],
+        done: Optional[Callable[[Any], None]] = None,
+        failed: Optional[Callable[[Exception], None]] = None,
+    ) -> bool:
         """Run ``work()`` in a thread, then ``done(result)`` or ``failed(exception)`` in the window's.
 
         :param key: while a call of this key runs, another is not started (what is asked for every second would pile up)

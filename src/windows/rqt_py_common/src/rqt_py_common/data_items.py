@@ -1,4 +1,5 @@
 """Items of trees that users cannot edit."""
+
 from python_qt_binding.QtGui import QStandardItem
 
 

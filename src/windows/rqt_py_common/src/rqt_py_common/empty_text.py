@@ -1,4 +1,5 @@
 """What a list says while there is nothing in it."""
+
 import contextlib
 
 from python_qt_binding.QtCore import QObject, Qt

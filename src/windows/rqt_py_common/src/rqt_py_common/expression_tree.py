@@ -1,4 +1,5 @@
 """A tree view in which the expressions of messages are edited."""
+
 import re
 from typing import Optional
 
@@ -46,8 +47,7 @@ class ExpressionTree(QTreeWidget):
         field = self.field_of(item)
         if field is None:
             return False
-        return column == self._expression_column and field.expression is not None or \
-            column == self._type_column and field.resizable
+        return column == self._expression_column and field.expression is not None or column == self._type_column and field.resizable
 
     @staticmethod
     def field_of(item) -> Optional[Field]:

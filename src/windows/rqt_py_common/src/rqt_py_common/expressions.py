@@ -3,6 +3,7 @@
 The text is Python, but only arithmetic, comparisons, lists, and the functions below: it cannot reach files, modules or
 other objects, and what would take for ever (``9**9**9``) is an error. ``i`` counts the messages.
 """
+
 import ast
 import math
 import operator
@@ -17,8 +18,11 @@ from qt_gui.errors import WindowError
 
 _LONGEST = 100000  # elements of a list or text that an expression may make
 _LARGEST_BITS = 4096  # of a whole number
-_INTEGERS = {f"{sign}int{bits}": ((0, 2**bits - 1) if sign else (-2**(bits - 1), 2**(bits - 1) - 1))
-             for sign in ("", "u") for bits in (8, 16, 32, 64)}
+_INTEGERS = {
+    f"{sign}int{bits}": ((0, 2**bits - 1) if sign else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1))
+    for sign in ("", "u")
+    for bits in (8, 16, 32, 64)
+}
 _INTEGERS.update(byte=_INTEGERS["int8"], char=_INTEGERS["uint8"])
 
 
@@ -29,7 +33,7 @@ class ExpressionError(WindowError, ValueError):
 def _guarded_power(base, exponent):
     if isinstance(base, int) and isinstance(exponent, int) and abs(base) > 1 and exponent * base.bit_length() > _LARGEST_BITS:
         raise ExpressionError("the number would be too large")
-    return base ** exponent
+    return base**exponent
 
 
 def _guarded_product(left, right):
@@ -54,10 +58,12 @@ def _guarded_shift(value, bits):
 
 def _limited(function):
     """A function of whole numbers that takes its time for large ones."""
+
     def call(*arguments):
         if any(isinstance(argument, int) and abs(argument) > 1000 for argument in arguments):
             raise ExpressionError("the number would be too large")
         return function(*arguments)
+
     return call
 
 
@@ -79,36 +85,112 @@ def _public(module, *names):
 _MATH = {name: value for name, value in vars(math).items() if not name.startswith("_")}
 _MATH.update({name: _limited(_MATH[name]) for name in ("factorial", "comb", "perm") if name in _MATH})
 _MATH["pow"] = math.pow
-_RANDOM = _public(random, "random", "uniform", "randint", "randrange", "choice", "gauss", "normalvariate", "triangular",
-                  "betavariate", "expovariate", "gammavariate", "lognormvariate", "vonmisesvariate", "weibullvariate",
-                  "paretovariate")
+_RANDOM = _public(
+    random,
+    "random",
+    "uniform",
+    "randint",
+    "randrange",
+    "choice",
+    "gauss",
+    "normalvariate",
+    "triangular",
+    "betavariate",
+    "expovariate",
+    "gammavariate",
+    "lognormvariate",
+    "vonmisesvariate",
+    "weibullvariate",
+    "paretovariate",
+)
 _TIME = _public(time, "time", "monotonic", "ctime", "asctime", "gmtime", "localtime", "strftime", "perf_counter", "process_time")
-_BUILTINS = dict(_public(__builtins__ if not isinstance(__builtins__, dict) else SimpleNamespace(**__builtins__),
-                         "abs", "bool", "float", "int", "str", "round", "min", "max", "len", "sorted", "list", "tuple",
-                         "ord", "chr", "all", "any", "zip", "enumerate", "divmod"), range=_range, sum=_sum)
+_BUILTINS = dict(
+    _public(
+        __builtins__ if not isinstance(__builtins__, dict) else SimpleNamespace(**__builtins__),
+        "abs",
+        "bool",
+        "float",
+        "int",
+        "str",
+        "round",
+        "min",
+        "max",
+        "len",
+        "sorted",
+        "list",
+        "tuple",
+        "ord",
+        "chr",
+        "all",
+        "any",
+        "zip",
+        "enumerate",
+        "divmod",
+    ),
+    range=_range,
+    sum=_sum,
+)
 _TIMES = {"Time": genpy.Time, "Duration": genpy.Duration}
 #: What a name means. random and time are functions here, as they always were; math, genpy and rospy have members.
-NAMES: Dict[str, Any] = {**_BUILTINS, **_MATH, **_RANDOM, **_TIME, **_TIMES, "math": SimpleNamespace(**_MATH),
-                         "genpy": SimpleNamespace(**_TIMES), "true": True, "false": False}
-_MEMBERS = {SimpleNamespace: None,  # all
-            genpy.Time: ("secs", "nsecs", "to_sec", "to_nsec", "is_zero"),
-            genpy.Duration: ("secs", "nsecs", "to_sec", "to_nsec", "is_zero"),
-            type: ("now", "from_sec"), str: ("upper", "lower", "strip", "encode")}
-_BINARY = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: _guarded_product, ast.Div: operator.truediv,
-           ast.FloorDiv: operator.floordiv, ast.Mod: operator.mod, ast.Pow: _guarded_power, ast.LShift: _guarded_shift,
-           ast.RShift: operator.rshift, ast.BitAnd: operator.and_, ast.BitOr: operator.or_, ast.BitXor: operator.xor}
+NAMES: Dict[str, Any] = {
+    **_BUILTINS,
+    **_MATH,
+    **_RANDOM,
+    **_TIME,
+    **_TIMES,
+    "math": SimpleNamespace(**_MATH),
+    "genpy": SimpleNamespace(**_TIMES),
+    "true": True,
+    "false": False,
+}
+_MEMBERS = {
+    SimpleNamespace: None,  # all
+    genpy.Time: ("secs", "nsecs", "to_sec", "to_nsec", "is_zero"),
+    genpy.Duration: ("secs", "nsecs", "to_sec", "to_nsec", "is_zero"),
+    type: ("now", "from_sec"),
+    str: ("upper", "lower", "strip", "encode"),
+}
+_BINARY = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: _guarded_product,
+    ast.Div: operator.truediv,
+    ast.FloorDiv: operator.floordiv,
+    ast.Mod: operator.mod,
+    ast.Pow: _guarded_power,
+    ast.LShift: _guarded_shift,
+    ast.RShift: operator.rshift,
+    ast.BitAnd: operator.and_,
+    ast.BitOr: operator.or_,
+    ast.BitXor: operator.xor,
+}
 _UNARY: Dict[type, Callable[[Any], Any]] = {
-    ast.UAdd: operator.pos, ast.USub: operator.neg, ast.Not: operator.not_, ast.Invert: operator.invert}
-_COMPARE = {ast.Eq: operator.eq, ast.NotEq: operator.ne, ast.Lt: operator.lt, ast.LtE: operator.le, ast.Gt: operator.gt,
-            ast.GtE: operator.ge, ast.In: lambda a, b: a in b, ast.NotIn: lambda a, b: a not in b}
+    ast.UAdd: operator.pos,
+    ast.USub: operator.neg,
+    ast.Not: operator.not_,
+    ast.Invert: operator.invert,
+}
+_COMPARE = {
+    ast.Eq: operator.eq,
+    ast.NotEq: operator.ne,
+    ast.Lt: operator.lt,
+    ast.LtE: operator.le,
+    ast.Gt: operator.gt,
+    ast.GtE: operator.ge,
+    ast.In: lambda a, b: a in b,
+    ast.NotIn: lambda a, b: a not in b,
+}
 
 
 def _rospy_names():
     import rospy
 
-    return {"rospy": SimpleNamespace(Time=rospy.Time, Duration=rospy.Duration, get_time=rospy.get_time),
-            "Time": rospy.Time, "Duration": rospy.Duration,
-            "genpy": SimpleNamespace(Time=rospy.Time, Duration=rospy.Duration)}  # those that know now()
+    return {
+        "rospy": SimpleNamespace(Time=rospy.Time, Duration=rospy.Duration, get_time=rospy.get_time),
+        "Time": rospy.Time,
+        "Duration": rospy.Duration,
+        "genpy": SimpleNamespace(Time=rospy.Time, Duration=rospy.Duration),
+    }  # those that know now()
 
 
 class Expression:
@@ -166,8 +248,14 @@ class _Evaluation:
         owner = self.of(node.value)
         kind = next((kind for kind in _MEMBERS if isinstance(owner, kind)), None)
         allowed = _MEMBERS.get(kind, ())
-        if kind is None or node.attr.startswith("_") or allowed is not None and node.attr not in allowed \
-                or kind is type and not issubclass(owner, genpy.TVal):
+        if (
+            kind is None
+            or node.attr.startswith("_")
+            or allowed is not None
+            and node.attr not in allowed
+            or kind is type
+            and not issubclass(owner, genpy.TVal)
+        ):
             raise ExpressionError(f".{node.attr} is not allowed here")
         return getattr(owner, node.attr)
 

@@ -1,4 +1,5 @@
 """A combo box that is searched by typing any part of an entry."""
+
 from python_qt_binding.QtCore import QSortFilterProxyModel, Qt, Signal
 from python_qt_binding.QtWidgets import QComboBox, QCompleter
 

@@ -1,4 +1,5 @@
 """Which messages, services and actions are installed."""
+
 import functools
 import os
 from typing import Dict, List
@@ -25,5 +26,5 @@ def installed_types(mode: str) -> Dict[str, List[str]]:
             names = os.listdir(folder)
         except OSError:
             continue
-        found.setdefault(package, set()).update(name[:-len(mode)] for name in names if name.endswith(mode))
+        found.setdefault(package, set()).update(name[: -len(mode)] for name in names if name.endswith(mode))
     return {package: sorted(names) for package, names in sorted(found.items()) if names}

@@ -1,4 +1,5 @@
 """Editors of cells."""
+
 from python_qt_binding.QtWidgets import QDoubleSpinBox, QItemDelegate
 
 

@@ -1,4 +1,5 @@
 """Small things about layouts."""
+
 from python_qt_binding.QtCore import Qt
 
 

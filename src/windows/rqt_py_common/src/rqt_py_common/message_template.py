@@ -1,4 +1,5 @@
 """A message whose fields are expressions. Knows no Qt."""
+
 import re
 from typing import Any, Dict, List, Optional
 
@@ -9,8 +10,7 @@ from .expressions import ExpressionError, field_value
 from .topic_helpers import get_type_class
 
 _MOST = 1000  # elements of an array of messages
-_DEFAULTS = {"string": "''", "bool": "False", "float32": "0.0", "float64": "0.0", "time": "genpy.Time()",
-             "duration": "genpy.Duration()"}
+_DEFAULTS = {"string": "''", "bool": "False", "float32": "0.0", "float64": "0.0", "time": "genpy.Time()", "duration": "genpy.Duration()"}
 
 
 class TemplateError(WindowError, ValueError):
@@ -96,8 +96,11 @@ class Field:
 
     def state(self) -> Dict[str, str]:
         """Path to expression, and to size for arrays that were given one."""
-        return {field.path: str(len(field.children)) if field.resizable else field.expression
-                for field in self.walk() if field.expression is not None or field.resizable and field.children}
+        return {
+            field.path: str(len(field.children)) if field.resizable else field.expression
+            for field in self.walk()
+            if field.expression is not None or field.resizable and field.children
+        }
 
     def restore(self, state: Dict[str, str]) -> None:
         """What fits; the rest stays as it is."""

@@ -1,4 +1,5 @@
 """A message as a tree: name, type, path of each field."""
+
 from python_qt_binding.QtGui import QStandardItem, QStandardItemModel
 
 from rqt_py_common.data_items import ReadonlyItem

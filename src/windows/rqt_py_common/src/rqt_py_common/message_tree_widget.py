@@ -1,4 +1,5 @@
 """A view of a MessageTreeModel from which fields can be dragged."""
+
 from python_qt_binding.QtCore import QMimeData, Qt
 from python_qt_binding.QtGui import QDrag, QIcon
 from python_qt_binding.QtWidgets import QHeaderView, QMenu, QTreeView

@@ -1,4 +1,5 @@
 """A plugin's widget with a pane below for its messages."""
+
 from python_qt_binding.QtCore import QByteArray, Qt
 from python_qt_binding.QtWidgets import QProgressBar, QSplitter, QTextBrowser, QVBoxLayout, QWidget
 

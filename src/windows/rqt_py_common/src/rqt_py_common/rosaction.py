@@ -1,10 +1,11 @@
 """What rosmsg does for messages, for actions: which there are, and their classes."""
+
 import importlib
 import os
 
 import rospkg
-from qt_gui.errors import WindowError
 from genmsg import package_resource_name, resource_name
+from qt_gui.errors import WindowError
 
 MODE_ACTION = ".action"
 
@@ -41,7 +42,7 @@ def list_types(package, mode=MODE_ACTION):
     _check(mode)
     folder = os.path.join(rospkg.RosPack().get_path(package), "action")
     names = sorted(os.listdir(folder)) if os.path.isdir(folder) else []
-    return [resource_name(package, name[:-len(mode)]) for name in names if name.endswith(mode)]
+    return [resource_name(package, name[: -len(mode)]) for name in names if name.endswith(mode)]
 
 
 def list_actions(package):

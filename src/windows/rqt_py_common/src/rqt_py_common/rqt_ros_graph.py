@@ -18,8 +18,7 @@ class RqtRosGraph:
         rows = model_index.model().rowCount(model_index) if model_index.isValid() else 0
         if not rows:
             return [here]
-        return [name for row in range(rows)
-                for name in RqtRosGraph.get_lower_grn_dfs(model_index.model().index(row, 0, model_index), here)]
+        return [name for row in range(rows) for name in RqtRosGraph.get_lower_grn_dfs(model_index.model().index(row, 0, model_index), here)]
 
     @staticmethod
     def get_upper_grn(model_index, str_grn):

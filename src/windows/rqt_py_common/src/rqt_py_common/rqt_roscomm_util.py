@@ -1,4 +1,5 @@
 """Packages, files and parameters, for plugins about launch files."""
+
 import os
 
 import rosgraph
@@ -20,8 +21,10 @@ class RqtRoscommUtil:
 
         server = config.master.get()
         clear = [name for name in _unify_clear_params(config.clear_params) if server.hasParam(caller_id, name)[2]]
-        for what, calls in (("clear", [("deleteParam", name) for name in clear]),
-                            ("set", [("setParam", p.key, p.value) for p in config.params.values()])):
+        for what, calls in (
+            ("clear", [("deleteParam", name) for name in clear]),
+            ("set", [("setParam", p.key, p.value) for p in config.params.values()]),
+        ):
             multi = config.master.get_multi()
             for method, *arguments in calls:
                 getattr(multi, method)(caller_id, *arguments)
@@ -51,8 +54,9 @@ class RqtRoscommUtil:
         """
         folder = os.path.join(rospkg.RosPack().get_path(package), subdir)
         names = sorted(os.listdir(folder)) if os.path.isdir(folder) else []
-        return [resource_name(package, name) for name in names
-                if name.endswith(file_extension) and os.path.isfile(os.path.join(folder, name))]
+        return [
+            resource_name(package, name) for name in names if name.endswith(file_extension) and os.path.isfile(os.path.join(folder, name))
+        ]
 
     @staticmethod
     def is_roscore_running():

@@ -1,4 +1,5 @@
 """Completion of topics and their fields in a line edit."""
+
 import rospy
 from python_qt_binding.QtCore import qDebug
 

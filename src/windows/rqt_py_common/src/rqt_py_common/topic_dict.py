@@ -1,4 +1,5 @@
 """All topics of the master as dictionaries."""
+
 import rospy
 
 from rqt_py_common.topic_helpers import get_type_class

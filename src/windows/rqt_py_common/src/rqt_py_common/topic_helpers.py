@@ -1,4 +1,5 @@
 """The Python types of message fields, from the message definitions alone: nothing need be published."""
+
 import genpy
 import roslib.message
 from genmsg.msgs import is_valid_constant_type, parse_type
@@ -34,7 +35,7 @@ def get_field_type(topic_name):
     message_class = get_type_class(topic_type) if topic_type else None
     if message_class is None:
         return None, False
-    return get_slot_type(message_class, topic_name[len(real_name):])
+    return get_slot_type(message_class, topic_name[len(real_name) :])
 
 
 def get_slot_type(message_class, slot_path):
@@ -78,8 +79,7 @@ def find_slots_by_type_dfs(msg_class, slot_type):
         if inner == slot_type:
             paths.append(name)
         elif class_or_none is not None:
-            paths += ["/".join(part for part in (name, path) if part)
-                      for path in find_slots_by_type_dfs(class_or_none, slot_type)]
+            paths += ["/".join(part for part in (name, path) if part) for path in find_slots_by_type_dfs(class_or_none, slot_type)]
     return paths
 
 

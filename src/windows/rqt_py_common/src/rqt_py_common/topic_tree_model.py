@@ -1,4 +1,5 @@
 """All topics of the master as a tree."""
+
 from rqt_py_common.message_tree_model import MessageTreeModel
 from rqt_py_common.topic_completer import fill_with_topics
 

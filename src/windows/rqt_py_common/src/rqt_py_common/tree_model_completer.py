@@ -1,4 +1,5 @@
 """Completion of paths along a tree."""
+
 from python_qt_binding.QtWidgets import QCompleter
 
 

@@ -1,4 +1,5 @@
 """An interpreter in a text."""
+
 import code
 import contextlib
 import io
@@ -95,7 +96,7 @@ class PyConsoleWidget(QPlainTextEdit):
                 break
             found.append(entry)
         if len(found) == 1:
-            self.set_line(line[:len(line) - len(word)] + found[0])
+            self.set_line(line[: len(line) - len(word)] + found[0])
         elif found:
             self._to_end()
             self.insertPlainText("\n" + "  ".join(found) + "\n")

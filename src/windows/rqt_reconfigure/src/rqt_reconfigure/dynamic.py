@@ -1,4 +1,5 @@
 """dynamic_reconfigure, imported without its search for manifests from before catkin, which ends in a complaint about rosdep."""
+
 import roslib
 
 _search, roslib.load_manifest = roslib.load_manifest, lambda package: None

@@ -1,4 +1,5 @@
 """The editors of one server."""
+
 from typing import Any, Dict, Optional
 
 import rospy
@@ -37,8 +38,10 @@ class ParamClientWidget(QWidget):
         bar = QHBoxLayout()
         bar.addWidget(self.title_label)
         bar.addStretch()
-        for name, text, icon, call in (("load_button", "Load", "document-open", self.ask_and_load),
-                                       ("save_button", "Save", "document-save", self.ask_and_save)):
+        for name, text, icon, call in (
+            ("load_button", "Load", "document-open", self.ask_and_load),
+            ("save_button", "Save", "document-save", self.ask_and_save),
+        ):
             button = QPushButton(QIcon.fromTheme(icon), text)
             button.setObjectName(name)
             button.clicked.connect(lambda checked=False, call=call: call())
@@ -128,8 +131,9 @@ class ParamClientWidget(QWidget):
             self.status_label.setText(f"{path}: {self.node} has no {', '.join(unknown[:5])}")
 
     def ask_and_save(self) -> None:
-        path, _ = QFileDialog.getSaveFileName(self, "Save parameters", f"{self.node.strip('/').replace('/', '_')}.yaml",
-                                              "YAML files (*.yaml)")
+        path, _ = QFileDialog.getSaveFileName(
+            self, "Save parameters", f"{self.node.strip('/').replace('/', '_')}.yaml", "YAML files (*.yaml)"
+        )
         if path:
             self.save(path)
 

@@ -1,4 +1,5 @@
 """Editors of single parameters."""
+
 import ast
 import math
 from typing import Any, Callable, List, Optional, Tuple
@@ -95,8 +96,12 @@ class NumberEditor(Editor):
         self.lowest, self.highest = self.kind(description["min"]), self.kind(description["max"])
         self.slider, self.line_edit = QSlider(Qt.Orientation.Horizontal), QLineEdit()
         self.line_edit.setMaximumWidth(100)
-        for widget, stretch in ((QLabel(self._text(self.lowest)), 0), (self.slider, 1), (QLabel(self._text(self.highest)), 0),
-                                (self.line_edit, 0)):
+        for widget, stretch in (
+            (QLabel(self._text(self.lowest)), 0),
+            (self.slider, 1),
+            (QLabel(self._text(self.highest)), 0),
+            (self.line_edit, 0),
+        ):
             self.layout().addWidget(widget, stretch)
         self.slider.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.slider.wheelEvent = lambda event: event.ignore()  # scrolling past must not set anything
@@ -142,8 +147,10 @@ class NumberEditor(Editor):
         self.slider.blockSignals(blocked)
 
     def menu_values(self):
-        return super().menu_values() + [(f"Set to Minimum ({self._text(self.lowest)})", self.lowest),
-                                        (f"Set to Maximum ({self._text(self.highest)})", self.highest)]
+        return super().menu_values() + [
+            (f"Set to Minimum ({self._text(self.lowest)})", self.lowest),
+            (f"Set to Maximum ({self._text(self.highest)})", self.highest),
+        ]
 
     @staticmethod
     def _text(value) -> str:

@@ -1,4 +1,5 @@
 """Groups of parameters as boxes, tabs, and boxes that fold."""
+
 from typing import Any, Dict, List
 
 from python_qt_binding.QtCore import Signal

@@ -1,4 +1,5 @@
 """The plugin."""
+
 import argparse
 
 from rqt_gui_py.plugin import Plugin

@@ -1,12 +1,23 @@
 """The tree of servers on the left, the editors of those chosen on the right."""
+
 import re
 from typing import Dict
 
 import rosservice
 from python_qt_binding.QtCore import QSize, Qt
 from python_qt_binding.QtGui import QBrush, QColor, QIcon
-from python_qt_binding.QtWidgets import (QHBoxLayout, QLabel, QLineEdit, QPushButton, QScrollArea, QSplitter, QTreeWidget,
-                                         QTreeWidgetItem, QVBoxLayout, QWidget)
+from python_qt_binding.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QScrollArea,
+    QSplitter,
+    QTreeWidget,
+    QTreeWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
 from rqt_py_common.background import Background
 
 from .param_client_widget import ParamClientWidget
@@ -17,7 +28,7 @@ _ENDING = "/set_parameters"
 
 def list_servers() -> list:
     """Names of all nodes with a service set_parameters, dead ones too; nobody but the master is asked."""
-    return sorted(name[:-len(_ENDING)] for name in rosservice.get_service_list() if name.endswith(_ENDING))
+    return sorted(name[: -len(_ENDING)] for name in rosservice.get_service_list() if name.endswith(_ENDING))
 
 
 class ParamWidget(QWidget):
@@ -42,9 +53,11 @@ class ParamWidget(QWidget):
         self.node_tree.itemSelectionChanged.connect(self._selection_changed)
         left, column, buttons = QWidget(), QVBoxLayout(), QHBoxLayout()
         left.setLayout(column)
-        for name, text, icon, call in (("collapse_button", "Collapse", "zoom-out", self.node_tree.collapseAll),
-                                       ("expand_button", "Expand", "zoom-in", self.node_tree.expandAll),
-                                       ("refresh_button", "Refresh", "view-refresh", self.refresh)):
+        for name, text, icon, call in (
+            ("collapse_button", "Collapse", "zoom-out", self.node_tree.collapseAll),
+            ("expand_button", "Expand", "zoom-in", self.node_tree.expandAll),
+            ("refresh_button", "Refresh", "view-refresh", self.refresh),
+        ):
             button = QPushButton(QIcon.fromTheme(icon), text)
             button.setObjectName(name)
             button.clicked.connect(lambda checked=False, call=call: call())

@@ -1,4 +1,5 @@
 """Values of a server's parameters in YAML files, as dynparam and rqt_reconfigure have always written them."""
+
 import yaml
 from qt_gui.errors import WindowError
 
@@ -44,5 +45,6 @@ def load(path: str) -> dict:
         raise SavedValuesError(f"{path} is no YAML file of parameters: {' '.join(str(error).split())[:150]}") from error
     if not isinstance(values, dict):
         raise SavedValuesError(f"{path} is no YAML file of parameters: it holds no names with values")
-    return {str(name): value for name, value in values.items()
-            if name not in ("groups", "state") and isinstance(value, (bool, int, float, str))}
+    return {
+        str(name): value for name, value in values.items() if name not in ("groups", "state") and isinstance(value, (bool, int, float, str))
+    }

@@ -1,23 +1,41 @@
 """Trees of aggregated diagnostics and the last half minute of them."""
+
 import time
 from collections import deque
 from typing import Any, Deque, Dict
 
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from python_qt_binding.QtCore import QSize, QTimer, Qt, Signal
+from python_qt_binding.QtCore import QSize, Qt, QTimer, Signal
 from python_qt_binding.QtGui import QColor, QIcon, QPainter
-from python_qt_binding.QtWidgets import (QDialog, QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QSplitter, QTreeWidget,
-                                         QTreeWidgetItem, QVBoxLayout, QWidget)
+from python_qt_binding.QtWidgets import (
+    QDialog,
+    QHBoxLayout,
+    QLabel,
+    QPlainTextEdit,
+    QPushButton,
+    QSplitter,
+    QTreeWidget,
+    QTreeWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
 from rqt_py_common.empty_text import EmptyText
 
 HISTORY = 30  # messages that can be looked back on
 SILENCE = 10.0  # s after which all is stale
 STALE = 3
-_EMPTY = {"errors": "No errors.", "warnings": "No warnings.",
-          "all": "Nobody publishes /diagnostics_agg: diagnostic_aggregator makes it of /diagnostics."}
-LEVELS = {DiagnosticStatus.OK: ("OK", "#2eb82e", "dialog-information"), DiagnosticStatus.WARN: ("Warning", "#e0b020", "dialog-warning"),
-          DiagnosticStatus.ERROR: ("Error", "#d93030", "dialog-error"), STALE: ("Stale", "#6080c0", "dialog-question")}
+_EMPTY = {
+    "errors": "No errors.",
+    "warnings": "No warnings.",
+    "all": "Nobody publishes /diagnostics_agg: diagnostic_aggregator makes it of /diagnostics.",
+}
+LEVELS = {
+    DiagnosticStatus.OK: ("OK", "#2eb82e", "dialog-information"),
+    DiagnosticStatus.WARN: ("Warning", "#e0b020", "dialog-warning"),
+    DiagnosticStatus.ERROR: ("Error", "#d93030", "dialog-error"),
+    STALE: ("Stale", "#6080c0", "dialog-question"),
+}
 
 
 def known_level(level: int) -> int:
@@ -47,8 +65,9 @@ class Timeline(QWidget):
     def paintEvent(self, _event) -> None:
         painter, width = QPainter(self), self.width() / HISTORY
         for number, level in enumerate(self.levels):
-            painter.fillRect(int(number * width), 0, int((number + 1) * width) - int(number * width) - 1, self.height() - 1,
-                             QColor(LEVELS[level][1]))
+            painter.fillRect(
+                int(number * width), 0, int((number + 1) * width) - int(number * width) - 1, self.height() - 1, QColor(LEVELS[level][1])
+            )
             if number == self.selected:
                 painter.setPen(QColor("black"))
                 painter.drawRect(int(number * width), 0, int(width) - 2, self.height() - 2)
@@ -156,9 +175,7 @@ class RobotMonitorWidget(QWidget):
             return
         statuses = {status.name: status for status in message.status}
         self._fill(
-            self.trees["errors"],
-            {n: s for n, s in statuses.items() if known_level(s.level) in (DiagnosticStatus.ERROR, STALE)},
-            False,
+            self.trees["errors"], {n: s for n, s in statuses.items() if known_level(s.level) in (DiagnosticStatus.ERROR, STALE)}, False
         )
         self._fill(self.trees["warnings"], {n: s for n, s in statuses.items() if s.level == DiagnosticStatus.WARN}, False)
         self._fill(self.trees["all"], statuses, True)
@@ -214,5 +231,7 @@ class RobotMonitorWidget(QWidget):
 
 def details(status) -> str:
     pairs = "\n".join(f"{pair.key}: {pair.value}" for pair in status.values)
-    return (f"Full Name: {status.name}\nComponent: {status.name.rpartition('/')[2]}\nHardware ID: {status.hardware_id}\n"
-            f"Level: {LEVELS[known_level(status.level)][0]}\nMessage: {status.message}\n\n{pairs}")
+    return (
+        f"Full Name: {status.name}\nComponent: {status.name.rpartition('/')[2]}\nHardware ID: {status.hardware_id}\n"
+        f"Level: {LEVELS[known_level(status.level)][0]}\nMessage: {status.message}\n\n{pairs}"
+    )

@@ -1,4 +1,5 @@
 """The plugin: velocities from sliders and keys."""
+
 import rosgraph
 import rospy
 from geometry_msgs.msg import Twist
@@ -82,6 +83,7 @@ class RobotSteering(Plugin):
             try:
                 box.setValue(float(value))
             except (TypeError, ValueError):
-                rospy.logwarn("%s is %r, but must be a number; it is left at %g", rospy.resolve_name(f"~default_{name}"), value,
-                              box.value())
+                rospy.logwarn(
+                    "%s is %r, but must be a number; it is left at %g", rospy.resolve_name(f"~default_{name}"), value, box.value()
+                )
         self.set_topic(self._widget.topic_line_edit.text())

@@ -1,4 +1,5 @@
 """Two sliders, their limits, and the keys."""
+
 from python_qt_binding.QtCore import Qt, Signal
 from python_qt_binding.QtGui import QKeySequence
 from python_qt_binding.QtWidgets import QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QLineEdit, QPushButton, QSlider, QWidget
@@ -78,15 +79,19 @@ class SteeringWidget(QWidget):
         grid.addWidget(self.labels["x"], 2, 0)
         grid.addWidget(self.limits["vx_min"], 3, 0)
         steps = QGridLayout()
-        for row, (name, text, move) in enumerate((("increase_x_linear_push_button", "+", 1), ("reset_x_linear_push_button", "0", 0),
-                                                  ("decrease_x_linear_push_button", "-", -1))):
+        for row, (name, text, move) in enumerate(
+            (("increase_x_linear_push_button", "+", 1), ("reset_x_linear_push_button", "0", 0), ("decrease_x_linear_push_button", "-", -1))
+        ):
             steps.addWidget(self._button(name, text, lambda move=move: self.move_by("x", move * 10)), row, 0)
         grid.addLayout(steps, 1, 2, 3, 1)
         grid.addWidget(self.sliders["w"], 4, 0, 1, 3)
         low = QHBoxLayout()
         low.addWidget(self.limits["vw_max"])
-        for name, text, move in (("increase_z_angular_push_button", "<", 1), ("reset_z_angular_push_button", "0", 0),
-                                 ("decrease_z_angular_push_button", ">", -1)):
+        for name, text, move in (
+            ("increase_z_angular_push_button", "<", 1),
+            ("reset_z_angular_push_button", "0", 0),
+            ("decrease_z_angular_push_button", ">", -1),
+        ):
             low.addWidget(self._button(name, text, lambda move=move: self.move_by("w", move * 10)))
         low.addWidget(self.limits["vw_min"])
         grid.addLayout(low, 5, 0, 1, 3)

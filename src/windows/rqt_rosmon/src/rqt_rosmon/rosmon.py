@@ -1,4 +1,5 @@
 """The plugin: the nodes of a rosmon, with a menu to start, stop and restart them."""
+
 import re
 from collections import deque
 from typing import Any, Deque
@@ -6,8 +7,18 @@ from typing import Any, Deque
 import rospy
 from python_qt_binding.QtCore import Qt, QTimer
 from python_qt_binding.QtGui import QBrush, QColor
-from python_qt_binding.QtWidgets import (QAbstractItemView, QComboBox, QHBoxLayout, QLabel, QMenu, QPushButton, QTableWidget,
-                                         QTableWidgetItem, QVBoxLayout, QWidget)
+from python_qt_binding.QtWidgets import (
+    QAbstractItemView,
+    QComboBox,
+    QHBoxLayout,
+    QLabel,
+    QMenu,
+    QPushButton,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
 from rosmon_msgs.msg import NodeState, State
 from rosmon_msgs.srv import StartStop, StartStopRequest
 from rqt_gui_py.plugin import Plugin
@@ -18,8 +29,12 @@ PERIOD = 250  # ms between two looks at what has come
 LOOK = 2000  # ms between two looks for rosmons
 CALL = 5.0  # s that a rosmon may take to answer
 COLUMNS = ("Node", "Namespace", "State", "Restarts", "CPU Load", "Memory")
-_STATES = {NodeState.IDLE: ("idle", None), NodeState.RUNNING: ("running", "#8ae234"), NodeState.CRASHED: ("crashed", "#ef2929"),
-           NodeState.WAITING: ("waiting", "#fce94f")}
+_STATES = {
+    NodeState.IDLE: ("idle", None),
+    NodeState.RUNNING: ("running", "#8ae234"),
+    NodeState.CRASHED: ("crashed", "#ef2929"),
+    NodeState.WAITING: ("waiting", "#fce94f"),
+}
 _ACTIONS = {"Start": StartStopRequest.START, "Stop": StartStopRequest.STOP, "Restart": StartStopRequest.RESTART}
 
 
@@ -99,8 +114,12 @@ class Rosmon(Plugin):
 
     def look(self) -> None:
         """For rosmons, in the background: the master may hang."""
-        self._background.run("topics", lambda: sorted(topic for topic, kind in rospy.get_published_topics() if kind == State._type),
-                             self._found, lambda error: self.line.setText(f"The master does not answer: {error}"))
+        self._background.run(
+            "topics",
+            lambda: sorted(topic for topic, kind in rospy.get_published_topics() if kind == State._type),
+            self._found,
+            lambda error: self.line.setText(f"The master does not answer: {error}"),
+        )
 
     def _found(self, topics) -> None:
         # One that ended stays chosen, empty, until it is there again.

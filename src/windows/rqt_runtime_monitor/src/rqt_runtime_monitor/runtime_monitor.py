@@ -1,4 +1,5 @@
 """The plugin: /diagnostics, sorted by level."""
+
 import html
 import time
 from collections import deque
@@ -14,8 +15,12 @@ from rqt_gui_py.plugin import Plugin
 STALE = 3
 SILENCE = 5.0  # s after which a status is stale
 PERIOD = 250  # ms
-_GROUPS = {STALE: ("Stale", "dialog-question"), DiagnosticStatus.ERROR: ("Errors", "dialog-error"),
-           DiagnosticStatus.WARN: ("Warnings", "dialog-warning"), DiagnosticStatus.OK: ("Messages", "dialog-information")}
+_GROUPS = {
+    STALE: ("Stale", "dialog-question"),
+    DiagnosticStatus.ERROR: ("Errors", "dialog-error"),
+    DiagnosticStatus.WARN: ("Warnings", "dialog-warning"),
+    DiagnosticStatus.OK: ("Messages", "dialog-information"),
+}
 
 
 class RuntimeMonitor(Plugin):
@@ -86,8 +91,12 @@ class RuntimeMonitor(Plugin):
         if not chosen or chosen[0] is None:
             return
         status, _, level, _ = self._statuses[chosen[0]]
-        lines = [("Component", status.name), ("Message", status.message), ("Hardware ID", status.hardware_id),
-                 ("Level", _GROUPS[level][0])] + [(pair.key, pair.value) for pair in status.values]
+        lines = [
+            ("Component", status.name),
+            ("Message", status.message),
+            ("Hardware ID", status.hardware_id),
+            ("Level", _GROUPS[level][0]),
+        ] + [(pair.key, pair.value) for pair in status.values]
         place = self.text.verticalScrollBar().value()
         self.text.setHtml("".join(f"<b>{html.escape(key)}</b>: {html.escape(value)}<br>" for key, value in lines))
         self.text.verticalScrollBar().setValue(place)

@@ -1,4 +1,5 @@
 """The plugin RViz of rqt: Debian's RViz through its Python binding."""
+
 from __future__ import annotations
 
 import argparse
@@ -8,8 +9,18 @@ import signal
 from node_signals import rviz_displays
 from python_qt_binding.QtCore import qWarning
 from python_qt_binding.QtGui import QGuiApplication
-from python_qt_binding.QtWidgets import (QCheckBox, QDialog, QDialogButtonBox, QFileDialog, QFormLayout, QHBoxLayout, QLineEdit,
-                                         QPushButton, QVBoxLayout, QWidget)
+from python_qt_binding.QtWidgets import (
+    QCheckBox,
+    QDialog,
+    QDialogButtonBox,
+    QFileDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QLineEdit,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
 from qt_gui.errors import PluginLoadError
 from rqt_gui_py.plugin import Plugin
 from rviz_offscreen import qt
@@ -18,14 +29,18 @@ from rviz_offscreen import qt
 def _import_rviz():
     """:raises PluginLoadError: RViz would end the whole window: no X display, another Qt, or its binding is not there."""
     if QGuiApplication.platformName() != "xcb":
-        raise PluginLoadError(f"RViz draws on X displays alone, and this window is on '{QGuiApplication.platformName()}'; "
-                              "set DISPLAY and QT_QPA_PLATFORM=xcb, or use rosrun rviz_offscreen screenshot")
+        raise PluginLoadError(
+            f"RViz draws on X displays alone, and this window is on '{QGuiApplication.platformName()}'; "
+            "set DISPLAY and QT_QPA_PLATFORM=xcb, or use rosrun rviz_offscreen screenshot"
+        )
     needed, here = qt.package(), QWidget.__module__.partition(".")[0]
     if needed is None:
         raise PluginLoadError("RViz's Python module is not there; sudo apt install python3-rviz")
     if needed != here:
-        raise PluginLoadError(f"this machine's RViz is for {needed} and this window is on {here}: run rosrun rqt_rviz rqt_rviz, or "
-                              f"QT_API={needed.lower()} rqt for a window whose plugins all are on {needed}")
+        raise PluginLoadError(
+            f"this machine's RViz is for {needed} and this window is on {here}: run rosrun rqt_rviz rqt_rviz, or "
+            f"QT_API={needed.lower()} rqt for a window whose plugins all are on {needed}"
+        )
     try:
         from rviz_offscreen.bindings import rviz
     except ImportError as error:
@@ -126,8 +141,11 @@ class RViz(Plugin):
         dialog.setWindowTitle("RViz")
         name, hide, browse = QLineEdit(self._config), QCheckBox(), QPushButton("Browse...")
         hide.setChecked(self._hide_menu)
-        browse.clicked.connect(lambda: name.setText(QFileDialog.getOpenFileName(
-            dialog, "Display configuration", "", "RViz (*.rviz);;All files (*)")[0] or name.text()))
+        browse.clicked.connect(
+            lambda: name.setText(
+                QFileDialog.getOpenFileName(dialog, "Display configuration", "", "RViz (*.rviz);;All files (*)")[0] or name.text()
+            )
+        )
         row = QHBoxLayout()
         row.addWidget(name)
         row.addWidget(browse)

@@ -1,4 +1,5 @@
 """The plugin: calls services, in the background."""
+
 import ast
 
 import roslib.message
@@ -58,8 +59,12 @@ class ServiceCaller(Plugin):
         return self._widget
 
     def refresh(self) -> None:
-        self._background.run("services", lambda: sorted(rosservice.get_service_list()), self._widget.set_services,
-                             lambda error: self._widget.show_error(str(error)))
+        self._background.run(
+            "services",
+            lambda: sorted(rosservice.get_service_list()),
+            self._widget.set_services,
+            lambda error: self._widget.show_error(str(error)),
+        )
 
     def choose(self, service: str) -> None:
         """Ask a service for its type; a node that is dead or hangs answers never."""
@@ -68,8 +73,12 @@ class ServiceCaller(Plugin):
         self._widget.show_request(service, None)
         self._background.forget("type")
         if service:
-            self._background.run("type", lambda: rosservice.get_service_type(service),
-                                 lambda kind: self._show(service, kind), lambda error: self._widget.show_error(str(error)))
+            self._background.run(
+                "type",
+                lambda: rosservice.get_service_type(service),
+                lambda kind: self._show(service, kind),
+                lambda error: self._widget.show_error(str(error)),
+            )
 
     def _show(self, service: str, type_name) -> None:
         if not type_name:

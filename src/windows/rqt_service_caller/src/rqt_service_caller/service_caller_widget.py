@@ -1,8 +1,18 @@
 """What is seen: the request on one side, the response on the other."""
+
 from python_qt_binding.QtCore import QSize, Qt, Signal
 from python_qt_binding.QtGui import QIcon
-from python_qt_binding.QtWidgets import (QHBoxLayout, QLabel, QPushButton, QSizePolicy, QSplitter, QTreeWidget, QTreeWidgetItem,
-                                         QVBoxLayout, QWidget)
+from python_qt_binding.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QSizePolicy,
+    QSplitter,
+    QTreeWidget,
+    QTreeWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
 from rqt_py_common.expression_tree import ExpressionTree
 from rqt_py_common.extended_combo_box import ExtendedComboBox
 

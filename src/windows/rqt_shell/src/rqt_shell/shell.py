@@ -1,4 +1,5 @@
 """The plugin."""
+
 from qt_gui.errors import PluginLoadError
 from rqt_gui_py.plugin import Plugin
 

@@ -1,4 +1,5 @@
 """A terminal: pyte keeps the screen, this draws it and sends the keys."""
+
 import fcntl
 import os
 import pty
@@ -14,11 +15,33 @@ from python_qt_binding.QtGui import QColor, QFontDatabase, QFontMetricsF, QPaint
 from python_qt_binding.QtWidgets import QApplication, QWidget
 
 _HISTORY = 2000  # lines
-_COLORS = {"black": "#000000", "red": "#cd3131", "green": "#0dbc79", "brown": "#c8b400", "blue": "#3b78ff", "magenta": "#bc3fbc",
-           "cyan": "#11a8cd", "white": "#e5e5e5"}
-_KEYS = {"Key_Up": "\x1b[A", "Key_Down": "\x1b[B", "Key_Right": "\x1b[C", "Key_Left": "\x1b[D", "Key_Home": "\x1b[H", "Key_End": "\x1b[F",
-         "Key_Delete": "\x1b[3~", "Key_PageUp": "\x1b[5~", "Key_PageDown": "\x1b[6~", "Key_Backspace": "\x7f", "Key_Return": "\r",
-         "Key_Enter": "\r", "Key_Tab": "\t", "Key_Backtab": "\x1b[Z", "Key_Escape": "\x1b"}
+_COLORS = {
+    "black": "#000000",
+    "red": "#cd3131",
+    "green": "#0dbc79",
+    "brown": "#c8b400",
+    "blue": "#3b78ff",
+    "magenta": "#bc3fbc",
+    "cyan": "#11a8cd",
+    "white": "#e5e5e5",
+}
+_KEYS = {
+    "Key_Up": "\x1b[A",
+    "Key_Down": "\x1b[B",
+    "Key_Right": "\x1b[C",
+    "Key_Left": "\x1b[D",
+    "Key_Home": "\x1b[H",
+    "Key_End": "\x1b[F",
+    "Key_Delete": "\x1b[3~",
+    "Key_PageUp": "\x1b[5~",
+    "Key_PageDown": "\x1b[6~",
+    "Key_Backspace": "\x7f",
+    "Key_Return": "\r",
+    "Key_Enter": "\r",
+    "Key_Tab": "\t",
+    "Key_Backtab": "\x1b[Z",
+    "Key_Escape": "\x1b",
+}
 _BYTES = {getattr(Qt.Key, name): text.encode() for name, text in _KEYS.items()}
 
 

@@ -14,6 +14,7 @@
         desktop.screenshot("/tmp/x.png")
         assert rqt.end() == 0                              # Ctrl-C; the exit code
 """
+
 from __future__ import annotations
 
 import json
@@ -49,16 +50,31 @@ class Desktop:
         self.home = self._stack.enter_context(tempfile.TemporaryDirectory(prefix="desktop_"))
         variables = self._stack.enter_context(private_display(self._size))
         os.mkdir(os.path.join(self.home, "run"), 0o700)
-        self.environment = {**os.environ, **variables, "XDG_CONFIG_HOME": os.path.join(self.home, "config"),
-                            "XDG_RUNTIME_DIR": os.path.join(self.home, "run"), "HOME": self.home, "NO_AT_BRIDGE": "1",
-                            "ROS_HOME": os.environ.get("ROS_HOME", os.path.join(self.home, "ros"))}
+        self.environment = {
+            **os.environ,
+            **variables,
+            "XDG_CONFIG_HOME": os.path.join(self.home, "config"),
+            "XDG_RUNTIME_DIR": os.path.join(self.home, "run"),
+            "HOME": self.home,
+            "NO_AT_BRIDGE": "1",
+            "ROS_HOME": os.environ.get("ROS_HOME", os.path.join(self.home, "ros")),
+        }
         for name in ("QT_QPA_PLATFORM", "WAYLAND_DISPLAY", "SESSION_MANAGER", "DBUS_SESSION_BUS_ADDRESS"):
             self.environment.pop(name, None)
-        manager = subprocess.Popen(["openbox", "--config-file", self._openbox_settings()], env=self.environment,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        manager = subprocess.Popen(
+            ["openbox", "--config-file", self._openbox_settings()],
+            env=self.environment,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         self._stack.callback(_end, manager)
-        self._wait(lambda: b"_NET_SUPPORTING_WM_CHECK(WINDOW)" in subprocess.run(
-            ["xprop", "-root", "_NET_SUPPORTING_WM_CHECK"], env=self.environment, capture_output=True).stdout, "window manager")
+        self._wait(
+            lambda: (
+                b"_NET_SUPPORTING_WM_CHECK(WINDOW)"
+                in subprocess.run(["xprop", "-root", "_NET_SUPPORTING_WM_CHECK"], env=self.environment, capture_output=True).stdout
+            ),
+            "window manager",
+        )
         return self
 
     def __exit__(self, *_):
@@ -70,18 +86,21 @@ class Desktop:
         """No menus of its own, so that every click reaches the program."""
         path = os.path.join(self.home, "openbox.xml")
         with open(path, "w") as file:
-            file.write('<openbox_config xmlns="http://openbox.org/3.4/rc"><focus><focusNew>yes</focusNew></focus>'
-                       '<mouse><context name="Titlebar"><mousebind button="Left" action="Drag"><action name="Move"/></mousebind>'
-                       '</context><context name="Close"><mousebind button="Left" action="Click"><action name="Close"/></mousebind>'
-                       '</context><context name="Client"><mousebind button="Left" action="Press"><action name="Focus"/>'
-                       '<action name="Raise"/></mousebind></context></mouse></openbox_config>')
+            file.write(
+                '<openbox_config xmlns="http://openbox.org/3.4/rc"><focus><focusNew>yes</focusNew></focus>'
+                '<mouse><context name="Titlebar"><mousebind button="Left" action="Drag"><action name="Move"/></mousebind>'
+                '</context><context name="Close"><mousebind button="Left" action="Click"><action name="Close"/></mousebind>'
+                '</context><context name="Client"><mousebind button="Left" action="Press"><action name="Focus"/>'
+                '<action name="Raise"/></mousebind></context></mouse></openbox_config>'
+            )
         return path
 
     def run(self, command: List[str], **variables: str) -> "Program":
         """Start one of our commands (found on PATH, or ``rosrun``'s way: ``["rosrun", package, script]``)."""
         if command[0] == "rosrun":
-            found = subprocess.run(["catkin_find", "--first-only", "--libexec", command[1], command[2]], capture_output=True,
-                                   text=True).stdout.strip()
+            found = subprocess.run(
+                ["catkin_find", "--first-only", "--libexec", command[1], command[2]], capture_output=True, text=True
+            ).stdout.strip()
             command = [found or command[2], *command[3:]]
         script = shutil.which(command[0])
         if script is None:
@@ -91,8 +110,7 @@ class Desktop:
         return program
 
     def xdotool(self, *arguments) -> str:
-        return subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, check=True, capture_output=True,
-                              text=True).stdout
+        return subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, check=True, capture_output=True, text=True).stdout
 
     def click_at(self, x: int, y: int, button: int = 1, times: int = 1) -> None:
         self.xdotool("mousemove", "--sync", x, y)
@@ -119,9 +137,19 @@ class Desktop:
 
     def screenshot(self, path: str) -> None:
         """The whole screen as PNG, by a program of its own, as no widget would draw itself otherwise than it is seen."""
-        subprocess.run([sys.executable, "-c", "import sys\nfrom python_qt_binding.QtWidgets import QApplication\n"
-                        "app = QApplication([])\nscreen = app.primaryScreen()\n"
-                        "screen.grabWindow(0).save(sys.argv[1])", path], env=self.environment, check=True, capture_output=True)
+        subprocess.run(
+            [
+                sys.executable,
+                "-c",
+                "import sys\nfrom python_qt_binding.QtWidgets import QApplication\n"
+                "app = QApplication([])\nscreen = app.primaryScreen()\n"
+                "screen.grabWindow(0).save(sys.argv[1])",
+                path,
+            ],
+            env=self.environment,
+            check=True,
+            capture_output=True,
+        )
 
     def _wait(self, condition, what: str, timeout: float = _TIMEOUT):
         end = time.monotonic() + timeout
@@ -143,8 +171,14 @@ class Program:
         self._socket = os.path.join(desktop.home, f"{number}.socket")
         self._log = os.path.join(desktop.home, f"{number}.log")
         with open(self._log, "wb") as log:
-            self.process = subprocess.Popen([sys.executable, "-m", "rqt_testing.driven", self._socket, *command], env=environment,
-                                            stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
+            self.process = subprocess.Popen(
+                [sys.executable, "-m", "rqt_testing.driven", self._socket, *command],
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
 
     def output(self) -> str:
         with open(self._log, errors="replace") as log:
@@ -213,8 +247,9 @@ class Program:
         try:
             return self._desktop._wait(condition, what, timeout)
         except AssertionError as error:
-            raise AssertionError(f"{error}; visible: {self.ask('windows')}, {self.ask('names')}; printed: "
-                                 f"{self.output()[-2000:]}") from None
+            raise AssertionError(
+                f"{error}; visible: {self.ask('windows')}, {self.ask('names')}; printed: {self.output()[-2000:]}"
+            ) from None
 
     def end(self, number: int = signal.SIGINT, timeout: float = _TIMEOUT) -> int:
         """Send a signal and wait for the end; the exit code."""

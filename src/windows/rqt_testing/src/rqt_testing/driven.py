@@ -3,6 +3,7 @@
 The script runs as it would alone; a thread answers questions about its widgets on a Unix socket, one JSON line each way:
 ``{"what": "rect", "name": ...}``. Clicks and keys come from outside, through the X server, like a person's.
 """
+
 import json
 import runpy
 import socket

@@ -12,6 +12,7 @@
 A plugin that uses rospy needs a master: rostest gives one. In a plain pytest, ``rospy_without_master()`` before
 ``open_plugin`` lets it be created; what it publishes and subscribes then goes nowhere.
 """
+
 from __future__ import annotations
 
 import atexit
@@ -94,6 +95,7 @@ def rqt_providers():
 def rospy_without_master() -> None:
     """Let plugins make publishers, subscribers and services though there is no master."""
     import rospy
+
     from rqt_testing.no_master import NoMaster
 
     if not rospy.core.is_initialized():

@@ -1,4 +1,5 @@
 """A master that knows nobody: enough for rospy to make publishers and subscribers in a test."""
+
 import threading
 from socketserver import ThreadingMixIn
 from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
@@ -19,8 +20,17 @@ class NoMaster:
     """Answers every call of a node with success and nothing; ``answers[method]`` gives a method another value."""
 
     def __init__(self, answers=None):
-        self.answers = {"getPid": 1, "getSystemState": [[], [], []], "getPublishedTopics": [], "getTopicTypes": [],
-                        "subscribeParam": {}, "getParamNames": [], "hasParam": False, "searchParam": "", **(answers or {})}
+        self.answers = {
+            "getPid": 1,
+            "getSystemState": [[], [], []],
+            "getPublishedTopics": [],
+            "getTopicTypes": [],
+            "subscribeParam": {},
+            "getParamNames": [],
+            "hasParam": False,
+            "searchParam": "",
+            **(answers or {}),
+        }
         self._nodes = {}
         self._server = _Server(("127.0.0.1", 0), requestHandler=_Handler, logRequests=False, allow_none=True)
         self._server.register_instance(self)

@@ -1,4 +1,5 @@
 """What the browsers of messages, services and actions have in common, as a person uses them."""
+
 import contextlib
 
 from rqt_testing.in_process import errors, find, open_plugin, rospy_without_master, wait_until

@@ -2,6 +2,7 @@
 
 :class:`RosTfTreeDotcodeGenerator` is what other packages import.
 """
+
 from __future__ import annotations
 
 import time as clock
@@ -11,8 +12,13 @@ import yaml
 from qt_gui.errors import WindowError
 from rqt_graph.dotcode import quoted
 
-_FIELDS = (("Broadcaster", "broadcaster"), ("Average rate", "rate"), ("Buffer length", "buffer_length"),
-           ("Most recent transform", "most_recent_transform"), ("Oldest transform", "oldest_transform"))
+_FIELDS = (
+    ("Broadcaster", "broadcaster"),
+    ("Average rate", "rate"),
+    ("Buffer length", "buffer_length"),
+    ("Most recent transform", "most_recent_transform"),
+    ("Oldest transform", "oldest_transform"),
+)
 
 
 class FramesError(WindowError):
@@ -67,8 +73,9 @@ class RosTfTreeDotcodeGenerator:
         self.graph: Any = None
         self._look: Dict[str, Any] = {}
 
-    def generate_dotcode(self, dotcode_factory, tf2_frame_srv, timer=None, yaml_parser=yaml, rank="same", ranksep=0.2,
-                         rankdir="TB", force_refresh=False) -> str:
+    def generate_dotcode(
+        self, dotcode_factory, tf2_frame_srv, timer=None, yaml_parser=yaml, rank="same", ranksep=0.2, rankdir="TB", force_refresh=False
+    ) -> str:
         """DOT text with positions; the last one unless that is refused or the look is another.
 
         :param tf2_frame_srv: called without arguments, returns a tf2_msgs/FrameGraphResponse.
@@ -82,6 +89,7 @@ class RosTfTreeDotcodeGenerator:
             self.listen_duration = 0
             if timer is None:
                 import rospy
+
                 timer = rospy.Time
             self.graph = self.generate(yaml_parser.safe_load(tf2_frame_srv().frame_yaml), timer.now().to_sec())
             dotcode = self.dotcode = dotcode_factory.create_dot(self.graph)

@@ -1,4 +1,5 @@
 """The window of the tree of frames."""
+
 import rospy
 import tf2_ros
 from python_qt_binding.QtCore import Qt, QTimer
@@ -8,6 +9,7 @@ from qt_gui.compatibility import QShortcut
 from rqt_graph.graph_pane import GraphPane
 from rqt_graph.toolbar import Row
 from rqt_gui_py.plugin import Plugin
+
 from rqt_tf_tree.dotcode_tf import FramesError, generate_dot, parse
 
 LISTEN = 1000  # ms of listening before the first tree, and again while there is none
@@ -34,10 +36,19 @@ class RosTfTree(Plugin):
         self.auto_box = row.check("auto_refresh_check_box", "Auto", "Refresh every two seconds", False, self._set_auto)
         row.addStretch(1)
         self.highlight_box: QCheckBox = row.check(
-            "highlight_connections_check_box", "Highlight", "Highlight connections under the mouse", True,
-            lambda: self.pane.set_highlight(self.highlight_box.isChecked()))
-        self.fit_box: QCheckBox = row.check("auto_fit_graph_check_box", "Fit", "Automatically fit graph into view", True,
-                                 lambda: self.pane.set_auto_fit(self.fit_box.isChecked()))
+            "highlight_connections_check_box",
+            "Highlight",
+            "Highlight connections under the mouse",
+            True,
+            lambda: self.pane.set_highlight(self.highlight_box.isChecked()),
+        )
+        self.fit_box: QCheckBox = row.check(
+            "auto_fit_graph_check_box",
+            "Fit",
+            "Automatically fit graph into view",
+            True,
+            lambda: self.pane.set_auto_fit(self.fit_box.isChecked()),
+        )
         row.button("fit_in_view_push_button", "zoom-fit-best", "Fit", "Fit graph in view", self.pane.fit)
         row.file_buttons(self.pane, "frames", self._load)
         QShortcut(QKeySequence("Ctrl+R"), self._widget, self.refresh).setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)

@@ -1,4 +1,5 @@
 """Which process is a node, and what it takes. No Qt in here."""
+
 from __future__ import annotations
 
 import socket
@@ -76,8 +77,16 @@ class NodeInfo:
         try:
             with process.oneshot():
                 memory = process.memory_info()
-                return NodeUsage(name, process.pid, process.cpu_percent(), process.memory_percent(), process.num_threads(),
-                                 " ".join(process.cmdline()), memory.rss, memory.vms)
+                return NodeUsage(
+                    name,
+                    process.pid,
+                    process.cpu_percent(),
+                    process.memory_percent(),
+                    process.num_threads(),
+                    " ".join(process.cmdline()),
+                    memory.rss,
+                    memory.vms,
+                )
         except psutil.Error:
             del self._processes[address]
             return None

@@ -1,4 +1,5 @@
 """The plugin Process Monitor of rqt."""
+
 from __future__ import annotations
 
 import re
@@ -8,8 +9,17 @@ from typing import Dict
 
 import rosgraph
 from python_qt_binding.QtCore import Qt, Signal, qWarning
-from python_qt_binding.QtWidgets import (QCheckBox, QHBoxLayout, QLabel, QLineEdit, QPushButton, QTreeWidget, QTreeWidgetItem,
-                                         QVBoxLayout, QWidget)
+from python_qt_binding.QtWidgets import (
+    QCheckBox,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QTreeWidget,
+    QTreeWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
 from rqt_gui_py.plugin import Plugin
 from rqt_py_common.empty_text import EmptyText
 
@@ -105,11 +115,12 @@ class Top(Plugin):
 
     @staticmethod
     def _write(item: _Item, usage: NodeUsage) -> None:
-        for column, text in enumerate((usage.name, str(usage.pid), f"{usage.cpu_percent:.2f}", f"{usage.memory_percent:.2f}",
-                                       str(usage.threads))):
+        for column, text in enumerate(
+            (usage.name, str(usage.pid), f"{usage.cpu_percent:.2f}", f"{usage.memory_percent:.2f}", str(usage.threads))
+        ):
             item.setText(column, text)
         item.setToolTip(0, "\n".join(textwrap.wrap(usage.command)))
-        item.setToolTip(3, f"Resident: {usage.resident / 2 ** 20:.2f} MiB, Virtual: {usage.virtual / 2 ** 20:.2f} MiB")
+        item.setToolTip(3, f"Resident: {usage.resident / 2**20:.2f} MiB, Virtual: {usage.virtual / 2**20:.2f} MiB")
 
     def _apply_filter(self) -> None:
         text = self._filter.text()

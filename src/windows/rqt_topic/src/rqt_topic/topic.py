@@ -1,4 +1,5 @@
 """The plugin."""
+
 from rqt_gui_py.plugin import Plugin
 
 from .topic_widget import TopicWidget

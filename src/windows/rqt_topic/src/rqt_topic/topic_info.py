@@ -1,4 +1,5 @@
 """What is known of one topic while it is listened to."""
+
 import threading
 import time
 from collections import deque

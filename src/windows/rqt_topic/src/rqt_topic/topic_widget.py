@@ -1,8 +1,9 @@
 """The tree of topics and their fields."""
+
 from typing import Dict
 
 import rospy
-from python_qt_binding.QtCore import QMimeData, QSize, QTimer, Qt
+from python_qt_binding.QtCore import QMimeData, QSize, Qt, QTimer
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import QHeaderView, QMenu, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 from rqt_py_common.background import Background
@@ -171,8 +172,12 @@ class TopicWidget(QWidget):
 
     def _header_menu(self, place) -> None:
         header, menu, modes = self.tree.header(), QMenu(self), QHeaderView.ResizeMode
-        menu.addAction("Toggle Auto-Resize", lambda: header.setSectionResizeMode(
-            modes.Interactive if header.sectionResizeMode(0) == modes.ResizeToContents else modes.ResizeToContents))
+        menu.addAction(
+            "Toggle Auto-Resize",
+            lambda: header.setSectionResizeMode(
+                modes.Interactive if header.sectionResizeMode(0) == modes.ResizeToContents else modes.ResizeToContents
+            ),
+        )
         menu.popup(header.mapToGlobal(place))
 
     def _item_menu(self, place) -> None:

@@ -1,4 +1,5 @@
 """The plugin."""
+
 from python_qt_binding.QtCore import QUrl
 from python_qt_binding.QtWidgets import QHBoxLayout, QLineEdit, QPushButton, QVBoxLayout, QWidget
 from qt_gui.errors import PluginLoadError

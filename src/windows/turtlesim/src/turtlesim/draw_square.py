@@ -1,4 +1,5 @@
 """The node draw_square: drives turtle1 along a square of 2 m by its pose, for ever."""
+
 import math
 from typing import Any, List, Optional, Tuple
 
@@ -51,8 +52,7 @@ class SquareDriver:
     def _reached(self, pose) -> bool:
         assert self._goal is not None  # twist() has chosen one
         x, y, theta = self._goal
-        return (abs(pose.x - x) < NEAR and abs(pose.y - y) < NEAR
-                and abs(math.remainder(pose.theta - theta, 2 * math.pi)) < ALIGNED)
+        return abs(pose.x - x) < NEAR and abs(pose.y - y) < NEAR and abs(math.remainder(pose.theta - theta, 2 * math.pi)) < ALIGNED
 
 
 def main() -> None:

@@ -1,4 +1,5 @@
 """The node turtle_mimic: one turtle does what another does."""
+
 import node_signals
 import rospy
 from geometry_msgs.msg import Twist

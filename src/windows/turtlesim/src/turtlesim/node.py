@@ -1,10 +1,11 @@
 """The node turtlesim: topics and services of the turtles, and the loop that moves them."""
+
 import queue
 import random
 import sys
 import time
-from typing import Callable
 from concurrent.futures import Future
+from typing import Callable
 
 import node_signals
 import rosgraph
@@ -15,12 +16,22 @@ from node_signals.parameters import is_number
 from std_srvs.srv import Empty, EmptyResponse
 
 from .msg import Color, Pose
-from .srv import (Kill, KillResponse, SetPen, SetPenResponse, Spawn, SpawnResponse, TeleportAbsolute,
-                  TeleportAbsoluteResponse, TeleportRelative, TeleportRelativeResponse)
+from .srv import (
+    Kill,
+    KillResponse,
+    SetPen,
+    SetPenResponse,
+    Spawn,
+    SpawnResponse,
+    TeleportAbsolute,
+    TeleportAbsoluteResponse,
+    TeleportRelative,
+    TeleportRelativeResponse,
+)
 from .world import SIZE, Turtle, World, WorldError
 
 PERIOD = 16  # ms, of the timer and of the turtles' time
-BACKGROUND = {"background_r": 0x45, "background_g": 0x56, "background_b": 0xff}
+BACKGROUND = {"background_r": 0x45, "background_g": 0x56, "background_b": 0xFF}
 
 
 class TurtleFace:
@@ -35,9 +46,11 @@ class TurtleFace:
         self._run, self._draw = run, draw
         self._pose = rospy.Publisher(f"{name}/pose", Pose, queue_size=1)
         self._color = rospy.Publisher(f"{name}/color_sensor", Color, queue_size=1)
-        self._services = [rospy.Service(f"{name}/set_pen", SetPen, self._set_pen),
-                          rospy.Service(f"{name}/teleport_relative", TeleportRelative, self._teleport_relative),
-                          rospy.Service(f"{name}/teleport_absolute", TeleportAbsolute, self._teleport_absolute)]
+        self._services = [
+            rospy.Service(f"{name}/set_pen", SetPen, self._set_pen),
+            rospy.Service(f"{name}/teleport_relative", TeleportRelative, self._teleport_relative),
+            rospy.Service(f"{name}/teleport_absolute", TeleportAbsolute, self._teleport_absolute),
+        ]
         self._velocity = rospy.Subscriber(f"{name}/cmd_vel", Twist, self._drive, queue_size=1)
 
     def close(self) -> None:
@@ -88,8 +101,12 @@ class TurtleNode:
         self._paint_background()
         rospy.loginfo("Starting turtlesim with node name %s", rospy.get_name())
         self._spawn("", SIZE / 2, SIZE / 2, 0.0)
-        for name, kind, work in (("clear", Empty, self._on_clear), ("reset", Empty, self._on_reset),
-                                 ("spawn", Spawn, self._on_spawn), ("kill", Kill, self._on_kill)):
+        for name, kind, work in (
+            ("clear", Empty, self._on_clear),
+            ("reset", Empty, self._on_reset),
+            ("spawn", Spawn, self._on_spawn),
+            ("kill", Kill, self._on_kill),
+        ):
             rospy.Service(name, kind, lambda request, work=work: self._run(lambda: work(request)))
 
     def tick(self) -> None:

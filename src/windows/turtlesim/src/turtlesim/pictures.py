@@ -1,4 +1,5 @@
 """The fourteen turtles, drawn with ellipses: each METRE pixels high, looking up."""
+
 from typing import List, NamedTuple
 
 from python_qt_binding.QtCore import QPointF, QRectF, Qt

@@ -1,9 +1,10 @@
 """The node teleop_turtle: a twist for each arrow key."""
+
 import os
 import select
 import sys
-from typing import Optional
 import termios
+from typing import Optional
 
 import node_signals
 import rospy

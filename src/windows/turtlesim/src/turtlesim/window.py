@@ -1,4 +1,5 @@
 """The window with the turtles and what they have drawn."""
+
 import math
 from typing import Iterable, Tuple
 
@@ -29,7 +30,7 @@ class TurtleWindow(QFrame):
 
     def clear(self, red: int, green: int, blue: int) -> None:
         """Forget all lines; of each colour number the lowest byte counts."""
-        self._paths.fill(QColor(red & 0xff, green & 0xff, blue & 0xff))
+        self._paths.fill(QColor(red & 0xFF, green & 0xFF, blue & 0xFF))
         self.update()
 
     def draw(self, lines: Iterable[Line]) -> None:

@@ -2,6 +2,7 @@
 
 Lengths in metres, angles in radians, x to the right and y up from the lower left corner.
 """
+
 import math
 import struct
 from dataclasses import dataclass, field
@@ -37,7 +38,7 @@ class Line(NamedTuple):
 
 @dataclass(frozen=True)
 class Pen:
-    color: Tuple[int, int, int] = (0xb3, 0xb8, 0xff)
+    color: Tuple[int, int, int] = (0xB3, 0xB8, 0xFF)
     width: int = 3  # pixels
 
 

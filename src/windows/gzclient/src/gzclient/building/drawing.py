@@ -1,4 +1,5 @@
 """The plan in the page: a sheet to draw on, and the building that stands on it."""
+
 from __future__ import annotations
 
 import math
@@ -18,8 +19,10 @@ _OPENINGS = {"door": (150, 90, 40), "window": (110, 180, 230)}
 _GHOST = (30, 110, 230)
 _PICKED = (255, 170, 0)
 _CUBE = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
-_SIDES = np.array([(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6),
-                   (0, 6, 4), (1, 5, 7), (1, 7, 3)], np.uint32)
+_SIDES = np.array(
+    [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)],
+    np.uint32,
+)
 
 Hook = Callable[[Any, Optional[Element]], None]  # mesh, the element it is (None: the sheet)
 
@@ -66,13 +69,20 @@ class PlanDrawing:
         """To draw on, at the height of a level's floor, m."""
         if self._sheet is None or self._grid is None:
             vertices, triangles = boxes_mesh([((0.0, 0.0, -0.005), (_SHEET, _SHEET, 0.01))])
-            self._sheet = self._scene.add_mesh_simple("/plan/sheet", vertices, triangles, color=(236, 240, 246),
-                                                      cast_shadow=False)
+            self._sheet = self._scene.add_mesh_simple("/plan/sheet", vertices, triangles, color=(236, 240, 246), cast_shadow=False)
             self._hook(self._sheet, None)
-            self._grid = self._scene.add_grid("/plan/grid", width=_SHEET, height=_SHEET, cell_size=max(snap, 0.05),
-                                              section_size=1.0, cell_thickness=0.5, section_thickness=1.0,
-                                              cell_color=(205, 212, 224), section_color=(160, 172, 190),
-                                              shadow_opacity=0.0)
+            self._grid = self._scene.add_grid(
+                "/plan/grid",
+                width=_SHEET,
+                height=_SHEET,
+                cell_size=max(snap, 0.05),
+                section_size=1.0,
+                cell_thickness=0.5,
+                section_thickness=1.0,
+                cell_color=(205, 212, 224),
+                section_color=(160, 172, 190),
+                shadow_opacity=0.0,
+            )
         self._sheet.position, self._grid.position = (0.0, 0.0, height), (0.0, 0.0, height + 0.004)
         self._grid.cell_size = max(snap, 0.05)
 
@@ -85,9 +95,16 @@ class PlanDrawing:
             height, width = pixels.shape[:2]
             # viser's images look along -z of their frame, their first row at +y of it after half a turn about x
             self._picture = self._scene.add_image(
-                "/plan/picture", pixels, width * resolution, height * resolution, format="jpeg", cast_shadow=False,
-                receive_shadow=False, wxyz=(0.0, 1.0, 0.0, 0.0),
-                position=(width * resolution / 2, height * resolution / 2, 0.003))
+                "/plan/picture",
+                pixels,
+                width * resolution,
+                height * resolution,
+                format="jpeg",
+                cast_shadow=False,
+                receive_shadow=False,
+                wxyz=(0.0, 1.0, 0.0, 0.0),
+                position=(width * resolution / 2, height * resolution / 2, 0.003),
+            )
 
     # ------------------------------------------------------------------------------------------ the building
 
@@ -134,12 +151,24 @@ class PlanDrawing:
             boxes = list(content)
         else:
             wall, opening = content
-            boxes = [((opening.at - wall.length / 2, 0.0, opening.sill + opening.height / 2),
-                      (opening.width, wall.thickness + 0.02, opening.height))]
+            boxes = [
+                (
+                    (opening.at - wall.length / 2, 0.0, opening.sill + opening.height / 2),
+                    (opening.width, wall.thickness + 0.02, opening.height),
+                )
+            ]
             opacity, yaw, place = 0.5, wall.yaw, _middle(wall, base)
         vertices, triangles = boxes_mesh(boxes or [((0.0, 0.0, 0.0), (0.01, 0.01, 0.01))])
-        mesh = self._scene.add_mesh_simple(node, vertices, triangles, color=colour, opacity=opacity, flat_shading=True,
-                                           position=place, wxyz=wxyz(quat_from_rpy(0.0, 0.0, yaw)))
+        mesh = self._scene.add_mesh_simple(
+            node,
+            vertices,
+            triangles,
+            color=colour,
+            opacity=opacity,
+            flat_shading=True,
+            position=place,
+            wxyz=wxyz(quat_from_rpy(0.0, 0.0, yaw)),
+        )
         if element is not None:
             self._hook(mesh, element)
         return mesh
@@ -155,8 +184,7 @@ class PlanDrawing:
         length = max(math.dist(start, end), 0.02)
         if self._ghost is None:
             vertices, triangles = boxes_mesh([((0.5, 0.0, 0.5), (1.0, 1.0, 1.0))])
-            self._ghost = self._scene.add_mesh_simple("/plan_ghost", vertices, triangles, color=_GHOST, opacity=0.6,
-                                                      cast_shadow=False)
+            self._ghost = self._scene.add_mesh_simple("/plan_ghost", vertices, triangles, color=_GHOST, opacity=0.6, cast_shadow=False)
         self._ghost.scale = (length, thickness, 0.3)
         self._ghost.position = (*start, base)
         self._ghost.wxyz = wxyz(quat_from_rpy(0.0, 0.0, math.atan2(end[1] - start[1], end[0] - start[0])))
@@ -176,5 +204,7 @@ def _floor(building: Building, number: int) -> List[Tuple]:
     near = [part for part in (below, level) if part.walls or part.stairs]
     if not near:
         return []
-    return [(((x0 + x1) / 2, (y0 + y1) / 2, -FLOOR_THICKNESS / 2), (x1 - x0, y1 - y0, FLOOR_THICKNESS))
-            for x0, y0, x1, y1 in floor_pieces(outline(near), [stairwell(stairs) for stairs in below.stairs])]
+    return [
+        (((x0 + x1) / 2, (y0 + y1) / 2, -FLOOR_THICKNESS / 2), (x1 - x0, y1 - y0, FLOOR_THICKNESS))
+        for x0, y0, x1, y1 in floor_pieces(outline(near), [stairwell(stairs) for stairs in below.stairs])
+    ]

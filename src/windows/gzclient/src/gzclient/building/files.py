@@ -1,4 +1,5 @@
 """Where buildings are kept: one folder for each, with the plan, and the model that Gazebo Classic would open."""
+
 from __future__ import annotations
 
 import os
@@ -39,8 +40,11 @@ def checked_name(name: str) -> str:
 def names() -> List[str]:
     """Of the buildings that can be opened."""
     try:
-        return sorted(name for name in os.listdir(folder()) if _NAME.fullmatch(name) and any(
-            os.path.isfile(os.path.join(folder(), name, file)) for file in (PLAN, MODEL)))
+        return sorted(
+            name
+            for name in os.listdir(folder())
+            if _NAME.fullmatch(name) and any(os.path.isfile(os.path.join(folder(), name, file)) for file in (PLAN, MODEL))
+        )
     except OSError:
         return []
 
@@ -69,8 +73,9 @@ def save(document: Dict[str, Any]) -> str:
 def text_of(document: Dict[str, Any]) -> str:
     """The plan as YAML, an element a line."""
     ordered = {key: document[key] for key in ("name", *(key for key in document if key != "name")) if key in document}
-    return ("# A building for gzclient's editor and for rosrun building_editor build_world plan.yaml -o NAME.world\n"
-            + yaml.safe_dump(ordered, sort_keys=False, default_flow_style=None, width=110))
+    return "# A building for gzclient's editor and for rosrun building_editor build_world plan.yaml -o NAME.world\n" + yaml.safe_dump(
+        ordered, sort_keys=False, default_flow_style=None, width=110
+    )
 
 
 def load(name: str) -> Tuple[Dict[str, Any], List[str]]:

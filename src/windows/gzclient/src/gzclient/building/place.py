@@ -1,4 +1,5 @@
 """The controls that say where the picked part of a plan is, to the millimetre, as Gazebo's inspectors do."""
+
 from __future__ import annotations
 
 import math
@@ -22,8 +23,7 @@ class PlaceControls:
     :param told: is given what to do then
     """
 
-    def __init__(self, gui: Any, on_update: Callable[[Any, Callable[[Any], None]], None],
-                 told: Callable[[Callable[[], None]], None]):
+    def __init__(self, gui: Any, on_update: Callable[[Any, Callable[[Any], None]], None], told: Callable[[Callable[[], None]], None]):
         self._plan: Optional[Plan] = None
         self._which: Optional[Element] = None
         self._ends: Dict[str, List[Tuple[int, str]]] = {}
@@ -31,13 +31,21 @@ class PlaceControls:
         with self._folder:
             self._from = gui.add_vector2("Start (m)", (0.0, 0.0), step=0.001)
             self._to = gui.add_vector2("End (m)", (0.0, 0.0), step=0.001, hint="walls that end there come along")
-            self._length = gui.add_number("Wall's length (m)", 1.0, min=0.0, max=_FARTHEST, step=0.001,
-                                          hint="from end to end; the wall itself reaches half its thickness farther at a corner")
-            self._at = gui.add_number("From the wall's start (m)", 0.0, min=0.0, max=_FARTHEST, step=0.001,
-                                      hint="to its middle")
-        for control, change in ((self._from, lambda: self._put("from", self._from.value)),
-                                (self._to, lambda: self._put("to", self._to.value)),
-                                (self._length, self._stretch), (self._at, lambda: self._change(at=float(self._at.value)))):
+            self._length = gui.add_number(
+                "Wall's length (m)",
+                1.0,
+                min=0.0,
+                max=_FARTHEST,
+                step=0.001,
+                hint="from end to end; the wall itself reaches half its thickness farther at a corner",
+            )
+            self._at = gui.add_number("From the wall's start (m)", 0.0, min=0.0, max=_FARTHEST, step=0.001, hint="to its middle")
+        for control, change in (
+            (self._from, lambda: self._put("from", self._from.value)),
+            (self._to, lambda: self._put("to", self._to.value)),
+            (self._length, self._stretch),
+            (self._at, lambda: self._change(at=float(self._at.value))),
+        ):
             on_update(control, partial(self._changed, told, change))
 
     @staticmethod
@@ -56,8 +64,12 @@ class PlaceControls:
         self._folder.visible = which is not None
         if which is None:
             return
-        for control, kinds in ((self._from, ("walls", "stairs")), (self._to, ("walls",)), (self._length, ("walls",)),
-                               (self._at, ("doors", "windows"))):
+        for control, kinds in (
+            (self._from, ("walls", "stairs")),
+            (self._to, ("walls",)),
+            (self._length, ("walls",)),
+            (self._at, ("doors", "windows")),
+        ):
             control.visible = which.kind in kinds
         if which.kind == "walls":
             self._ends = {end: plan.ends_at(which, end) for end in ("from", "to")}
@@ -69,8 +81,11 @@ class PlaceControls:
         element = plan.element(which)
         values: Tuple[Tuple[Any, Any], ...]
         if which.kind == "walls":
-            values = ((self._from, tuple(element["from"])), (self._to, tuple(element["to"])),
-                      (self._length, round(math.dist(element["from"], element["to"]), 6)))
+            values = (
+                (self._from, tuple(element["from"])),
+                (self._to, tuple(element["to"])),
+                (self._length, round(math.dist(element["from"], element["to"]), 6)),
+            )
         elif which.kind == "stairs":
             values = ((self._from, tuple(element["at"][:2])),)
         else:

@@ -3,6 +3,7 @@
 The document is the mapping that :func:`building_editor.building.building_of` reads, with each wall on its own (``from``,
 ``to``). Elements are named ``(level, kind, index)``, openings in a wall ``(level, kind, index, wall)``.
 """
+
 from __future__ import annotations
 
 import copy
@@ -92,7 +93,7 @@ class Plan:
     # ------------------------------------------------------------------------------------------ history
 
     def _change(self) -> None:
-        self._past = self._past[1 - _MOST_STEPS:] + [copy.deepcopy(self.document)]
+        self._past = self._past[1 - _MOST_STEPS :] + [copy.deepcopy(self.document)]
         self._future.clear()
 
     def undo(self) -> None:
@@ -161,6 +162,7 @@ class Plan:
             walls = self.part(self.level).setdefault("walls", [])
             walls.append({"from": list(map(float, start)), "to": list(map(float, end)), **_plain(settings)})
             return Element(self.level, "walls", len(walls) - 1)
+
         return self.attempt(change)
 
     def add_opening(self, kind: str, wall: int, point: Point, **settings: float) -> Element:
@@ -168,11 +170,13 @@ class Plan:
 
         :param kind: doors or windows. :param settings: width, height, sill m
         """
+
         def change() -> Element:
             whole = self.element(Element(self.level, "walls", wall))
             openings = whole.setdefault(kind, [])
             openings.append({"at": self._along(whole, point, settings.get("width", 0.8)), **_plain(settings)})
             return Element(self.level, kind, len(openings) - 1, wall)
+
         return self.attempt(change)
 
     def _along(self, wall: Dict[str, Any], point: Point, width: float) -> float:
@@ -186,22 +190,27 @@ class Plan:
 
     def add_stairs(self, point: Point, yaw: float = 0.0, **settings: Any) -> Element:
         """They begin at ``point`` and climb along ``yaw`` to the next level."""
+
         def change() -> Element:
             stairs = self.part(self.level).setdefault("stairs", [])
-            stairs.append({"at": list(self.snap_point(point)), "yaw": snapped(yaw, self.snap_angle),
-                           **_plain(settings)})
+            stairs.append({"at": list(self.snap_point(point)), "yaw": snapped(yaw, self.snap_angle), **_plain(settings)})
             return Element(self.level, "stairs", len(stairs) - 1)
+
         return self.attempt(change)
 
     def add_level(self) -> None:
         """One more on top, with the outer walls of the one below, as in Gazebo's editor; it is drawn on from now on."""
+
         def change() -> None:
-            walls = [{key: copy.deepcopy(value) for key, value in wall.items() if key not in ("doors", "windows")}
-                     for wall in self.part(self.levels - 1).get("walls") or []]
+            walls = [
+                {key: copy.deepcopy(value) for key, value in wall.items() if key not in ("doors", "windows")}
+                for wall in self.part(self.levels - 1).get("walls") or []
+            ]
             if not walls:
                 raise Refused("Draw walls first; the next level stands on them.")
             self.document.setdefault("levels", []).append({"walls": walls})
             self.level = self.levels - 1
+
         level = self.level
         try:
             self.attempt(change)
@@ -226,6 +235,7 @@ class Plan:
     def change(self, which: Element, **settings: Any) -> None:
         """Other measures or looks; None takes a setting away. A colour takes the place of a material, and the other way
         round."""
+
         def change() -> None:
             whole = self.element(which)
             for key, other in (("color", "material"), ("material", "color")):
@@ -234,6 +244,7 @@ class Plan:
             whole.update(_plain(settings))
             for key in [key for key, value in settings.items() if value is None]:
                 whole.pop(key, None)
+
         self.attempt(change)
 
     def grip(self, wall: int, point: Point) -> str:
@@ -261,14 +272,12 @@ class Plan:
         elif grip:
             self.attempt(lambda: self._move_end(whole, grip, point))
         else:
-            self.attempt(lambda: whole.update({end: [round(v + s, 6) for v, s in zip(whole[end], shift)]
-                                               for end in ("from", "to")}))
+            self.attempt(lambda: whole.update({end: [round(v + s, 6) for v, s in zip(whole[end], shift)] for end in ("from", "to")}))
 
     def _move_end(self, whole: Dict[str, Any], grip: str, point: Point) -> None:
         before = tuple(whole[grip])
         other = whole["to" if grip == "from" else "from"]
-        joined = [(wall, end) for wall in self.part(self.level)["walls"] for end in ("from", "to")
-                  if math.dist(wall[end], before) < _NEAR]
+        joined = [(wall, end) for wall in self.part(self.level)["walls"] for end in ("from", "to") if math.dist(wall[end], before) < _NEAR]
         place = snapped(point[0], self.snap), snapped(point[1], self.snap)
         if len(joined) == 1:
             place = self.snap_end(tuple(other), point)
@@ -278,9 +287,12 @@ class Plan:
     def ends_at(self, which: Element, end: str) -> List[Tuple[int, str]]:
         """(wall, from or to) of each end of its level that is where this wall's is, its own first."""
         place = self.element(which)[end]
-        return [(which.index, end)] + [(number, other) for number, wall in enumerate(self.part(which.level)["walls"])
-                                       for other in ("from", "to")
-                                       if (number, other) != (which.index, end) and math.dist(wall[other], place) < _NEAR]
+        return [(which.index, end)] + [
+            (number, other)
+            for number, wall in enumerate(self.part(which.level)["walls"])
+            for other in ("from", "to")
+            if (number, other) != (which.index, end) and math.dist(wall[other], place) < _NEAR
+        ]
 
     def put_ends(self, level: int, ends: List[Tuple[int, str]], point: Point) -> None:
         """To that very place, whatever the grid.
@@ -288,12 +300,14 @@ class Plan:
         :param ends: as of :meth:`ends_at`
         :raises Refused: a wall would have no length
         """
+
         def change() -> None:
             walls = self.part(level)["walls"]
             for number, end in ends:
                 walls[number][end] = [float(part) for part in point]
                 if math.dist(walls[number]["from"], walls[number]["to"]) < _SHORTEST:
                     raise Refused("A wall needs two different ends.")
+
         self.attempt(change)
 
     def turn(self, which: Element, angle: float) -> None:
@@ -307,8 +321,13 @@ def _plain(settings: Dict[str, Any]) -> Dict[str, Any]:
     made = {}
     for key, value in settings.items():
         if value is not None:
-            made[key] = ([round(float(part), 4) for part in value] if isinstance(value, (tuple, list)) else
-                         round(value, 6) if isinstance(value, float) else value)
+            made[key] = (
+                [round(float(part), 4) for part in value]
+                if isinstance(value, (tuple, list))
+                else round(value, 6)
+                if isinstance(value, float)
+                else value
+            )
     return made
 
 
@@ -322,8 +341,9 @@ def _of_single_walls(document: Dict[str, Any]) -> Dict[str, Any]:
     building = building_of(document)
     made = {key: copy.deepcopy(value) for key, value in document.items() if key not in ("walls", "levels")}
     for number, level in enumerate(building.levels):
-        part = made if number == 0 else {
-            key: copy.deepcopy(value) for key, value in document["levels"][number - 1].items() if key != "walls"}
+        part = (
+            made if number == 0 else {key: copy.deepcopy(value) for key, value in document["levels"][number - 1].items() if key != "walls"}
+        )
         part["walls"] = [_wall_entry(wall) for wall in level.walls]
         if number:
             made.setdefault("levels", []).append(part)
@@ -332,8 +352,7 @@ def _of_single_walls(document: Dict[str, Any]) -> Dict[str, Any]:
 
 def _wall_entry(wall: Any) -> Dict[str, Any]:
     look = {"color": list(wall.look.color)} if wall.look.color is not None else {"material": wall.look.material}
-    entry: Dict[str, Any] = {"from": list(wall.start), "to": list(wall.end), "thickness": wall.thickness,
-                             "height": wall.height, **look}
+    entry: Dict[str, Any] = {"from": list(wall.start), "to": list(wall.end), "thickness": wall.thickness, "height": wall.height, **look}
     for opening in wall.openings:
         hole = {"at": opening.at, "width": opening.width, "height": opening.height}
         if opening.kind == "window" or opening.sill:

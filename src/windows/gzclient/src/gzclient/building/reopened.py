@@ -2,6 +2,7 @@
 
 A wall is what its boxes cover together; what they leave open inside is a door where it reaches the floor, else a window.
 """
+
 from __future__ import annotations
 
 import math
@@ -132,6 +133,7 @@ def _bases(heights: Iterator[float]) -> List[float]:
 
 # ---------------------------------------------------------------------------------------------- walls
 
+
 def _wall(part: _Part) -> Dict[str, Any]:
     boxes = part.boxes
     (x0, x1), (y0, y1), (z0, z1) = (_around([getattr(box, axis) for box in boxes]) for axis in "xyz")
@@ -141,8 +143,13 @@ def _wall(part: _Part) -> Dict[str, Any]:
     start, end = x0 + thickness / 2, x1 - thickness / 2  # a wall reaches half its thickness beyond its ends
     if end - start < _SAME:
         raise _Strange("shorter than it is thick")
-    entry: Dict[str, Any] = {"from": part.at(start, y), "to": part.at(end, y), "thickness": round(thickness, 4),
-                             "height": round(z1 - z0, 4), **part.look}
+    entry: Dict[str, Any] = {
+        "from": part.at(start, y),
+        "to": part.at(end, y),
+        "thickness": round(thickness, 4),
+        "height": round(z1 - z0, 4),
+        **part.look,
+    }
     length = math.dist(entry["from"], entry["to"])
     for (left, right), (low, high) in _holes(boxes):
         left, right = max(left - start, 0.0), min(right - start, length)
@@ -207,6 +214,7 @@ def _join(wall: Dict[str, Any], ends: List[List[float]]) -> None:
 
 # ---------------------------------------------------------------------------------------------- stairs
 
+
 def _stairs(part: _Part) -> Dict[str, Any]:
     """Steps are boxes one behind and above the other."""
     steps = sorted(part.boxes, key=lambda box: box.z[1])
@@ -220,7 +228,12 @@ def _stairs(part: _Part) -> Dict[str, Any]:
     across = steps[0].y if abs(ahead[0]) > 0.5 else steps[0].x
     tread = run / (len(steps) - 1)
     yaw = to_rpy(part.pose)[2] + math.atan2(ahead[1], ahead[0])
-    return {"at": part.at(lowest[0] - ahead[0] * tread / 2, lowest[1] - ahead[1] * tread / 2),
-            "yaw": round(yaw % (2 * math.pi), 6), "width": round(across[1] - across[0], 4),
-            "depth": round(tread * len(steps), 4), "height": round(steps[-1].z[1] - min(box.z[0] for box in steps), 4),
-            "steps": len(steps), **part.look}
+    return {
+        "at": part.at(lowest[0] - ahead[0] * tread / 2, lowest[1] - ahead[1] * tread / 2),
+        "yaw": round(yaw % (2 * math.pi), 6),
+        "width": round(across[1] - across[0], 4),
+        "depth": round(tread * len(steps), 4),
+        "height": round(steps[-1].z[1] - min(box.z[0] for box in steps), 4),
+        "steps": len(steps),
+        **part.look,
+    }

@@ -1,4 +1,5 @@
 """A model that is being made: what a hand does to it, step by step, and back; kept as upstream's editor keeps it."""
+
 from __future__ import annotations
 
 import os
@@ -9,7 +10,8 @@ from typing import Callable, List, Optional, Tuple, Union
 
 import lenient_xml
 import numpy as np
-from ode_sim.description import DescriptionError, ResourceFinder, model as d, read_sdf_model
+from ode_sim.description import DescriptionError, ResourceFinder, read_sdf_model
+from ode_sim.description import model as d
 from ode_sim.description.sdf_writer import model_text
 from ode_sim.math3 import Pose, vec3
 from ode_sim.viewer.panels.base import free_name
@@ -40,7 +42,7 @@ class Draft:
     # ------------------------------------------------------------------------------------------ history
 
     def _set(self, **changes) -> None:
-        self._past = self._past[1 - _MOST_STEPS:] + [self.model]
+        self._past = self._past[1 - _MOST_STEPS :] + [self.model]
         self._future.clear()
         self.model = replace(self.model, **changes)
 
@@ -88,8 +90,7 @@ class Draft:
         """Other measures: the inertia follows."""
         if not (mass > 0.0 and np.isfinite(mass)):
             raise Refused("A mass is more than 0.")
-        sizes = [value for field in ("size", "radius", "length", "scale") for value in np.ravel(
-            getattr(shape, field, ()))]
+        sizes = [value for field in ("size", "radius", "length", "scale") for value in np.ravel(getattr(shape, field, ()))]
         if not all(np.isfinite(value) and 1e-6 < value < 1e5 for value in sizes):
             raise Refused("The sizes of a shape are more than 0.")
         material = d.Material(ambient=colour, diffuse=colour) if colour else None
@@ -98,6 +99,7 @@ class Draft:
             made = _body(name, shape, mass)
             visual = replace(made.visuals[0], material=material or (link.visuals[0].material if link.visuals else None))
             return replace(link, inertial=made.inertial, collisions=made.collisions, visuals=(visual,))
+
         self.change_link(name, change)
 
     def rename_link(self, old: str, new: str) -> None:
@@ -105,21 +107,32 @@ class Draft:
         if new in {link.name for link in self.model.links} or new == "world":
             raise Refused(f"There is a link '{new}' already.")
         self.link(old)
-        self._set(links=tuple(replace(link, name=new) if link.name == old else link for link in self.model.links),
-                  joints=tuple(replace(joint, parent=new if joint.parent == old else joint.parent,
-                                       child=new if joint.child == old else joint.child)
-                               for joint in self.model.joints))
+        self._set(
+            links=tuple(replace(link, name=new) if link.name == old else link for link in self.model.links),
+            joints=tuple(
+                replace(joint, parent=new if joint.parent == old else joint.parent, child=new if joint.child == old else joint.child)
+                for joint in self.model.joints
+            ),
+        )
 
     def delete(self, name: str) -> None:
         """A link with its joints, or a joint."""
-        self._set(links=tuple(link for link in self.model.links if link.name != name),
-                  joints=tuple(joint for joint in self.model.joints
-                               if name not in (joint.name, joint.parent, joint.child)))
+        self._set(
+            links=tuple(link for link in self.model.links if link.name != name),
+            joints=tuple(joint for joint in self.model.joints if name not in (joint.name, joint.parent, joint.child)),
+        )
 
     # ------------------------------------------------------------------------------------------ joints, plugins
 
-    def add_joint(self, kind: str, parent: str, child: str, axis: d.Vec3 = (0.0, 0.0, 1.0),
-                  limits: Tuple[float, float] = (-1e16, 1e16), anchor: d.Vec3 = (0.0, 0.0, 0.0)) -> str:
+    def add_joint(
+        self,
+        kind: str,
+        parent: str,
+        child: str,
+        axis: d.Vec3 = (0.0, 0.0, 1.0),
+        limits: Tuple[float, float] = (-1e16, 1e16),
+        anchor: d.Vec3 = (0.0, 0.0, 0.0),
+    ) -> str:
         """Its name.
 
         :param axis, anchor: in the child's frame, m. :param limits: rad or m
@@ -145,8 +158,7 @@ class Draft:
             raise Refused(f"'{child}' hangs on '{above.get(child, child)}' already.")
         name = free_name(f"{parent}_{child}", {joint.name for joint in self.model.joints})
         unit = vec3(np.asarray(axis, float) / np.linalg.norm(axis))
-        axes = tuple(d.Axis(unit if number == 0 else _across(unit), *map(float, limits))
-                     for number in range(AXES.get(kind, 0)))
+        axes = tuple(d.Axis(unit if number == 0 else _across(unit), *map(float, limits)) for number in range(AXES.get(kind, 0)))
         self._set(joints=self.model.joints + (d.Joint(name, kind, parent, child, Pose(anchor), axes),))
         return name
 
@@ -229,8 +241,9 @@ def checked_name(name: str) -> str:
 def names() -> List[str]:
     """Of the models that can be opened."""
     try:
-        return sorted(name for name in os.listdir(folder())
-                      if _NAME.fullmatch(name) and os.path.isfile(os.path.join(folder(), name, "model.sdf")))
+        return sorted(
+            name for name in os.listdir(folder()) if _NAME.fullmatch(name) and os.path.isfile(os.path.join(folder(), name, "model.sdf"))
+        )
     except OSError:
         return []
 
@@ -247,8 +260,13 @@ def _body(name: str, shape: Solid, mass: float) -> d.Link:
     """Its inertia is that of the shape."""
     solid = shape_model(name, d.Box() if isinstance(shape, d.Mesh) else shape, mass).links[0]
     inertial = meshes.inertial(shape, mass) if isinstance(shape, d.Mesh) else solid.inertial
-    return replace(solid, name=name, inertial=inertial, collisions=(d.Collision("collision", Pose(), shape),),
-                   visuals=(replace(solid.visuals[0], geometry=shape),))
+    return replace(
+        solid,
+        name=name,
+        inertial=inertial,
+        collisions=(d.Collision("collision", Pose(), shape),),
+        visuals=(replace(solid.visuals[0], geometry=shape),),
+    )
 
 
 def _across(axis: d.Vec3) -> d.Vec3:

@@ -1,4 +1,5 @@
 """The model in the page: its links, to be clicked and moved by a gizmo, and its joints."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -42,9 +43,18 @@ class ModelSketch:
 
         async def moved(event: Any) -> None:
             on_move(event, self._picked, tuple(map(float, event.target.position)), tuple(map(float, event.target.wxyz)))
+
         self._gizmo.on_update(moved)
-        self._grid = scene.add_grid("/model_grid", width=10.0, height=10.0, cell_size=0.25, section_size=1.0,
-                                    cell_color=(205, 212, 224), section_color=(160, 172, 190), shadow_opacity=0.0)
+        self._grid = scene.add_grid(
+            "/model_grid",
+            width=10.0,
+            height=10.0,
+            cell_size=0.25,
+            section_size=1.0,
+            cell_color=(205, 212, 224),
+            section_color=(160, 172, 190),
+            shadow_opacity=0.0,
+        )
 
     def close(self) -> None:
         self.show(d.Model(""), "")
@@ -77,17 +87,24 @@ class ModelSketch:
 
     def _draw(self, link: d.Link) -> "_Drawn":
         self._serial += 1
-        root = self._scene.add_frame(f"/model/{self._serial}", show_axes=False, axes_length=_AXIS, axes_radius=0.006,
-                                     position=link.pose.p, wxyz=wxyz(link.pose.q))
+        root = self._scene.add_frame(
+            f"/model/{self._serial}", show_axes=False, axes_length=_AXIS, axes_radius=0.006, position=link.pose.p, wxyz=wxyz(link.pose.q)
+        )
         drawn = _Drawn(link, [root], [])
         for number, visual in enumerate(link.visuals):
             for part_number, part in enumerate(self._assets.parts(visual, link.name)):
                 mesh, colour = self._assets.meshes[part.key], rgb255(part.look.diffuse)
                 node = self._scene.add_mesh_simple(
-                    f"{root.name}/{number}_{part_number}", np.asarray(mesh.vertices, np.float32),
-                    np.asarray(mesh.triangles, np.uint32), side="double", position=part.pose.p, wxyz=wxyz(part.pose.q),
-                    color=colour, scale=tuple(map(float, part.scale)),
-                    opacity=part.look.alpha if part.look.alpha < 0.995 else None)
+                    f"{root.name}/{number}_{part_number}",
+                    np.asarray(mesh.vertices, np.float32),
+                    np.asarray(mesh.triangles, np.uint32),
+                    side="double",
+                    position=part.pose.p,
+                    wxyz=wxyz(part.pose.q),
+                    color=colour,
+                    scale=tuple(map(float, part.scale)),
+                    opacity=part.look.alpha if part.look.alpha < 0.995 else None,
+                )
                 node.on_click(lambda event, name=link.name: self._on_click(event, name))
                 drawn.nodes.append(node)
                 drawn.painted.append((node, colour))
@@ -99,16 +116,23 @@ class ModelSketch:
             take_away(node)
         self._joints = []
         poses = {link.name: link.pose for link in model.links}
-        lines = [(poses[joint.parent].p, poses[joint.child].p) for joint in model.joints
-                 if joint.parent in poses and joint.child in poses]
+        lines = [(poses[joint.parent].p, poses[joint.child].p) for joint in model.joints if joint.parent in poses and joint.child in poses]
         if lines:
-            self._joints.append(self._scene.add_line_segments(
-                "/model_joints", np.array(lines, np.float32), colors=(40, 40, 40), thickness=0.01))
+            self._joints.append(
+                self._scene.add_line_segments("/model_joints", np.array(lines, np.float32), colors=(40, 40, 40), thickness=0.01)
+            )
         for number, joint in enumerate(model.joints):
             if joint.child in self._links and joint.axes:
                 node = self._links[joint.child].nodes[0].name
                 begin = np.asarray(joint.pose.p)
                 tips = np.array([(begin, begin + 1.5 * _AXIS * np.asarray(axis.xyz)) for axis in joint.axes])
-                self._joints.append(self._scene.add_arrows(f"{node}/joint{number}", tips.astype(np.float32),
-                                                           (230, 60, 30), shaft_radius=0.012, head_radius=0.03,
-                                                           head_length=0.07))
+                self._joints.append(
+                    self._scene.add_arrows(
+                        f"{node}/joint{number}",
+                        tips.astype(np.float32),
+                        (230, 60, 30),
+                        shaft_radius=0.012,
+                        head_radius=0.03,
+                        head_length=0.07,
+                    )
+                )

@@ -1,4 +1,5 @@
 """Meshes of a model that is being made: uploaded, weighed, and kept in the model's own folder, so that it can be moved."""
+
 from __future__ import annotations
 
 import filecmp
@@ -73,6 +74,7 @@ def _closed(triangles: np.ndarray) -> bool:
 
 # ---------------------------------------------------------------------------------------------- in the folder
 
+
 def gather(model: d.Model, folder: str, name: str, editors: str) -> d.Model:
     """Copy the meshes of a model, and what they name, into its ``folder``; the model with them as ``model://NAME/meshes/...``.
 
@@ -94,9 +96,14 @@ def gather(model: d.Model, folder: str, name: str, editors: str) -> d.Model:
         base = files[shape.path]
         return replace(shape, path=os.path.join(folder, FOLDER, base), uri=f"model://{name}/{FOLDER}/{base}")
 
-    links = tuple(replace(link, collisions=tuple(replace(part, geometry=mend(part.geometry)) for part in link.collisions),
-                          visuals=tuple(replace(part, geometry=mend(part.geometry)) for part in link.visuals))
-                  for link in model.links)
+    links = tuple(
+        replace(
+            link,
+            collisions=tuple(replace(part, geometry=mend(part.geometry)) for part in link.collisions),
+            visuals=tuple(replace(part, geometry=mend(part.geometry)) for part in link.visuals),
+        )
+        for link in model.links
+    )
     return replace(model, links=links)
 
 
@@ -119,8 +126,11 @@ def _named(path: str) -> List[str]:
     found = [part.material.texture for part in load_visual(path) if part.material.texture]
     if path.lower().endswith(".obj"):
         with open(path, encoding="utf-8", errors="replace") as stream:
-            found += [os.path.join(os.path.dirname(path), line.split(None, 1)[1].strip())
-                      for line in stream if line.startswith("mtllib ") and len(line.split()) > 1]
+            found += [
+                os.path.join(os.path.dirname(path), line.split(None, 1)[1].strip())
+                for line in stream
+                if line.startswith("mtllib ") and len(line.split()) > 1
+            ]
     return [file for file in dict.fromkeys(found) if os.path.isfile(file)]
 
 

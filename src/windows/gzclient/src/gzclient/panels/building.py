@@ -1,4 +1,5 @@
 """The building editor: walls, doors, windows and stairs, drawn on a sheet in the page."""
+
 from __future__ import annotations
 
 import io
@@ -46,8 +47,11 @@ class BuildingPanel(Panel):
         gui = self.gui
         self._on = gui.add_checkbox("Edit a building", False, hint="the world is hidden meanwhile, and runs on")
         self._tool = gui.add_dropdown(
-            "Tool", _TOOLS, hint="Wall: drag from end to end, or click along a path and on its last point again. Door, "
-            "Window: click on a wall. Move: drag a wall, its end, a door. Pick: its measures below")
+            "Tool",
+            _TOOLS,
+            hint="Wall: drag from end to end, or click along a path and on its last point again. Door, "
+            "Window: click on a wall. Move: drag a wall, its end, a door. Pick: its measures below",
+        )
         self._views = gui.add_button_group("View", ("Plan", "3-D"))
         self._history = gui.add_button_group("History", ("Undo", "Redo"))
         self._level = gui.add_dropdown("Level", ("0",))
@@ -59,10 +63,10 @@ class BuildingPanel(Panel):
         self._sketch: Any = None
         self.on_update(self._on, lambda on: page.later(lambda: self._switch(bool(on))))
         self._views.on_click(self._on_view)
-        self._history.on_click(lambda event: self._do(event, {"Undo": self._plan.undo, "Redo": self._plan.redo}[
-            event.target.value]))
-        self._levels.on_click(lambda event: self._do(event, {
-            "Add level": self._plan.add_level, "Remove level": self._plan.remove_level}[event.target.value]))
+        self._history.on_click(lambda event: self._do(event, {"Undo": self._plan.undo, "Redo": self._plan.redo}[event.target.value]))
+        self._levels.on_click(
+            lambda event: self._do(event, {"Add level": self._plan.add_level, "Remove level": self._plan.remove_level}[event.target.value])
+        )
         self.on_update(self._level, lambda value: page.later(lambda: self._go_to_level(int(value))))
         self.on_update(self._tool, lambda value: page.later(self._end_path))
 
@@ -85,8 +89,18 @@ class BuildingPanel(Panel):
             self._steps = gui.add_number("Steps", 15, min=1, max=200, step=1)
             self._yaw = gui.add_number("Stairs climb to (deg)", 0.0, step=15.0)
         self._place = PlaceControls(gui, self.on_update, lambda change: self.page.later(lambda: self._move_picked(change)))
-        for control in (self._thickness, self._height, self._material, self._coloured, self._colour, self._door,
-                        self._window, self._stairs, self._steps, self._yaw):
+        for control in (
+            self._thickness,
+            self._height,
+            self._material,
+            self._coloured,
+            self._colour,
+            self._door,
+            self._window,
+            self._stairs,
+            self._steps,
+            self._yaw,
+        ):
             self.on_update(control, lambda value: self._busy or self.page.later(self._change_picked))
         for control in (self._snap, self._angle):
             self.on_update(control, lambda value: self.page.later(self._set_snap))
@@ -103,12 +117,16 @@ class BuildingPanel(Panel):
             self._upload = gui.add_upload_button("Picture (PNG, JPEG)", mime_type="image/*")
             self._resolution = gui.add_number("Metres per pixel", 0.02, min=1e-4, max=10.0, step=0.001)
             self._scale = gui.add_number(
-                "Scale: last drawn wall is (m)", 0.0, min=0.0, max=1000.0, step=0.1,
-                hint="draw a wall over a line of the picture whose length is known, and say it")
+                "Scale: last drawn wall is (m)",
+                0.0,
+                min=0.0,
+                max=1000.0,
+                step=0.1,
+                hint="draw a wall over a line of the picture whose length is known, and say it",
+            )
             self._clear = gui.add_button("Remove picture")
         self.on_click(self._save, self._save_now)
-        self._open.on_click(lambda event: self._do(
-            event, self._open_now if event.target.value == "Open" else self._new))
+        self._open.on_click(lambda event: self._do(event, self._open_now if event.target.value == "Open" else self._new))
         self.on_click(self._put, self._put_into_world)
         self._upload.on_upload(lambda event: self.page.attempt(event, lambda: self._take_picture(event.target.value)))
         self.on_update(self._resolution, lambda value: self.page.later(self._show_picture))
@@ -139,8 +157,12 @@ class BuildingPanel(Panel):
 
     def _look(self, client: Any, view: str) -> None:
         """From above, north up, or from a corner; all that is drawn is seen."""
-        corners = [point for level in range(self._plan.levels) for wall in self._plan.part(level).get("walls") or []
-                   for point in (wall["from"], wall["to"])] or [(-4.0, -3.0), (4.0, 3.0)]
+        corners = [
+            point
+            for level in range(self._plan.levels)
+            for wall in self._plan.part(level).get("walls") or []
+            for point in (wall["from"], wall["to"])
+        ] or [(-4.0, -3.0), (4.0, 3.0)]
         low, high = np.min(corners, axis=0) - 1.0, np.max(corners, axis=0) + 1.0
         middle, size = (low + high) / 2, float(np.max(high - low))
         base = self._plan.base(self._plan.level)
@@ -149,11 +171,13 @@ class BuildingPanel(Panel):
 
     def _do(self, event: Any, f: Callable[[], Any]) -> None:
         """A button: in the drawing thread, for a page that may act."""
+
         def act() -> None:
             self.page.attempt(event, f)
             self._picked = self._picked if self._picked is not None and self._plan.has(self._picked) else None
             self._show_picked()
             self._refresh()
+
         self.page.later(act)
 
     def _refresh(self) -> None:
@@ -193,6 +217,7 @@ class BuildingPanel(Panel):
         async def on_drag(event: Any) -> None:
             start, end, phase = event.start_position, event.end_position, event.phase
             self.page.later(lambda: self.page.attempt(event, lambda: self._dragged(event, element, phase, start, end)))
+
         mesh.on_click(on_click)
         mesh.on_drag(on_drag)
 
@@ -246,8 +271,11 @@ class BuildingPanel(Panel):
         if element is None or (element.kind != "walls" and element.wall < 0) or element.level != self._plan.level:
             raise Refused(f"Click on a wall of level {self._plan.level}: a {tool.lower()} is a hole in it.")
         wall = element.index if element.kind == "walls" else element.wall
-        settings = (dict(zip(("width", "height"), map(float, self._door.value))) if tool == "Door" else
-                    dict(zip(("width", "height", "sill"), map(float, self._window.value))))
+        settings = (
+            dict(zip(("width", "height"), map(float, self._door.value)))
+            if tool == "Door"
+            else dict(zip(("width", "height", "sill"), map(float, self._window.value)))
+        )
         self._picked = self._plan.add_opening(tool.lower() + "s", wall, point, **settings)
 
     def _dragged(self, event: Any, element: Optional[Element], phase: str, start: Any, end: Any) -> None:
@@ -281,15 +309,24 @@ class BuildingPanel(Panel):
 
     def _wall_settings(self) -> dict:
         coloured = bool(self._coloured.value)
-        return {"thickness": float(self._thickness.value), "height": float(self._height.value),
-                "material": None if coloured else self._material.value,
-                "color": tuple(part / 255 for part in self._colour.value) if coloured else None}
+        return {
+            "thickness": float(self._thickness.value),
+            "height": float(self._height.value),
+            "material": None if coloured else self._material.value,
+            "color": tuple(part / 255 for part in self._colour.value) if coloured else None,
+        }
 
     def _stairs_settings(self) -> dict:
         width, depth, height = map(float, self._stairs.value)
         looks = self._wall_settings()
-        return {"width": width, "depth": depth, "height": height, "steps": int(self._steps.value),
-                "material": looks["material"], "color": looks["color"]}
+        return {
+            "width": width,
+            "depth": depth,
+            "height": height,
+            "steps": int(self._steps.value),
+            "material": looks["material"],
+            "color": looks["color"],
+        }
 
     def _set_snap(self) -> None:
         self._plan.snap, self._plan.snap_angle = float(self._snap.value), math.radians(float(self._angle.value))
@@ -316,11 +353,13 @@ class BuildingPanel(Panel):
             elif self._picked.kind == "doors":
                 self._door.value = (float(element.get("width", 0.9)), float(element.get("height", 2.0)))
             elif self._picked.kind == "windows":
-                self._window.value = tuple(float(element.get(key, usual)) for key, usual in (
-                    ("width", 0.8), ("height", 0.8), ("sill", 0.5)))
+                self._window.value = tuple(
+                    float(element.get(key, usual)) for key, usual in (("width", 0.8), ("height", 0.8), ("sill", 0.5))
+                )
             else:
-                self._stairs.value = tuple(float(element.get(key, usual)) for key, usual in (
-                    ("width", 1.0), ("depth", 3.5), ("height", 2.5)))
+                self._stairs.value = tuple(
+                    float(element.get(key, usual)) for key, usual in (("width", 1.0), ("depth", 3.5), ("height", 2.5))
+                )
                 self._steps.value = int(element.get("steps", 15))
                 self._yaw.value = math.degrees(float(element.get("yaw", 0.0)))
         finally:
@@ -409,8 +448,9 @@ class BuildingPanel(Panel):
                 raise Refused(f"{upload.name} has {picture.width}x{picture.height} pixels; at most {_LARGEST} are taken.")
             self._picture = np.asarray(picture.convert("RGB"))
         except (OSError, SyntaxError, ValueError) as error:
-            raise error if isinstance(error, Refused) else Refused(
-                f"{upload.name} is no picture that can be read; PNG and JPEG can.") from error
+            raise (
+                error if isinstance(error, Refused) else Refused(f"{upload.name} is no picture that can be read; PNG and JPEG can.")
+            ) from error
         self.page.later(self._show_picture)
 
     def _show_picture(self) -> None:

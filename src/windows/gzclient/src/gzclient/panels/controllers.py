@@ -1,4 +1,5 @@
 """What the controller managers list; start and stop; sliders of the commands."""
+
 from __future__ import annotations
 
 from typing import Any, List, NamedTuple, Tuple
@@ -37,7 +38,7 @@ class _Sent(NamedTuple):
 def managers() -> List[str]:
     """Namespaces that have a controller manager, from the master."""
     services = rosgraph.Master(rospy.get_name()).getSystemState()[2]
-    return sorted(name[:-len(_LIST)] for name, _ in services if name.endswith(_LIST))
+    return sorted(name[: -len(_LIST)] for name, _ in services if name.endswith(_LIST))
 
 
 class ControllersPanel(Panel):
@@ -58,8 +59,7 @@ class ControllersPanel(Panel):
             asked = managers()
         except (OSError, rosgraph.MasterException) as error:
             raise Refused(f"the ROS master does not answer: {error}") from error
-        found = [_listed(manager, controller) for manager in asked
-                 for controller in _call(manager + _LIST, ListControllers).controller]
+        found = [_listed(manager, controller) for manager in asked for controller in _call(manager + _LIST, ListControllers).controller]
         self.page.later(lambda: self._show(found, bool(asked)))
 
     def _show(self, found: List[_Listed], asked: bool) -> None:
@@ -83,8 +83,10 @@ class ControllersPanel(Panel):
         if command is None:
             return
         publisher = rospy.Publisher(f"{listed.manager}/{listed.name}/{command.topic}", command.cls, queue_size=1)
-        sliders = [self.gui.add_slider(f"{listed.name} {slider.label}", slider.low, slider.high,
-                                       (slider.high - slider.low) / 1000, slider.now) for slider in command.sliders]
+        sliders = [
+            self.gui.add_slider(f"{listed.name} {slider.label}", slider.low, slider.high, (slider.high - slider.low) / 1000, slider.now)
+            for slider in command.sliders
+        ]
         sent = _Sent(listed, command, publisher, tuple(sliders))
         for made in sliders:
             self.on_update(made, lambda _: self._send(sent))
@@ -106,8 +108,15 @@ class ControllersPanel(Panel):
 
     def _switch(self, listed: _Listed, box: Any) -> None:
         start, stop = ([listed.name], []) if box.value else ([], [listed.name])
-        answer = _call(f"{listed.manager}/controller_manager/switch_controller", SwitchController, start, stop,
-                       SwitchControllerRequest.STRICT, False, 0.0)
+        answer = _call(
+            f"{listed.manager}/controller_manager/switch_controller",
+            SwitchController,
+            start,
+            stop,
+            SwitchControllerRequest.STRICT,
+            False,
+            0.0,
+        )
         self._read()
         if not answer.ok:
             verb = "start" if start else "stop"

@@ -1,4 +1,5 @@
 """The frames of TF, where they are in the world."""
+
 from __future__ import annotations
 
 from typing import Any, Dict, Optional
@@ -43,8 +44,7 @@ class FramesPanel(Panel):
         scene = self.page.server.scene
         names = sorted(placed)
         positions = np.array([placed[name].p for name in names], np.float32).reshape(-1, 3)
-        turns = np.array([(q[3], q[0], q[1], q[2]) for q in (placed[name].q for name in names)],
-                         np.float32).reshape(-1, 4)
+        turns = np.array([(q[3], q[0], q[1], q[2]) for q in (placed[name].q for name in names)], np.float32).reshape(-1, 4)
         if self._axes is not None and len(self._axes.batched_positions) != len(names):
             self._axes.remove()
             self._axes = None

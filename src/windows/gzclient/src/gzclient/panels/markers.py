@@ -1,4 +1,5 @@
 """Markers of the topics that are chosen, in the world."""
+
 from __future__ import annotations
 
 import queue
@@ -61,8 +62,7 @@ class MarkersPanel(Panel):
     def _look(self) -> None:
         """Ask, in the thread of the click."""
         try:
-            found = {name: _TYPES[kind] for name, kind in rosgraph.Master(rospy.get_name()).getPublishedTopics("")
-                     if kind in _TYPES}
+            found = {name: _TYPES[kind] for name, kind in rosgraph.Master(rospy.get_name()).getPublishedTopics("") if kind in _TYPES}
         except (OSError, rosgraph.MasterException) as error:
             raise Refused(f"the ROS master does not answer: {error}") from error
         self.page.later(lambda: self.list(found))
@@ -85,8 +85,11 @@ class MarkersPanel(Panel):
         if on and name not in self._topics:
             self._serial += 1
             finder = self.simulation.finder()
-            self._topics[name] = _Topic(name, cls, Markers(
-                self.page.server.scene, f"/markers{self._serial}", finder.find if finder is not None else lambda uri: None))
+            self._topics[name] = _Topic(
+                name,
+                cls,
+                Markers(self.page.server.scene, f"/markers{self._serial}", finder.find if finder is not None else lambda uri: None),
+            )
             self._frames.listen()
         elif not on and name in self._topics:
             self._topics.pop(name).end()
@@ -124,8 +127,11 @@ class MarkersPanel(Panel):
 
     def _places(self, world: WorldRecord, frame: Frame) -> Dict[str, Pose]:
         """Frame -> X_WF; of a robot's links as the simulator has them, of the others as TF says."""
-        return {**{name: Pose() for name in _FIXED}, **self._frames.placed(world, frame),
-                **{name_of(name): pose for name, pose in links_of(world, frame).items()}}
+        return {
+            **{name: Pose() for name in _FIXED},
+            **self._frames.placed(world, frame),
+            **{name_of(name): pose for name, pose in links_of(world, frame).items()},
+        }
 
     def _say(self, line: str) -> None:
         if line != self._said or line == "":

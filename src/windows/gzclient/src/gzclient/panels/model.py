@@ -1,4 +1,5 @@
 """The model editor: links of shapes and meshes, joined by clicks."""
+
 from __future__ import annotations
 
 from dataclasses import replace
@@ -45,8 +46,11 @@ class ModelPanel(Panel):
             self._plugin = gui.add_text("Plugin name", "")
             self._library = gui.add_text("File name", "", hint="libgazebo_ros_p3d.so")
             self._parameters = gui.add_text("Parameters (XML)", "", multiline=True)
-            gui.add_button("Add plugin").on_click(lambda event: self._act(event, lambda: self._draft.add_plugin(
-                self._plugin.value, self._library.value, self._parameters.value)))
+            gui.add_button("Add plugin").on_click(
+                lambda event: self._act(
+                    event, lambda: self._draft.add_plugin(self._plugin.value, self._library.value, self._parameters.value)
+                )
+            )
         self._name = gui.add_text("Model name", "my_model", hint=f"saved into ~/{draft.FOLDER}/NAME")
         self._static = gui.add_checkbox("Static", False)
         self._save = gui.add_button("Save model", hint="model.sdf, model.config")
@@ -60,8 +64,9 @@ class ModelPanel(Panel):
         self._folder = gui.add_folder("No link is picked")
         with self._folder:
             self._link_name = gui.add_text("Link name", "")
-            self._size = gui.add_vector3("Size (m)", (0.5, 0.5, 0.5), step=0.05,
-                                         hint="box: x y z; sphere: radius; cylinder: radius, -, length; mesh: scale")
+            self._size = gui.add_vector3(
+                "Size (m)", (0.5, 0.5, 0.5), step=0.05, hint="box: x y z; sphere: radius; cylinder: radius, -, length; mesh: scale"
+            )
             self._mass = gui.add_number("Mass of it (kg)", 1.0, min=1e-6, step=0.1, hint="the inertia is the shape's")
             self._colour = gui.add_rgb("Colour of it", (180, 180, 180))
             self._delete = gui.add_button("Delete link")
@@ -76,8 +81,9 @@ class ModelPanel(Panel):
             self._kind = gui.add_dropdown("Type", JOINTS)
             self._axis = gui.add_vector3("Axis", (0.0, 0.0, 1.0), step=0.1, hint="in the child's frame")
             self._anchor = gui.add_vector3("Anchor (m)", (0.0, 0.0, 0.0), step=0.05, hint="in the child's frame")
-            self._limits = gui.add_vector2("Limits", (-_MOST_LIMIT, _MOST_LIMIT), step=0.1,
-                                           hint=f"rad or m; from {_MOST_LIMIT:g} on there is none")
+            self._limits = gui.add_vector2(
+                "Limits", (-_MOST_LIMIT, _MOST_LIMIT), step=0.1, hint=f"rad or m; from {_MOST_LIMIT:g} on there is none"
+            )
             self._join = gui.add_checkbox("Join by clicks", False, hint="on the parent, then on the child")
             self._fix = gui.add_button("Fix the picked link to the world")
             self._joint = gui.add_dropdown("Joints", ("(none)",))
@@ -89,24 +95,36 @@ class ModelPanel(Panel):
     def _listen(self) -> None:
         page = self.page
         self.on_update(self._on, lambda on: page.later(lambda: self._switch(bool(on))))
-        self._shapes.on_click(lambda event: self._act(event, lambda: self._pick(self._draft.add_link(
-            _SHAPES[event.target.value]))))
-        self._upload.on_upload(lambda event: self._act(event, lambda: self._pick(self._draft.add_link(
-            draft.keep_mesh(self._name.value.strip(), event.target.value.name, event.target.value.content)))))
-        self._history.on_click(lambda event: self._act(
-            event, self._draft.undo if event.target.value == "Undo" else self._draft.redo))
+        self._shapes.on_click(lambda event: self._act(event, lambda: self._pick(self._draft.add_link(_SHAPES[event.target.value]))))
+        self._upload.on_upload(
+            lambda event: self._act(
+                event,
+                lambda: self._pick(
+                    self._draft.add_link(draft.keep_mesh(self._name.value.strip(), event.target.value.name, event.target.value.content))
+                ),
+            )
+        )
+        self._history.on_click(lambda event: self._act(event, self._draft.undo if event.target.value == "Undo" else self._draft.redo))
         self._save.on_click(lambda event: self._act(event, self._save_now))
-        self._open.on_click(lambda event: self._act(event, lambda: self._take(
-            Draft.load(self._saved.value, page.simulation.finder()) if event.target.value == "Open model" else Draft())))
+        self._open.on_click(
+            lambda event: self._act(
+                event,
+                lambda: self._take(
+                    Draft.load(self._saved.value, page.simulation.finder()) if event.target.value == "Open model" else Draft()
+                ),
+            )
+        )
         self._put.on_click(lambda event: self._act(event, self._put_into_world))
 
     # ------------------------------------------------------------------------------------------ drawing
 
     def _act(self, event: Any, f: Callable[[], Any]) -> None:
         """In the drawing thread, for a page that may act."""
+
         def act() -> None:
             self.page.attempt(event, f)
             self._refresh()
+
         self.page.later(act)
 
     def _unless_busy(self, f: Callable[[], Any]) -> None:
@@ -115,12 +133,14 @@ class ModelPanel(Panel):
 
     def _later(self, f: Callable[[], Any]) -> None:
         """The same where the page has been asked already; a refusal is a line in the tab."""
+
         def act() -> None:
             try:
                 f()
                 self._refresh()
             except Refused as error:
                 self._note.content = note(str(error))
+
         self.page.later(act)
 
     def _switch(self, on: bool) -> None:
@@ -146,8 +166,9 @@ class ModelPanel(Panel):
                 self._sketch.show(model, self._picked, not self._join.value)
         self._joint.options = tuple(joint.name for joint in model.joints) or ("(none)",)
         parts = ((model.links, "link"), (model.joints, "joint"), (model.plugins, "plugin"))
-        self._note.content = note(", ".join(counted(len(some), thing) for some, thing in parts)
-                                  + (f"; joint of {self._ends[0]} and ...?" if self._ends else ""))
+        self._note.content = note(
+            ", ".join(counted(len(some), thing) for some, thing in parts) + (f"; joint of {self._ends[0]} and ...?" if self._ends else "")
+        )
         self._folder.label = f"Link {self._picked}" if self._picked else "No link is picked"
 
     # ------------------------------------------------------------------------------------------ the hand
@@ -161,9 +182,14 @@ class ModelPanel(Panel):
             return
         (parent, child), self._ends = self._ends, []
         low, high = (float(value) for value in self._limits.value)
-        self._draft.add_joint(self._kind.value, parent, child, vec3(self._axis.value),
-                              (low if low > -_MOST_LIMIT else -_LIMITLESS, high if high < _MOST_LIMIT else _LIMITLESS),
-                              vec3(self._anchor.value))
+        self._draft.add_joint(
+            self._kind.value,
+            parent,
+            child,
+            vec3(self._axis.value),
+            (low if low > -_MOST_LIMIT else -_LIMITLESS, high if high < _MOST_LIMIT else _LIMITLESS),
+            vec3(self._anchor.value),
+        )
 
     def _move(self, event: Any, link: str, position: tuple, wxyz: tuple) -> None:
         """The gizmo; one step of the history for each drag."""

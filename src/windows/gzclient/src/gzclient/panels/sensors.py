@@ -1,4 +1,5 @@
 """What the sensors see and feel, drawn in the world where they are."""
+
 from __future__ import annotations
 
 from functools import partial
@@ -14,6 +15,7 @@ from ode_sim.viewer.simulation import Frame, Refused, WorldRecord
 
 from gzclient.sensor_drawing import KINDS, Place, View
 from gzclient.sensor_frames import find_frame
+
 
 class _Source:
     """The newest message of one topic, and the node that shows it."""
@@ -76,11 +78,12 @@ class SensorsPanel(Panel):
         found: Dict[str, _Source] = {}
         if on:
             try:
-                topics = sorted(topic for topic, type_name in rosgraph.Master(rospy.get_name()).getPublishedTopics("")
-                                if type_name == wanted.type_name)
+                topics = sorted(
+                    topic for topic, type_name in rosgraph.Master(rospy.get_name()).getPublishedTopics("") if type_name == wanted.type_name
+                )
             except (OSError, rosgraph.MasterException) as error:
                 raise Refused(f"the ROS master does not answer: {error}") from error
-            found = {topic: _Source(topic, wanted.cls) for topic in topics[:wanted.most]}
+            found = {topic: _Source(topic, wanted.cls) for topic in topics[: wanted.most]}
         self.page.later(lambda: self._replace(kind, found, on))
 
     def _replace(self, kind: str, found: Dict[str, _Source], on: bool) -> None:

@@ -1,4 +1,5 @@
 """Topics: their text, images, and plots of their numbers; laser scans in the world."""
+
 from __future__ import annotations
 
 import time
@@ -8,8 +9,8 @@ from typing import Any, Deque, List, Optional, Tuple
 import genpy
 import numpy as np
 import rosgraph
-import rospy
 import roslib.message
+import rospy
 from ode_sim.viewer.panels.base import Panel, escaped, note
 from ode_sim.viewer.simulation import Frame, Refused
 
@@ -79,8 +80,7 @@ class TopicsPanel(Panel):
         self._type = kinds.get(topic, "")
         cls = roslib.message.get_message_class(self._type) if self._type else None
         if cls is None:
-            raise Refused(
-                f"{topic}: its type {self._type or '(unknown)'} is not built here; source the workspace that has it")
+            raise Refused(f"{topic}: its type {self._type or '(unknown)'} is not built here; source the workspace that has it")
         self._subscriber = rospy.Subscriber(topic, cls, self._take, queue_size=1, buff_size=1 << 24)
         self._state.content = note(f"{topic}: waiting for a message of {self._type}")
 
@@ -128,8 +128,9 @@ class TopicsPanel(Panel):
     def _show_text(self, message: Any) -> None:
         text = genpy.message.strify_message(message, fixed_numeric_width=None)
         more = f"\n... {len(text) - _LONGEST} characters more" if len(text) > _LONGEST else ""
-        self._text.content = (f"<pre style='font-size:0.7em;max-height:22em;overflow:auto;margin:0 0.6em'>"
-                              f"{escaped(text[:_LONGEST] + more)}</pre>")
+        self._text.content = (
+            f"<pre style='font-size:0.7em;max-height:22em;overflow:auto;margin:0 0.6em'>{escaped(text[:_LONGEST] + more)}</pre>"
+        )
         self._text.visible = True
 
     def _show_plot(self, message: Any) -> None:
@@ -149,10 +150,14 @@ class TopicsPanel(Panel):
         data = (values[0] - values[0][-1], values[1])
         if self._plot is None:
             from viser import uplot
+
             with self._plots:
                 self._plot = self.gui.add_uplot(
-                    data, (uplot.Series(label="s"), uplot.Series(label="value", stroke="#1c7ed6", width=2)),
-                    scales={"x": uplot.Scale(time=False, auto=True), "y": uplot.Scale(auto=True)}, aspect=1.6)
+                    data,
+                    (uplot.Series(label="s"), uplot.Series(label="value", stroke="#1c7ed6", width=2)),
+                    scales={"x": uplot.Scale(time=False, auto=True), "y": uplot.Scale(auto=True)},
+                    aspect=1.6,
+                )
         else:
             self._plot.data = data
 
@@ -167,8 +172,7 @@ def number_at(message: Any, path: str) -> float:
         if not part:
             continue
         try:
-            value = value[int(part[1:-1])] if part.startswith("[") else getattr(value, part) \
-                if part in value.__slots__ else _missing(part)
+            value = value[int(part[1:-1])] if part.startswith("[") else getattr(value, part) if part in value.__slots__ else _missing(part)
         except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
             raise Refused(f"there is no {part} {('in ' + walked) if walked else 'in the message'}") from error
         walked = f"{walked}.{part}".strip(".").replace(".[", "[")

@@ -1,4 +1,5 @@
 """The assistant's screens, in the order of its list."""
+
 from moveit_setup_assistant.screens.author import AuthorScreen
 from moveit_setup_assistant.screens.controllers import ControllersScreen
 from moveit_setup_assistant.screens.end_effectors import EndEffectorsScreen
@@ -12,5 +13,17 @@ from moveit_setup_assistant.screens.simulation import SimulationScreen
 from moveit_setup_assistant.screens.start import StartScreen
 from moveit_setup_assistant.screens.virtual_joints import VirtualJointsScreen
 
-ALL = (StartScreen, SelfCollisionsScreen, VirtualJointsScreen, GroupsScreen, PosesScreen, EndEffectorsScreen, PassiveJointsScreen,
-       ControllersScreen, SimulationScreen, PerceptionScreen, AuthorScreen, FilesScreen)
+ALL = (
+    StartScreen,
+    SelfCollisionsScreen,
+    VirtualJointsScreen,
+    GroupsScreen,
+    PosesScreen,
+    EndEffectorsScreen,
+    PassiveJointsScreen,
+    ControllersScreen,
+    SimulationScreen,
+    PerceptionScreen,
+    AuthorScreen,
+    FilesScreen,
+)

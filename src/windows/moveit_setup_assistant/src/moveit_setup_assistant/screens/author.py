@@ -1,6 +1,8 @@
 """Author information: who made the package."""
-from moveit_setup_assistant.screens.base import Screen, line
+
 from python_qt_binding.QtWidgets import QFormLayout
+
+from moveit_setup_assistant.screens.base import Screen, line
 
 
 class AuthorScreen(Screen):

@@ -1,11 +1,21 @@
 """What all screens have in common: a title, what it is about, and the pieces that several of them are built from."""
+
 from __future__ import annotations
 
 from typing import Callable, Dict, Iterable, List, Optional
 
 from python_qt_binding.QtCore import Qt, Signal
-from python_qt_binding.QtWidgets import (QComboBox, QFormLayout, QHBoxLayout, QLabel, QLineEdit, QListWidget, QPushButton,
-                                         QVBoxLayout, QWidget)
+from python_qt_binding.QtWidgets import (
+    QComboBox,
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QListWidget,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 
 class Screen(QWidget):
@@ -116,8 +126,16 @@ class Entries(QWidget):
     looked_at = Signal(object)
     refused = Signal(str)
 
-    def __init__(self, name: str, fields: Dict[str, tuple], things: Callable[[], list], label: Callable, read: Callable,
-                 write: Callable, delete: Callable) -> None:
+    def __init__(
+        self,
+        name: str,
+        fields: Dict[str, tuple],
+        things: Callable[[], list],
+        label: Callable,
+        read: Callable,
+        write: Callable,
+        delete: Callable,
+    ) -> None:
         super().__init__()
         self._things, self._label, self._read, self._write, self._delete = things, label, read, write, delete
         self._fields = {key: widget for key, (_, widget) in fields.items()}
@@ -175,6 +193,7 @@ class Entries(QWidget):
 
     def _try(self, thing, row: int) -> None:
         from moveit_setup_assistant.errors import AssistantError
+
         try:
             self._write(thing, self.values())
         except AssistantError as error:

@@ -1,17 +1,21 @@
 """Controllers: what moves the joints."""
+
+from python_qt_binding.QtWidgets import QPushButton
+
 from moveit_setup_assistant.configuration import ACTION_TYPES, TRAJECTORY_TYPES, Controller
 from moveit_setup_assistant.errors import AssistantError
 from moveit_setup_assistant.screens.base import Entries, Screen, choice, line
 from moveit_setup_assistant.words import counted
-from python_qt_binding.QtWidgets import QPushButton
 
 
 class ControllersScreen(Screen):
     """Controllers of ros_control, and actions that somebody else serves."""
 
     title = "Controllers"
-    about = ("Controllers move the joints along what was planned: those of ros_control, which launch/ros_controllers.launch starts, or "
-             "actions (FollowJointTrajectory, GripperCommand) that your robot's driver serves.")
+    about = (
+        "Controllers move the joints along what was planned: those of ros_control, which launch/ros_controllers.launch starts, or "
+        "actions (FollowJointTrajectory, GripperCommand) that your robot's driver serves."
+    )
 
     def __init__(self, session) -> None:
         super().__init__(session)
@@ -19,12 +23,20 @@ class ControllersScreen(Screen):
         automatic.setObjectName("controllers_auto")
         automatic.clicked.connect(self._automatic)
         self.layout_.addWidget(automatic)
-        self._entries = Entries("controllers", {
-            "name": ("Controller name", line()), "type": ("Controller type", choice((*TRAJECTORY_TYPES, *ACTION_TYPES), editable=True)),
-            "joints": ("Joints, blanks between them", line()), "group": ("or the joints of the group", choice())},
-            lambda: self.config.controllers, lambda c: f"{c.name}: {c.type} ({counted(len(c.joints), 'joint')})",
+        self._entries = Entries(
+            "controllers",
+            {
+                "name": ("Controller name", line()),
+                "type": ("Controller type", choice((*TRAJECTORY_TYPES, *ACTION_TYPES), editable=True)),
+                "joints": ("Joints, blanks between them", line()),
+                "group": ("or the joints of the group", choice()),
+            },
+            lambda: self.config.controllers,
+            lambda c: f"{c.name}: {c.type} ({counted(len(c.joints), 'joint')})",
             lambda c: {"name": c.name, "type": c.type, "joints": " ".join(c.joints), "group": ""},
-            self._write, lambda c: self.config.controllers.remove(c))
+            self._write,
+            lambda c: self.config.controllers.remove(c),
+        )
         self._entries.refused.connect(lambda text: session.say(text, bad=True))
         self._entries.looked_at.connect(lambda c: session.highlight([session.child_of(joint) for joint in c.joints]))
         self.layout_.addWidget(self._entries)

@@ -1,4 +1,5 @@
 """End effectors: groups that hang on a link of another."""
+
 from srdfdom import srdf
 
 from moveit_setup_assistant.errors import AssistantError
@@ -9,17 +10,27 @@ class EndEffectorsScreen(Screen):
     """A gripper's group and the link that carries it."""
 
     title = "End Effectors"
-    about = ("An end effector is a group, a gripper for one, that hangs on a link of another group. Pick and place needs it, and "
-             "RViz puts the marker there.")
+    about = (
+        "An end effector is a group, a gripper for one, that hangs on a link of another group. Pick and place needs it, and "
+        "RViz puts the marker there."
+    )
 
     def __init__(self, session) -> None:
         super().__init__(session)
-        self._entries = Entries("end_effectors", {
-            "name": ("End effector name", line()), "group": ("End effector group", choice()), "parent_link": ("Parent link", choice()),
-            "parent_group": ("Parent group (optional)", choice())},
-            lambda: self.config.semantics.end_effectors, lambda e: f"{e.name}: {e.group} on {e.parent_link}",
+        self._entries = Entries(
+            "end_effectors",
+            {
+                "name": ("End effector name", line()),
+                "group": ("End effector group", choice()),
+                "parent_link": ("Parent link", choice()),
+                "parent_group": ("Parent group (optional)", choice()),
+            },
+            lambda: self.config.semantics.end_effectors,
+            lambda e: f"{e.name}: {e.group} on {e.parent_link}",
             lambda e: {"name": e.name, "group": e.group, "parent_link": e.parent_link, "parent_group": e.parent_group or ""},
-            self._write, lambda e: self.config.semantics.end_effectors.remove(e))
+            self._write,
+            lambda e: self.config.semantics.end_effectors.remove(e),
+        )
         self._entries.refused.connect(lambda text: session.say(text, bad=True))
         self._entries.looked_at.connect(lambda e: session.highlight(session.links_of(e.group)))
         self.layout_.addWidget(self._entries)
@@ -38,8 +49,9 @@ class EndEffectorsScreen(Screen):
         if any(e.name == values["name"] and e is not thing for e in effectors):
             raise AssistantError(f"There is an end effector '{values['name']}' already; choose another name.")
         if values["parent_link"] in self.session.links_of(values["group"]):
-            raise AssistantError(f"Link '{values['parent_link']}' belongs to group '{values['group']}' itself; choose the link that "
-                                 f"carries it.")
+            raise AssistantError(
+                f"Link '{values['parent_link']}' belongs to group '{values['group']}' itself; choose the link that carries it."
+            )
         if thing is None:
             thing = srdf.EndEffector()
             effectors.append(thing)

@@ -1,11 +1,20 @@
 """Configuration files: what is written, and where."""
+
 from __future__ import annotations
 
 from pathlib import Path
 from typing import List
 
-from python_qt_binding.QtWidgets import (QFileDialog, QHBoxLayout, QLabel, QListWidget, QListWidgetItem, QMessageBox, QPlainTextEdit,
-                                         QPushButton)
+from python_qt_binding.QtWidgets import (
+    QFileDialog,
+    QHBoxLayout,
+    QLabel,
+    QListWidget,
+    QListWidgetItem,
+    QMessageBox,
+    QPlainTextEdit,
+    QPushButton,
+)
 
 from moveit_setup_assistant import package_writer
 from moveit_setup_assistant.errors import AssistantError
@@ -17,8 +26,9 @@ class FilesScreen(Screen):
     """Lists the files with what each is for; ticked ones are written."""
 
     title = "Configuration Files"
-    about = ("Ticked files are written. Files that somebody changed by hand since the package was made are not ticked: tick one to "
-             "overwrite it.")
+    about = (
+        "Ticked files are written. Files that somebody changed by hand since the package was made are not ticked: tick one to overwrite it."
+    )
 
     def __init__(self, session) -> None:
         super().__init__(session)
@@ -86,8 +96,10 @@ class FilesScreen(Screen):
             self.session.say("Name the folder of the package first, for example ~/catkin_ws/src/my_robot_moveit_config.", bad=True)
             return
         incomplete = self.config.incomplete()
-        if incomplete and QMessageBox.question(self, "Incomplete", "\n".join([*incomplete, "", "Write the package all the same?"])) \
-                != QMessageBox.Yes:
+        if (
+            incomplete
+            and QMessageBox.question(self, "Incomplete", "\n".join([*incomplete, "", "Write the package all the same?"])) != QMessageBox.Yes
+        ):
             return
         package = Path(self._folder.text().strip()).expanduser().absolute()
         try:

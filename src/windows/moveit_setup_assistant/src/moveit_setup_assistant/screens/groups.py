@@ -1,27 +1,33 @@
 """Planning groups: joints that are planned for together."""
+
 from __future__ import annotations
 
 from typing import List
 
-from python_qt_binding.QtWidgets import (QDoubleSpinBox, QFormLayout, QHBoxLayout, QListWidget, QPushButton, QTabWidget, QVBoxLayout,
-                                         QWidget)
+from python_qt_binding.QtWidgets import QDoubleSpinBox, QFormLayout, QHBoxLayout, QListWidget, QPushButton, QTabWidget, QVBoxLayout, QWidget
 from srdfdom import srdf
 
 from moveit_setup_assistant import planners
 from moveit_setup_assistant.configuration import SOLVERS, Kinematics
 from moveit_setup_assistant.screens.base import Screen, TwoLists, choice, line
 
-_NUMBERS = (("search_resolution", "Kin. search resolution"), ("timeout", "Kin. search timeout (s)"),
-            ("goal_joint_tolerance", "Goal joint tolerance"), ("goal_position_tolerance", "Goal position tolerance (m)"),
-            ("goal_orientation_tolerance", "Goal orientation tolerance (rad)"))
+_NUMBERS = (
+    ("search_resolution", "Kin. search resolution"),
+    ("timeout", "Kin. search timeout (s)"),
+    ("goal_joint_tolerance", "Goal joint tolerance"),
+    ("goal_position_tolerance", "Goal position tolerance (m)"),
+    ("goal_orientation_tolerance", "Goal orientation tolerance (rad)"),
+)
 
 
 class GroupsScreen(Screen):
     """The list of groups, and for the marked one its solver, planner and members."""
 
     title = "Planning Groups"
-    about = ("A planning group is an arm, a gripper, or both: joints that are planned for together. Most arms are one chain from their "
-             "base to the link that is moved to poses.")
+    about = (
+        "A planning group is an arm, a gripper, or both: joints that are planned for together. Most arms are one chain from their "
+        "base to the link that is moved to poses."
+    )
 
     def __init__(self, session) -> None:
         super().__init__(session)
@@ -68,8 +74,10 @@ class GroupsScreen(Screen):
         return form
 
     def _members(self) -> QTabWidget:
-        self._lists = {kind: TwoLists(f"Available {kind}", f"{kind.capitalize()} of the group", f"groups_{kind}")
-                       for kind in ("joints", "links", "subgroups")}
+        self._lists = {
+            kind: TwoLists(f"Available {kind}", f"{kind.capitalize()} of the group", f"groups_{kind}")
+            for kind in ("joints", "links", "subgroups")
+        }
         self._base, self._tip = choice(), choice()
         self._base.setObjectName("groups_base_link")
         self._tip.setObjectName("groups_tip_link")
@@ -85,7 +93,8 @@ class GroupsScreen(Screen):
             lists.changed.connect(self._take)
         for kind in ("joints", "links"):
             self._lists[kind].looked_at.connect(
-                lambda names, kind=kind: self.session.highlight(names if kind == "links" else [self.session.child_of(n) for n in names]))
+                lambda names, kind=kind: self.session.highlight(names if kind == "links" else [self.session.child_of(n) for n in names])
+            )
         for box in (self._base, self._tip):
             box.activated.connect(lambda _index: self._take())
         return tabs

@@ -1,4 +1,5 @@
 """Passive joints: those that nothing drives."""
+
 from srdfdom import srdf
 
 from moveit_setup_assistant.screens.base import Screen, TwoLists

@@ -1,17 +1,35 @@
 """3D perception: sensors that see the surroundings."""
+
 from typing import Any, Dict
 
-from moveit_setup_assistant.screens.base import Screen, choice, line
 from python_qt_binding.QtWidgets import QFormLayout, QStackedWidget, QWidget
 
+from moveit_setup_assistant.screens.base import Screen, choice, line
+
 _KINDS: Dict[str, Dict[str, Any]] = {
-    "Point Cloud": {"sensor_plugin": "occupancy_map_monitor/PointCloudOctomapUpdater",
-                    "point_cloud_topic": "/head_mount_kinect/depth_registered/points", "max_range": 5.0, "point_subsample": 1,
-                    "padding_offset": 0.1, "padding_scale": 1.0, "max_update_rate": 1.0, "filtered_cloud_topic": "filtered_cloud"},
-    "Depth Map": {"sensor_plugin": "occupancy_map_monitor/DepthImageOctomapUpdater",
-                  "image_topic": "/head_mount_kinect/depth_registered/image_raw", "queue_size": 5,
-                  "near_clipping_plane_distance": 0.3, "far_clipping_plane_distance": 5.0, "shadow_threshold": 0.2,
-                  "padding_offset": 0.03, "padding_scale": 4.0, "max_update_rate": 1.0, "filtered_cloud_topic": "filtered_cloud"}}
+    "Point Cloud": {
+        "sensor_plugin": "occupancy_map_monitor/PointCloudOctomapUpdater",
+        "point_cloud_topic": "/head_mount_kinect/depth_registered/points",
+        "max_range": 5.0,
+        "point_subsample": 1,
+        "padding_offset": 0.1,
+        "padding_scale": 1.0,
+        "max_update_rate": 1.0,
+        "filtered_cloud_topic": "filtered_cloud",
+    },
+    "Depth Map": {
+        "sensor_plugin": "occupancy_map_monitor/DepthImageOctomapUpdater",
+        "image_topic": "/head_mount_kinect/depth_registered/image_raw",
+        "queue_size": 5,
+        "near_clipping_plane_distance": 0.3,
+        "far_clipping_plane_distance": 5.0,
+        "shadow_threshold": 0.2,
+        "padding_offset": 0.03,
+        "padding_scale": 4.0,
+        "max_update_rate": 1.0,
+        "filtered_cloud_topic": "filtered_cloud",
+    },
+}
 
 
 class PerceptionScreen(Screen):

@@ -1,12 +1,23 @@
 """Robot poses: named joint values of a group."""
+
 from __future__ import annotations
 
 import math
 from typing import Any, Dict
 
 from python_qt_binding.QtCore import Qt, QTimer
-from python_qt_binding.QtWidgets import (QDoubleSpinBox, QFormLayout, QHBoxLayout, QLabel, QListWidget, QPushButton, QScrollArea,
-                                         QSlider, QVBoxLayout, QWidget)
+from python_qt_binding.QtWidgets import (
+    QDoubleSpinBox,
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QListWidget,
+    QPushButton,
+    QScrollArea,
+    QSlider,
+    QVBoxLayout,
+    QWidget,
+)
 from srdfdom import srdf
 
 from moveit_setup_assistant.screens.base import Screen, choice, line
@@ -30,8 +41,13 @@ class PosesScreen(Screen):
         self._list.setObjectName("poses_list")
         self._list.currentRowChanged.connect(self._show)
         left.addWidget(self._list)
-        for text, name, action in (("Add Pose", "add", self._add), ("Change", "change", self._change), ("Delete", "delete", self._remove),
-                                   ("Show Default Pose", "default", self._default), ("MoveIt!", "animate", self._animate)):
+        for text, name, action in (
+            ("Add Pose", "add", self._add),
+            ("Change", "change", self._change),
+            ("Delete", "delete", self._remove),
+            ("Show Default Pose", "default", self._default),
+            ("MoveIt!", "animate", self._animate),
+        ):
             button = QPushButton(text)
             button.setObjectName(f"poses_{name}")
             button.clicked.connect(action)
@@ -76,8 +92,9 @@ class PosesScreen(Screen):
         page = QWidget()
         form = QFormLayout(page)
         self._sliders = {}
-        joints = [name for name in (model.group(group).active_joints if model.has_group(group) else ())
-                  if len(model.joint(name).variables) == 1]
+        joints = [
+            name for name in (model.group(group).active_joints if model.has_group(group) else ()) if len(model.joint(name).variables) == 1
+        ]
         for name in joints:
             limits = model.joint(name).limits[0]
             low, high = (limits.min_position, limits.max_position) if limits.has_position else (-math.pi, math.pi)

@@ -1,12 +1,23 @@
 """Self-collisions: which pairs of links need no check."""
+
 from __future__ import annotations
 
 import threading
 from typing import Dict, Optional
 
 from python_qt_binding.QtCore import Signal
-from python_qt_binding.QtWidgets import (QCheckBox, QDoubleSpinBox, QFormLayout, QHBoxLayout, QHeaderView, QProgressBar, QPushButton,
-                                         QSpinBox, QTableWidget, QTableWidgetItem)
+from python_qt_binding.QtWidgets import (
+    QCheckBox,
+    QDoubleSpinBox,
+    QFormLayout,
+    QHBoxLayout,
+    QHeaderView,
+    QProgressBar,
+    QPushButton,
+    QSpinBox,
+    QTableWidget,
+    QTableWidgetItem,
+)
 
 from moveit_setup_assistant import collisions
 from moveit_setup_assistant.headless import set_collisions
@@ -18,8 +29,10 @@ class SelfCollisionsScreen(Screen):
     """Computes the matrix in a thread of its own, and lets every pair be ticked by hand."""
 
     title = "Self-Collisions"
-    about = ("Pairs of links that always touch, or never can, are not worth checking while planning. Random states of the robot tell "
-             "which these are. A tick means that the pair is not checked.")
+    about = (
+        "Pairs of links that always touch, or never can, are not worth checking while planning. Random states of the robot tell "
+        "which these are. A tick means that the pair is not checked."
+    )
     _advanced, _finished = Signal(int), Signal(object)
 
     def __init__(self, session) -> None:
@@ -40,7 +53,7 @@ class SelfCollisionsScreen(Screen):
         self._button.clicked.connect(self._generate)
         form = QFormLayout()
         form.addRow("Sampling density", self._trials)
-        form.addRow("Min. collisions for \"always\"-colliding pairs", self._always)
+        form.addRow('Min. collisions for "always"-colliding pairs', self._always)
         self.layout_.addLayout(form)
         row = QHBoxLayout()
         row.addWidget(self._button)
@@ -67,8 +80,7 @@ class SelfCollisionsScreen(Screen):
         self._finished.connect(self._take)
 
     def enter(self) -> None:
-        self._reasons = {collisions.pair(p.link1, p.link2): p.reason or collisions.USER
-                         for p in self.config.semantics.disable_collisionss}
+        self._reasons = {collisions.pair(p.link1, p.link2): p.reason or collisions.USER for p in self.config.semantics.disable_collisionss}
         self._fill()
 
     def leave(self):
@@ -110,8 +122,11 @@ class SelfCollisionsScreen(Screen):
             self.session.say("Stopped; the pairs are as they were.")
 
     def _fill(self, *_) -> None:
-        rows = [row for row in collisions.collision_table(self.config.robot.model, self._reasons)
-                if (row[2] or self._all.isChecked()) and any(self._filter.text() in name for name in row[:2])]
+        rows = [
+            row
+            for row in collisions.collision_table(self.config.robot.model, self._reasons)
+            if (row[2] or self._all.isChecked()) and any(self._filter.text() in name for name in row[:2])
+        ]
         self._table.blockSignals(True)
         self._table.setRowCount(len(rows))
         for index, (one, other, reason) in enumerate(rows):

@@ -1,4 +1,5 @@
 """Simulation: a URDF that a simulator can use."""
+
 from python_qt_binding.QtWidgets import QApplication, QHBoxLayout, QPlainTextEdit, QPushButton
 
 from moveit_setup_assistant.screens.base import Screen
@@ -9,15 +10,20 @@ class SimulationScreen(Screen):
     """Adds inertia, transmissions and the plugin that runs controllers."""
 
     title = "Simulation"
-    about = ("A simulator needs inertia, transmissions and the plugin gazebo_ros_control. What the robot's description lacks is added "
-             "here; the result is kept in the package as config/gazebo_<robot>.urdf. Choose controllers first: they decide "
-             "which interface each joint gets.")
+    about = (
+        "A simulator needs inertia, transmissions and the plugin gazebo_ros_control. What the robot's description lacks is added "
+        "here; the result is kept in the package as config/gazebo_<robot>.urdf. Choose controllers first: they decide "
+        "which interface each joint gets."
+    )
 
     def __init__(self, session) -> None:
         super().__init__(session)
         row = QHBoxLayout()
-        for text, name, action in (("Generate", "generate", self._generate), ("Copy to Clipboard", "copy", self._copy),
-                                   ("Remove", "remove", self._remove)):
+        for text, name, action in (
+            ("Generate", "generate", self._generate),
+            ("Copy to Clipboard", "copy", self._copy),
+            ("Remove", "remove", self._remove),
+        ):
             button = QPushButton(text)
             button.setObjectName(f"simulation_{name}")
             button.clicked.connect(action)

@@ -1,4 +1,5 @@
 """Start: a new package, or one to edit."""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -16,8 +17,10 @@ class StartScreen(Screen):
     """Loads a robot's description, or a package that an assistant made."""
 
     title = "Start"
-    about = ("A configuration package says how MoveIt plans for your robot. Make a new one from the robot's URDF or xacro file, or "
-             "edit one that this assistant, or MoveIt's own, made before.")
+    about = (
+        "A configuration package says how MoveIt plans for your robot. Make a new one from the robot's URDF or xacro file, or "
+        "edit one that this assistant, or MoveIt's own, made before."
+    )
 
     def __init__(self, session) -> None:
         super().__init__(session)

@@ -1,4 +1,5 @@
 """Virtual joints: how the robot stands in the world."""
+
 from srdfdom import srdf
 
 from moveit_setup_assistant.errors import AssistantError
@@ -9,17 +10,27 @@ class VirtualJointsScreen(Screen):
     """A joint between the robot's root link and a frame of the world."""
 
     title = "Virtual Joints"
-    about = ("A virtual joint ties the robot's root link to a frame of the world: fixed for an arm on a table, planar for one on "
-             "wheels, floating for one that flies.")
+    about = (
+        "A virtual joint ties the robot's root link to a frame of the world: fixed for an arm on a table, planar for one on "
+        "wheels, floating for one that flies."
+    )
 
     def __init__(self, session) -> None:
         super().__init__(session)
-        self._entries = Entries("virtual_joints", {
-            "name": ("Virtual joint name", line()), "child_link": ("Child link", choice()),
-            "parent_frame": ("Parent frame name", line("world")), "type": ("Joint type", choice(("fixed", "floating", "planar")))},
-            lambda: self.config.semantics.virtual_joints, lambda v: f"{v.name}: {v.parent_frame} - {v.child_link} ({v.type})",
+        self._entries = Entries(
+            "virtual_joints",
+            {
+                "name": ("Virtual joint name", line()),
+                "child_link": ("Child link", choice()),
+                "parent_frame": ("Parent frame name", line("world")),
+                "type": ("Joint type", choice(("fixed", "floating", "planar"))),
+            },
+            lambda: self.config.semantics.virtual_joints,
+            lambda v: f"{v.name}: {v.parent_frame} - {v.child_link} ({v.type})",
             lambda v: {"name": v.name, "child_link": v.child_link, "parent_frame": v.parent_frame, "type": v.type},
-            self._write, lambda v: self.config.semantics.virtual_joints.remove(v))
+            self._write,
+            lambda v: self.config.semantics.virtual_joints.remove(v),
+        )
         self._entries.refused.connect(lambda text: session.say(text, bad=True))
         self._entries.looked_at.connect(lambda v: session.highlight([v.child_link]))
         self.layout_.addWidget(self._entries)

@@ -1,4 +1,5 @@
 """Base of what shows the message at the playhead."""
+
 from python_qt_binding.QtCore import QObject
 
 from rqt_bag.message_listener_thread import ListenerEvent

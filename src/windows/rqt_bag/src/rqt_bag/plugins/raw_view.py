@@ -1,4 +1,5 @@
 """The fields of a message as a tree."""
+
 from __future__ import annotations
 
 import genpy

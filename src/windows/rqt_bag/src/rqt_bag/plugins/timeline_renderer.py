@@ -1,4 +1,5 @@
 """Base of what draws the messages of a topic on the time line."""
+
 from python_qt_binding.QtCore import QObject
 
 

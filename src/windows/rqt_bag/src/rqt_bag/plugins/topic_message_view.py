@@ -1,4 +1,5 @@
 """Base of views in a window of their own, with buttons that go from message to message."""
+
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import QToolBar
 from qt_gui.compatibility import QAction
@@ -18,8 +19,12 @@ class TopicMessageView(MessageView):
         self._stamp = None
         self._name = parent.objectName()
         self.toolbar = QToolBar()
-        for icon, text, action in (("go-first", "First", self.navigate_first), ("go-previous", "Previous", self.navigate_previous),
-                                   ("go-next", "Next", self.navigate_next), ("go-last", "Last", self.navigate_last)):
+        for icon, text, action in (
+            ("go-first", "First", self.navigate_first),
+            ("go-previous", "Previous", self.navigate_previous),
+            ("go-next", "Next", self.navigate_next),
+            ("go-last", "Last", self.navigate_last),
+        ):
             made = QAction(QIcon.fromTheme(icon), text, self.toolbar)
             made.setToolTip(f"{text} message of {topic}")
             made.triggered.connect(lambda _checked=False, action=action: action())

@@ -1,4 +1,5 @@
 """What all conditions share."""
+
 from python_qt_binding.QtCore import QObject, Signal
 
 

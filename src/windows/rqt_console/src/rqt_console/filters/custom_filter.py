@@ -1,4 +1,5 @@
 """Custom: several conditions at once."""
+
 from .base_filter import BaseFilter
 from .message_filter import MessageFilter
 from .node_filter import NodeFilter

@@ -1,4 +1,5 @@
 """A list of conditions of which one is enough."""
+
 from python_qt_binding.QtCore import QObject, Signal
 
 

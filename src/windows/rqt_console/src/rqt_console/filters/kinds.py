@@ -1,4 +1,5 @@
 """The kinds of rules, in the order of the menus."""
+
 from .custom_filter import CustomFilter
 from .location_filter import LocationFilter
 from .message_filter import MessageFilter
@@ -8,7 +9,12 @@ from .time_filter import TimeFilter
 from .topic_filter import TopicFilter
 
 #: Key in settings: (label, class).
-KINDS = {"message": ("...containing", MessageFilter), "severity": ("...with severities", SeverityFilter),
-         "node": ("...from node", NodeFilter), "time": ("...from time range", TimeFilter),
-         "topic": ("...from topic", TopicFilter), "location": ("...from location", LocationFilter),
-         "custom": ("Custom", CustomFilter)}
+KINDS = {
+    "message": ("...containing", MessageFilter),
+    "severity": ("...with severities", SeverityFilter),
+    "node": ("...from node", NodeFilter),
+    "time": ("...from time range", TimeFilter),
+    "topic": ("...from topic", TopicFilter),
+    "location": ("...from location", LocationFilter),
+    "custom": ("Custom", CustomFilter),
+}

@@ -1,4 +1,5 @@
 """Conditions that are a choice among values."""
+
 from .base_filter import BaseFilter
 
 

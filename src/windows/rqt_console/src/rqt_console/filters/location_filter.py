@@ -1,4 +1,5 @@
 """...from location."""
+
 from .text_filter import TextFilter
 
 

@@ -1,4 +1,5 @@
 """...containing."""
+
 from .text_filter import TextFilter
 
 

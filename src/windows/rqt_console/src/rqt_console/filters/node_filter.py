@@ -1,4 +1,5 @@
 """...from node."""
+
 from .list_filter import ListFilter
 
 

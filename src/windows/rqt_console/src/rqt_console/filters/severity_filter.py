@@ -1,4 +1,5 @@
 """...with severities."""
+
 from .list_filter import ListFilter
 
 

@@ -1,4 +1,5 @@
 """Rules in settings and perspectives, in upstream's form: a list of kinds, and a group of values for each rule."""
+
 from __future__ import annotations
 
 from typing import Any, Dict, List

@@ -1,4 +1,5 @@
 """Conditions on a text of a message."""
+
 import re
 
 from .base_filter import BaseFilter

@@ -1,4 +1,5 @@
 """...from time range."""
+
 from .base_filter import BaseFilter
 
 

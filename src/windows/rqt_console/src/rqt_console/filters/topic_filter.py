@@ -1,4 +1,5 @@
 """...from topic."""
+
 from .list_filter import ListFilter
 
 

@@ -1,4 +1,5 @@
 """A plot of named curves that other windows embed: `DataPlot`."""
+
 from __future__ import annotations
 
 from typing import Any, Dict, List, Optional, Tuple
@@ -6,9 +7,9 @@ from typing import Any, Dict, List, Optional, Tuple
 from python_qt_binding.QtCore import QSize, Signal, qWarning
 from python_qt_binding.QtGui import QColor
 from python_qt_binding.QtWidgets import QHBoxLayout, QWidget
+from qt_gui.errors import WindowError
 from qt_gui_py_common.simple_settings_dialog import SimpleSettingsDialog
 from rqt_py_common.ini_helper import pack, unpack
-from qt_gui.errors import WindowError
 
 from rqt_plot.data_plot.backends import BACKENDS
 from rqt_plot.series import CAPACITY, Series, decimate, limits, visible
@@ -107,9 +108,18 @@ class DataPlot(QWidget):
         """Let the user choose what draws, and markers."""
         dialog = SimpleSettingsDialog(title="Plot Options")
         dialog.add_exclusive_option_group(title="Plot Type", options=self.plot_types, selected_index=self._plot_index)
-        dialog.add_checkbox_group(title="Plot Markers", options=[{
-            "title": "Show Plot Markers", "description": "A dot at each sample; slower to draw.", "enabled": True,
-            "selected_by_default": False}], selected_indexes=[0] if self._markers_on else [])
+        dialog.add_checkbox_group(
+            title="Plot Markers",
+            options=[
+                {
+                    "title": "Show Plot Markers",
+                    "description": "A dot at each sample; slower to draw.",
+                    "enabled": True,
+                    "selected_by_default": False,
+                }
+            ],
+            selected_indexes=[0] if self._markers_on else [],
+        )
         chosen = dialog.get_settings()
         if chosen is None or len(chosen) != 2 or None in chosen:
             return

@@ -1,4 +1,5 @@
 """What can draw a `DataPlot`, in the order in which the settings dialog lists it. The libraries load when they are used."""
+
 from __future__ import annotations
 
 import importlib
@@ -26,8 +27,20 @@ class Backend(NamedTuple):
 
 
 BACKENDS = (
-    Backend("PyQtGraph", "pyqtgraph", "python3-pyqtgraph", "rqt_plot.data_plot.pyqtgraph_data_plot", "PyQtGraphDataPlot",
-            "Fast; drag pans, wheel and right drag zoom, right click exports."),
-    Backend("MatPlot", "matplotlib", "python3-matplotlib", "rqt_plot.data_plot.mat_data_plot", "MatDataPlot",
-            "Slower; a tool bar to pan, zoom and save."),
+    Backend(
+        "PyQtGraph",
+        "pyqtgraph",
+        "python3-pyqtgraph",
+        "rqt_plot.data_plot.pyqtgraph_data_plot",
+        "PyQtGraphDataPlot",
+        "Fast; drag pans, wheel and right drag zoom, right click exports.",
+    ),
+    Backend(
+        "MatPlot",
+        "matplotlib",
+        "python3-matplotlib",
+        "rqt_plot.data_plot.mat_data_plot",
+        "MatDataPlot",
+        "Slower; a tool bar to pan, zoom and save.",
+    ),
 )

@@ -1,4 +1,5 @@
 """Curves drawn by matplotlib."""
+
 from __future__ import annotations
 
 from typing import Any, Dict, List
@@ -30,8 +31,9 @@ class MatDataPlot(QWidget):
         self._current_vline = None
 
     def add_curve(self, curve_id: str, curve_name: str, curve_color: QColor = QColor("blue"), markers_on: bool = False) -> None:
-        self._curves[curve_id], = self._axes.plot([], [], label=curve_name, color=curve_color.name(), linewidth=1,
-                                                  marker="o" if markers_on else None, markersize=3)
+        (self._curves[curve_id],) = self._axes.plot(
+            [], [], label=curve_name, color=curve_color.name(), linewidth=1, marker="o" if markers_on else None, markersize=3
+        )
         self._axes.legend(loc="upper left")
 
     def remove_curve(self, curve_id: str) -> None:

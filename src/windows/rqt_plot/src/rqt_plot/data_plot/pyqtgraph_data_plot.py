@@ -1,4 +1,5 @@
 """Curves drawn by pyqtgraph."""
+
 from __future__ import annotations
 
 from typing import Dict, List
@@ -53,8 +54,7 @@ class PyQtGraphDataPlot(QWidget):
     def add_curve(self, curve_id: str, curve_name: str, curve_color: QColor = QColor("blue"), markers_on: bool = False) -> None:
         pen = pyqtgraph.mkPen(curve_color, width=1)  # wider lines are drawn many times slower
         if markers_on:
-            item = pyqtgraph.PlotDataItem(name=curve_name, pen=pen, symbol="o", symbolSize=4, symbolPen=None,
-                                          symbolBrush=curve_color)
+            item = pyqtgraph.PlotDataItem(name=curve_name, pen=pen, symbol="o", symbolSize=4, symbolPen=None, symbolBrush=curve_color)
         else:
             item = _Curve(name=curve_name, pen=pen, connect="finite")
         self._curves[curve_id] = item
