@@ -30,7 +30,7 @@ class CartesianLimits:
     max_rot_vel: float = 1.57
 
 
-class Refused(Exception):
+class _Refused(Exception):
     def __init__(self, status: str, message: str):
         super().__init__(message)
         self.status = status
@@ -41,7 +41,7 @@ class _Trapeze:
 
     def __init__(self, length: float, speed: float, up: float, down: float):
         if not (speed > 0 and up > 0 and down > 0):
-            raise Refused("failed", "the velocity and acceleration limits must be above 0")
+            raise _Refused("failed", "the velocity and acceleration limits must be above 0")
         top = min(speed, float(np.sqrt(2 * length * up * down / (up + down))))
         self.length, self.top, self.up, self.down = length, top, up, down
         self.t_up, self.t_down = top / up, top / down
@@ -71,17 +71,17 @@ def _scalings(request: MotionRequest) -> Tuple[float, float]:
     scalings = request.velocity_scaling, request.acceleration_scaling
     for value in scalings:
         if not 0.0001 <= value <= 1.0:
-            raise Refused("invalid_plan", f"velocity and acceleration scaling must be in [0.0001, 1], not {value:g}")
+            raise _Refused("invalid_plan", f"velocity and acceleration scaling must be in [0.0001, 1], not {value:g}")
     return scalings
 
 
 def _goal(scene: _core.PlanningScene, request: MotionRequest) -> _core.Constraints:
     goals = [goal for goal in request.goals if not goal.empty()]
     if len(goals) != 1:
-        raise Refused("no_goal", f"{request.planner} needs exactly one goal, not {len(goals)}")
+        raise _Refused("no_goal", f"{request.planner} needs exactly one goal, not {len(goals)}")
     (goal,) = goals
     if goal.joint and (goal.position or goal.orientation):
-        raise Refused("no_goal", f"{request.planner} needs a goal of joint values or of a pose, not of both")
+        raise _Refused("no_goal", f"{request.planner} needs a goal of joint values or of a pose, not of both")
     for constraint in goal.joint:
         _check_joint(scene.model, request.group, constraint)
     return goal
@@ -89,10 +89,10 @@ def _goal(scene: _core.PlanningScene, request: MotionRequest) -> _core.Constrain
 
 def _check_joint(model: _core.RobotModel, group: str, constraint: _core.JointConstraint) -> None:
     if constraint.joint not in model.group(group).variables:
-        raise Refused("no_goal", f"joint '{constraint.joint}' of the goal does not belong to group '{group}'")
+        raise _Refused("no_goal", f"joint '{constraint.joint}' of the goal does not belong to group '{group}'")
     limits = model.variable_limits(constraint.joint)
     if limits.has_position and not limits.min_position - 1e-6 <= constraint.position <= limits.max_position + 1e-6:
-        raise Refused(
+        raise _Refused(
             "no_goal",
             f"the goal is outside the limits of '{constraint.joint}': {constraint.position:.4g} is not within "
             f"{limits.min_position:.4g} to {limits.max_position:.4g}",
@@ -119,17 +119,17 @@ def _tool(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRe
     if goal.joint:
         link = link or group.tip_link
         if not link:
-            raise Refused("failed", f"group '{group.name}' is no chain: its end, which {request.planner} moves, is not known")
+            raise _Refused("failed", f"group '{group.name}' is no chain: its end, which {request.planner} moves, is not known")
         if not start.has_frame(link):
-            raise Refused("invalid_link", f"the robot has no link '{link}', which {request.planner} is to move")
+            raise _Refused("invalid_link", f"the robot has no link '{link}', which {request.planner} is to move")
         state = start.copy()
         state.set({c.joint: c.position for c in goal.joint})
         return _Tool(link, Pose.identity(), state.pose(link))
     if len(goal.position) != 1 or len(goal.orientation) != 1 or goal.position[0].link != goal.orientation[0].link:
-        raise Refused("no_goal", f"{request.planner} needs a goal of joint values, or one position and one orientation of one link")
+        raise _Refused("no_goal", f"{request.planner} needs a goal of joint values, or one position and one orientation of one link")
     position, orientation = goal.position[0], goal.orientation[0]
     if not position.region:
-        raise Refused("no_goal", "the position constraint of the goal has no region")
+        raise _Refused("no_goal", "the position constraint of the goal has no region")
     point = scene.frame_pose(position.frame, start) * position.region[0][1].position
     turn = scene.frame_pose(orientation.frame, start) * Pose(np.zeros(3), np.asarray(orientation.quaternion))
     in_link = Pose(np.asarray(position.offset, float), np.array((0.0, 0.0, 0.0, 1.0)))
@@ -178,7 +178,7 @@ def check_limits(scene: _core.PlanningScene, trajectory: Trajectory, what: str) 
         worst = np.abs(rows).max(axis=0, initial=0.0)
         if (worst > limits * 1.001).any():
             joint = int(np.argmax(worst / limits))
-            raise Refused(
+            raise _Refused(
                 "failed",
                 f"{what} would move joint '{trajectory.variables[joint]}' with {worst[joint]:.3g}, above its "
                 f"{name} limit {limits[joint]:.3g}; a smaller {name} scaling helps",
@@ -221,7 +221,7 @@ def _ptp(scene: _core.PlanningScene, start: _core.RobotState, request: MotionReq
             solutions=8,
         )
         if not found:
-            raise Refused("no_ik_solution", found.message)
+            raise _Refused("no_ik_solution", found.message)
         last = found.solutions[0]
     velocity, acceleration = _joint_limits(scene, request.group, _UNSET)
     v_scale, a_scale = _scalings(request)
@@ -280,7 +280,7 @@ def follow(scene: _core.PlanningScene, group: str, link: str, pose: Pose, seed: 
     size = scene.model.group(group).size
     found = ik(scene, group, pose, link=link, seed=seed, timeout=0.1, max_restarts=0, tolerance=1e-6, consistency=[0.99 * np.pi] * size)
     if not found:
-        raise Refused("no_ik_solution", f"{problem}: {found.message}")
+        raise _Refused("no_ik_solution", f"{problem}: {found.message}")
     seed.set_group(group, found.solutions[0])
     return found.solutions[0]
 
@@ -308,7 +308,7 @@ def _circle(start: np.ndarray, goal: np.ndarray, point: np.ndarray, kind: str) -
         a, b = point - start, goal - start
         normal = np.cross(a, b)
         if np.linalg.norm(normal) < 1e-9:
-            raise Refused("invalid_plan", "start, interim point and goal of the circle lie on one line")
+            raise _Refused("invalid_plan", "start, interim point and goal of the circle lie on one line")
         centre = start + (np.dot(b, b) * np.cross(np.cross(a, b), a) + np.dot(a, a) * np.cross(b, np.cross(a, b))) / (
             2 * np.dot(normal, normal)
         )
@@ -317,9 +317,9 @@ def _circle(start: np.ndarray, goal: np.ndarray, point: np.ndarray, kind: str) -
         normal = np.cross(start - centre, goal - centre)
         apart = abs(np.linalg.norm(start - centre) - np.linalg.norm(goal - centre))
         if apart > _RADII:
-            raise Refused("invalid_plan", f"start and goal of the circle are not equally far from its centre: by {apart:.4g} m")
+            raise _Refused("invalid_plan", f"start and goal of the circle are not equally far from its centre: by {apart:.4g} m")
         if np.linalg.norm(normal) < 1e-9:
-            raise Refused("invalid_plan", "start, centre and goal of the circle lie on one line: give an interim point instead")
+            raise _Refused("invalid_plan", "start, centre and goal of the circle lie on one line: give an interim point instead")
     radius, last = (float(np.linalg.norm(place - centre)) for place in (start, goal))
     x = (start - centre) / radius
     y = np.cross(normal / np.linalg.norm(normal), x)
@@ -350,7 +350,7 @@ def with_auxiliary_point(request: MotionRequest) -> MotionRequest:
 def _circ(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRequest, limits: CartesianLimits) -> Trajectory:
     auxiliary = with_auxiliary_point(request).auxiliary
     if auxiliary is None:
-        raise Refused(
+        raise _Refused(
             "invalid_plan",
             "CIRC needs path constraints named 'interim' or 'center' with one position constraint that has one pose: its auxiliary point",
         )
@@ -380,9 +380,9 @@ def pilz_plan(
     try:
         motion = _MOTIONS.get(request.planner)
         if motion is None:
-            raise Refused("unknown_planner", f"there is no planner '{request.planner[:40]}' (there is: {', '.join(_MOTIONS)})")
+            raise _Refused("unknown_planner", f"there is no planner '{request.planner[:40]}' (there is: {', '.join(_MOTIONS)})")
         trajectory = motion(scene, start, request, limits)
-    except Refused as refused:
+    except _Refused as refused:
         return PlanResult(
             refused.status, message=str(refused), start=start, planner=request.planner, planning_time=time.perf_counter() - begun
         )

@@ -10,7 +10,7 @@ import numpy as np
 
 from motion import _core
 from motion.cartesian import explain, path_valid
-from motion.pilz import SAMPLING, CartesianLimits, Refused, check_limits, follow, pilz_plan, slerp, trajectory_of
+from motion.pilz import SAMPLING, CartesianLimits, _Refused, check_limits, follow, pilz_plan, slerp, trajectory_of
 from motion.planning import MotionRequest, PlanResult
 from motion.pose import Pose
 from motion.trajectory import Trajectory
@@ -43,7 +43,7 @@ def _blend(scene: _core.PlanningScene, first: Trajectory, second: Trajectory, li
     corner = places[0][-1]
     inside = [np.linalg.norm(p - corner, axis=1) <= radius for p in places]
     if inside[0].all() or inside[1].all():
-        raise Refused("failed", f"the blend radius {radius:g} m is larger than a motion that it joins")
+        raise _Refused("failed", f"the blend radius {radius:g} m is larger than a motion that it joins")
     enter = int(np.flatnonzero(~inside[0])[-1])
     leave = int(np.flatnonzero(~inside[1])[0])
     assert first.times is not None and second.times is not None  # planned motions are timed
@@ -88,7 +88,7 @@ def pilz_sequence(
     try:
         radii = _radii(scene.model, items, result.warnings)
         _plan_all(scene, items, radii, cancel, plan, result)
-    except Refused as refused:
+    except _Refused as refused:
         result.status, result.message, result.trajectories = refused.status, str(refused), []
     except _core.MotionError as error:
         result.status, result.message, result.trajectories = "invalid_request", str(error), []
@@ -99,17 +99,17 @@ def pilz_sequence(
 def _radii(model: _core.RobotModel, items: Sequence[Tuple[MotionRequest, float]], warnings: List[str]) -> List[float]:
     """The blend radii that count.
 
-    :raises Refused: what cannot be, before anything is planned.
+    :raises _Refused: what cannot be, before anything is planned.
     """
     radii = [float(radius) for _, radius in items]
     if not all(0.0 <= radius < np.inf for radius in radii):
-        raise Refused("invalid_plan", f"blend radii must be 0 or more (m), not {', '.join(f'{radius:g}' for radius in radii)}")
+        raise _Refused("invalid_plan", f"blend radii must be 0 or more (m), not {', '.join(f'{radius:g}' for radius in radii)}")
     if radii and radii[-1] > 0:
-        raise Refused("invalid_plan", "the last motion of a sequence cannot be blended: its blend radius must be 0")
+        raise _Refused("invalid_plan", "the last motion of a sequence cannot be blended: its blend radius must be 0")
     groups = [request.group for request, _ in items]
     for index, (request, _) in enumerate(items):
         if request.start is not None and request.group in groups[:index]:
-            raise Refused("invalid_state", f"motion {index + 1} of the sequence has a start state: only the first of its group may")
+            raise _Refused("invalid_state", f"motion {index + 1} of the sequence has a start state: only the first of its group may")
         if index + 1 < len(items) and radii[index] > 0 and (groups[index + 1] != groups[index] or not model.group(groups[index]).tip_link):
             why = "they are of two groups" if groups[index + 1] != groups[index] else f"group '{groups[index]}' is no chain"
             warnings.append(f"motions {index + 1} and {index + 2} of the sequence are not blended: {why}")
@@ -132,7 +132,7 @@ def _plan_all(
         result.warnings += planned.warnings
         if not planned or planned.trajectory is None:
             result.contacts = planned.contacts
-            raise Refused(planned.status, f"{where}: {planned.message}")
+            raise _Refused(planned.status, f"{where}: {planned.message}")
         trajectory, radius = planned.trajectory, radii[index - 1] if index else 0.0
         state = trajectory.state(len(trajectory) - 1)
         if before is None or before.group != trajectory.group:
@@ -149,7 +149,7 @@ def _check_overlap(first: Trajectory, second: Trajectory, radius: float, later: 
     link = second.model.group(second.group).tip_link
     corner, end = (t.state(len(t) - 1).pose(link).position for t in (first, second))
     if later > 0 and np.linalg.norm(end - corner) <= radius + later:
-        raise Refused(
+        raise _Refused(
             "invalid_plan",
             f"the blend radii {radius:g} m and {later:g} m at both ends of motion {index + 1} of the sequence "
             f"overlap: they are {np.linalg.norm(end - corner):.3g} m apart",
@@ -161,11 +161,11 @@ def _blended(
 ) -> Trajectory:
     try:
         trajectory = _blend(scene, first, second, scene.model.group(first.group).tip_link, radius)
-    except Refused as refused:
-        raise Refused(refused.status, f"{where}: {refused}") from None
+    except _Refused as refused:
+        raise _Refused(refused.status, f"{where}: {refused}") from None
     bad = path_valid(scene, first.start, trajectory.group, trajectory.positions)
     if bad and bad != [0]:
         state = trajectory.state(bad[0])
         result.contacts = scene.check(state, group=trajectory.group, contacts=100).contacts
-        raise Refused("invalid_plan", f"{where}: the blend with the one before it is not free: {explain(scene, state, trajectory.group)}")
+        raise _Refused("invalid_plan", f"{where}: the blend with the one before it is not free: {explain(scene, state, trajectory.group)}")
     return trajectory
