@@ -7,6 +7,8 @@ import os
 import re
 from typing import List, Optional, Sequence
 
+from ode_sim.errors import Refused
+
 SOFTWARE = "software"
 UNNAMED = "unnamed"  # a device that says neither that it is software nor which card it is
 _EXTENSIONS, _DRM_FILE = 0x3055, 0x3233
@@ -14,7 +16,7 @@ _MOST = 64
 _PCI = re.compile(r"(?:[0-9a-f]{4}:)?[0-9a-f]{2}:[0-9a-f]{2}\.[0-7]", re.IGNORECASE)
 
 
-class UnknownDevice(ValueError):
+class UnknownDevice(Refused):
     """There is no such device; the message lists those that there are."""
 
 
