@@ -236,6 +236,26 @@ bool Transforms::isFixedFrame(const std::string& frame) const
 
 bool Transforms::canTransform(const std::string& from_frame) const { return isFixedFrame(from_frame); }
 
+void Transforms::transformVector3(const std::string& from_frame, const Eigen::Vector3d& v_in, Eigen::Vector3d& v_out) const
+{
+  v_out = getTransform(from_frame).linear() * v_in;
+}
+
+void Transforms::transformQuaternion(const std::string& from_frame, const Eigen::Quaterniond& q_in, Eigen::Quaterniond& q_out) const
+{
+  q_out = getTransform(from_frame).linear() * q_in;
+}
+
+void Transforms::transformRotationMatrix(const std::string& from_frame, const Eigen::Matrix3d& m_in, Eigen::Matrix3d& m_out) const
+{
+  m_out = getTransform(from_frame).linear() * m_in;
+}
+
+void Transforms::transformPose(const std::string& from_frame, const Eigen::Isometry3d& t_in, Eigen::Isometry3d& t_out) const
+{
+  t_out = getTransform(from_frame) * t_in;
+}
+
 const Eigen::Isometry3d& Transforms::getTransform(const std::string& from_frame) const
 {
   const auto found = transforms_map_.find(withoutSlash(from_frame));

@@ -241,6 +241,8 @@ Eigen::Vector3d PositionConstraint::getLinkOffset() const
   return Eigen::Vector3d(message_.target_point_offset.x, message_.target_point_offset.y, message_.target_point_offset.z);
 }
 
+bool PositionConstraint::hasLinkOffset() const { return enabled() && getLinkOffset().squaredNorm() > 0.0; }
+
 bool PositionConstraint::mobileReferenceFrame() const { return enabled() && core_->positions[0].frame.link >= 0; }
 
 bool PositionConstraint::equal(const KinematicConstraint& other, double margin) const

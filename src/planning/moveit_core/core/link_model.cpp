@@ -4,6 +4,8 @@
 #include "motion/robot_model.hpp"
 #include "shapes.hpp"
 
+template void Eigen::Isometry3d::computeRotationScaling(Eigen::Matrix3d*, Eigen::Matrix3d*) const;
+
 namespace moveit
 {
 namespace core

@@ -136,7 +136,7 @@ public:
   void print(std::ostream& out = std::cout) const override;
   const moveit::core::LinkModel* getLinkModel() const;
   Eigen::Vector3d getLinkOffset() const;
-  bool hasLinkOffset() const { return enabled() && getLinkOffset().squaredNorm() > 0.0; }
+  bool hasLinkOffset() const;
   const std::string& getReferenceFrame() const { return message_.header.frame_id; }
   bool mobileReferenceFrame() const;
   // In the reference frame when that moves, else in the model frame.

@@ -13,6 +13,9 @@
 
 #include <moveit/macros/class_forward.h>
 
+// What check_isometry.h calls is compiled once, in this library, not in each file that includes it: seconds each.
+extern template void Eigen::Isometry3d::computeRotationScaling(Eigen::Matrix3d*, Eigen::Matrix3d*) const;
+
 namespace shapes
 {
 MOVEIT_CLASS_FORWARD(Shape);

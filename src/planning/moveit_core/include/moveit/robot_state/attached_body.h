@@ -2,7 +2,6 @@
 #pragma once
 
 #include <eigen_stl_containers/eigen_stl_containers.h>
-#include <geometric_shapes/check_isometry.h>
 #include <trajectory_msgs/JointTrajectory.h>
 
 #include <boost/function.hpp>

@@ -39,22 +39,11 @@ public:
   void setTransforms(const std::vector<geometry_msgs::TransformStamped>& transforms);
   void setAllTransforms(const FixedTransformsMap& transforms);
 
-  void transformVector3(const std::string& from_frame, const Eigen::Vector3d& v_in, Eigen::Vector3d& v_out) const
-  {
-    v_out = getTransform(from_frame).linear() * v_in;
-  }
-  void transformQuaternion(const std::string& from_frame, const Eigen::Quaterniond& q_in, Eigen::Quaterniond& q_out) const
-  {
-    q_out = getTransform(from_frame).linear() * q_in;
-  }
-  void transformRotationMatrix(const std::string& from_frame, const Eigen::Matrix3d& m_in, Eigen::Matrix3d& m_out) const
-  {
-    m_out = getTransform(from_frame).linear() * m_in;
-  }
-  void transformPose(const std::string& from_frame, const Eigen::Isometry3d& t_in, Eigen::Isometry3d& t_out) const
-  {
-    t_out = getTransform(from_frame) * t_in;
-  }
+  // Not inline: Eigen's products in a header cost every file that includes it seconds.
+  void transformVector3(const std::string& from_frame, const Eigen::Vector3d& v_in, Eigen::Vector3d& v_out) const;
+  void transformQuaternion(const std::string& from_frame, const Eigen::Quaterniond& q_in, Eigen::Quaterniond& q_out) const;
+  void transformRotationMatrix(const std::string& from_frame, const Eigen::Matrix3d& m_in, Eigen::Matrix3d& m_out) const;
+  void transformPose(const std::string& from_frame, const Eigen::Isometry3d& t_in, Eigen::Isometry3d& t_out) const;
 
   virtual bool canTransform(const std::string& from_frame) const;
   virtual bool isFixedFrame(const std::string& frame) const;
