@@ -241,12 +241,14 @@ void Transforms::transformVector3(const std::string& from_frame, const Eigen::Ve
   v_out = getTransform(from_frame).linear() * v_in;
 }
 
-void Transforms::transformQuaternion(const std::string& from_frame, const Eigen::Quaterniond& q_in, Eigen::Quaterniond& q_out) const
+void Transforms::transformQuaternion(const std::string& from_frame, const Eigen::Quaterniond& q_in,
+                                     Eigen::Quaterniond& q_out) const
 {
   q_out = getTransform(from_frame).linear() * q_in;
 }
 
-void Transforms::transformRotationMatrix(const std::string& from_frame, const Eigen::Matrix3d& m_in, Eigen::Matrix3d& m_out) const
+void Transforms::transformRotationMatrix(const std::string& from_frame, const Eigen::Matrix3d& m_in,
+                                         Eigen::Matrix3d& m_out) const
 {
   m_out = getTransform(from_frame).linear() * m_in;
 }
