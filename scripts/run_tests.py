@@ -41,7 +41,7 @@ import coverage_of_tests
 ROOT = Path(__file__).resolve().parent.parent
 TIME_LIMIT = 600  # s for one file; a test that takes longer hangs
 ENDING = 30  # s in which it ends what it started, before it is killed
-LONGEST = 1500  # s, for a folder of several files
+LONGEST = 2400  # s, for a folder of several files
 QUIET_LINES = 80  # of the output of what failed, with --quiet
 REASON = 200  # characters of the reason of a case, with --quiet
 SECOND_TRIES = 5  # files; if more have failed, it is no accident
