@@ -14,7 +14,7 @@ from pathlib import Path
 import yaml
 
 ROOT = Path(__file__).resolve().parent.parent
-#: (title, pages) in the order in which they are read; "" is the first page
+#: (title, pages) in the order in which they are read
 ORDER = [
     ("Start", ["README.md", "docs/start.md"]),
     ("Courses", ["docs/robots.md", "docs/moveit_tutorial.md"]),
@@ -37,7 +37,8 @@ ORDER = [
     ("Measured", ["docs/performance.md", "docs/parity.md"]),
     ("For developers", ["CONTRIBUTING.md", "docs/architecture.md", "docs/fuzzing.md", "CHANGELOG.md"]),
 ]
-_LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^()\s]+(?:\([^()]*\))?)\)")
+#: code, in which nothing is a link, or a picture's mark, title and target
+_LINK = re.compile(r"```.*?```|`[^`\n]*`|(!?)\[([^\]]*)\]\(([^()\s]+(?:\([^()]*\))?)\)", re.S)
 
 
 def pages(root=ROOT):
@@ -55,8 +56,7 @@ def place(page):
 
 def links(text):
     """(title, target) of each link and picture outside of code."""
-    bare = re.sub(r"```.*?```|`[^`\n]*`", "", text, flags=re.S)
-    return [(title, target) for _, title, target in _LINK.findall(bare)]
+    return [(title, target) for _, title, target in _LINK.findall(text) if target]
 
 
 def repository():
@@ -71,7 +71,7 @@ def on_the_site(page, text, known, address):
 
     def mended(match):
         picture, title, target = match.groups()
-        if re.match(r"[a-z]+:|#", target):
+        if target is None or re.match(r"[a-z]+:|#", target):
             return match[0]
         file, _, anchor = target.partition("#")
         path = Path(os.path.normpath(page.parent / file))
