@@ -38,7 +38,9 @@ def test_roots_machine_keeps_its_words():
 
 
 def written(tmp_path, **variables):
-    environment = {**os.environ, "HOME": str(tmp_path / "ada"), "ROS_HOME": "", "ROS_LOG_DIR": "", **variables}
+    environment = {**os.environ, "HOME": str(tmp_path / "ada"), **variables}
+    for name in ("ROS_HOME", "ROS_LOG_DIR"):
+        environment.pop(name, None)
     (tmp_path / "ada").mkdir(exist_ok=True)
     return subprocess.run([sys.executable, SCRIPT], env=environment, cwd=tmp_path, capture_output=True, text=True, timeout=100)
 

@@ -111,12 +111,6 @@ def workspaces(environment: Mapping[str, str]) -> Iterator[Tuple[str, str]]:
             yield folder, f"{len(sources) or len(list(Path(folder).glob('share/*/package.xml')))} packages"
 
 
-def log_folder(environment: Mapping[str, str]) -> Path:
-    """Where roslaunch of this environment writes to."""
-    home = environment.get("ROS_HOME") or os.path.expanduser("~/.ros")
-    return Path(environment.get("ROS_LOG_DIR") or os.path.join(home, "log"))
-
-
 def logs(folder: Path) -> Iterator[Tuple[str, str]]:
     """(name, last lines) of the newest logs of the last run."""
     latest = folder / "latest"
@@ -140,7 +134,7 @@ def text(environment: Mapping[str, str]) -> str:
         ("Variables", sorted(kept.items())),
     ):
         parts += [f"## {title}", *(f"{name}: {value}" for name, value in pairs), ""]
-    for name, lines in logs(log_folder(environment)):
+    for name, lines in logs(Path(rospkg.get_log_dir(environment))):
         parts += [f"## Log {name}", lines, ""]
     try:
         user = getpass.getuser()
