@@ -1,10 +1,12 @@
 """What tests share. No ROS but in ``test_support.hearing``: a test that talks to nodes brings its own clients.
 
-class Wheels(test_support.TestCase):
-    def test_both_turn(self):
-        for name in ("left", "right"):
-            with self.subTest(name):
-                wait_until(lambda: self.speed(name) > 0, f"the {name} wheel to turn")
+Each case of a test is looked at, whatever became of those before it::
+
+    class Wheels(test_support.TestCase):
+        def test_both_turn(self):
+            for name in ("left", "right"):
+                with self.subTest(name):
+                    wait_until(lambda: self.speed(name) > 0, f"the {name} wheel to turn")
 """
 
 from .angles import heading

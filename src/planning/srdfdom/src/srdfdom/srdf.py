@@ -1,8 +1,10 @@
 """An SRDF document as objects: groups, states, end effectors, virtual joints, collisions that are never checked.
 
-robot = SRDF.from_xml_string(text)
-robot.group_map["arm"].chains[0].tip_link
-robot.to_xml_string()
+As upstream's module::
+
+    robot = SRDF.from_xml_string(text)
+    robot.group_map["arm"].chains[0].tip_link
+    robot.to_xml_string()
 """
 
 from __future__ import annotations

@@ -65,7 +65,7 @@ class FieldValueException(RosbridgeError):
 
 @functools.lru_cache(maxsize=None)
 def split_type(rostype: str) -> Tuple[str, Optional[int]]:
-    """ "float64[36]" -> ("float64", 36), "float64[]" -> ("float64", 0), "float64" -> ("float64", None)"""
+    """``float64[36]`` -> ("float64", 36), "float64[]" -> ("float64", 0), "float64" -> ("float64", None)"""
     base, bracket, length = rostype.partition("[")
     return base, int(length[:-1] or 0) if bracket else None
 
