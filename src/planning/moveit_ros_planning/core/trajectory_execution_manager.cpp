@@ -223,7 +223,7 @@ TrajectoryExecutionManager::Status TrajectoryExecutionManager::executePart(std::
     return Status::SUCCEEDED;
   if (!ensureActiveControllers(context.controllers_))
     return Status::ABORTED;
-  const ros::Time started = ros::Time::now();
+  ros::Time started;
   {
     std::lock_guard<std::mutex> lock(mutex_);
     if (stopped_)
@@ -233,6 +233,7 @@ TrajectoryExecutionManager::Status TrajectoryExecutionManager::executePart(std::
       cancelHandles();
       return Status::ABORTED;
     }
+    started = ros::Time::now();  // of the controllers: an action server that comes up first takes none of their time
     current_ = static_cast<int>(index);
     current_started_ = started;
   }

@@ -17,11 +17,21 @@ class Robot:
     def __init__(self):
         self._values = dict(zip(JOINTS, [0.0, -0.6, 1.6, 0.0, 1.0, 0.0]), finger_joint=0.0)
         self._publisher = rospy.Publisher("joint_states", JointState, queue_size=10)
+        threading.Thread(target=self._publish, daemon=True).start()
+        if rospy.has_param("~late"):  # as between the first and the last topic of an action server that starts, but longer
+            self._first = [
+                rospy.Publisher(f"{action}/{topic}", kind, queue_size=1)
+                for action, kinds in (
+                    ("arm_controller/follow_joint_trajectory", FollowJointTrajectoryAction()),
+                    ("hand_controller/gripper_action", GripperCommandAction()),
+                )
+                for topic, kind in (("result", type(kinds.action_result)), ("feedback", type(kinds.action_feedback)))
+            ]
+            rospy.sleep(rospy.get_param("~late"))
         self._arm = actionlib.SimpleActionServer(
             "arm_controller/follow_joint_trajectory", FollowJointTrajectoryAction, self._follow, auto_start=False
         )
         self._hand = actionlib.SimpleActionServer("hand_controller/gripper_action", GripperCommandAction, self._grip, auto_start=False)
-        threading.Thread(target=self._publish, daemon=True).start()
         self._arm.start()
         self._hand.start()
 

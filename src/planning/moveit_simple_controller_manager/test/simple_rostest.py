@@ -49,8 +49,8 @@ class SimpleManager(unittest.TestCase):
             self.robot.kill()
             self.robot.wait(PATIENCE)
 
-    def start(self, mode="follow"):
-        rospy.set_param("/pretend_controller", {"mode": mode})
+    def start(self, mode="follow", **more):
+        rospy.set_param("/pretend_controller", {"mode": mode, **more})
         self.robot = subprocess.Popen([sys.executable, str(Path(__file__).with_name("pretend_controller.py"))])
         rospy.wait_for_message("joint_states", JointState, PATIENCE)
 
@@ -84,6 +84,17 @@ class SimpleManager(unittest.TestCase):
         self.start()
         self.expect(trajectory(0.5, ["finger_joint"], [0.0], [0.03]), GoalStatus.SUCCEEDED, Codes.SUCCESS)
         self.assertEqual(rospy.get_param("/pretend_controller/grip"), [0.03, 5.0])
+
+    def test_what_is_sent_while_it_starts_anew_is_not_lost(self):
+        """The node that died has left connections to its topics in the client."""
+        self.start()
+        self.expect(trajectory(0.5, ["finger_joint"], [0.0], [0.03]), GoalStatus.SUCCEEDED, Codes.SUCCESS)
+        self.tearDown()
+        self.start(late=1.5)
+        self.expect(trajectory(0.5, ["finger_joint"], [0.0], [0.02]), GoalStatus.SUCCEEDED, Codes.SUCCESS)
+        self.tearDown()
+        self.start(late=1.5)
+        self.expect(trajectory(0.5), GoalStatus.SUCCEEDED, Codes.SUCCESS)
 
     def test_a_refusal_and_a_failure_say_why(self):
         self.start("reject")

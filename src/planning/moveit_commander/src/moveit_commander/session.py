@@ -11,6 +11,7 @@ import motion
 import rospy
 import tf2_ros
 from actionlib_msgs.msg import GoalStatus
+from moveit_core import action_links
 from moveit_core.scene_messages import attach_to_state
 from moveit_msgs.msg import PlanningSceneComponents
 from moveit_msgs.srv import GetPlanningScene, GetPlanningSceneRequest
@@ -116,17 +117,7 @@ class Action:
 
     def connected(self) -> bool:
         """Whether a server is there."""
-        status = self._client.last_status_msg
-        if status is None:
-            return False
-        server = status._connection_header["callerid"]
-        goals, cancels = self._client.pub_goal.impl, self._client.pub_cancel.impl
-        return (
-            goals is not None
-            and goals.has_connection(server)
-            and cancels.has_connection(server)
-            and self._client.result_sub.get_num_connections() > 0
-        )
+        return action_links.is_connected(self._client)
 
     def wait(self, timeout: float) -> bool:
         """Wait (wall seconds; 0: for ever) for the server."""

@@ -384,13 +384,13 @@ class Execution:
         assert owner.choice is not None  # the step has parts
         if not owner.choice.activate(step.controllers):
             return self._fail(f"controllers {', '.join(step.controllers)} are not active, and could not be activated")
-        started = rospy.Time.now()
         with self._lock:
             if self._stopped.is_set():
                 return ExecutionStatus.PREEMPTED
             problem = self._send(step)
             if problem:
                 return self._fail(problem)
+            started = rospy.Time.now()  # of the controllers: an action server that comes up first takes none of their time
             self._where = (index, started)
         return self._watch(step, started)
 

@@ -17,6 +17,7 @@ from control_msgs.msg import (
     GripperCommandGoal,
     JointTolerance,
 )
+from moveit_core import action_links
 from moveit_core.controller_manager import Completion, ControllerHandle, ExecutionStatus
 from moveit_msgs.msg import RobotTrajectory
 
@@ -28,21 +29,6 @@ _ENDS = {
     GoalStatus.ABORTED: ExecutionStatus.ABORTED,
     GoalStatus.PREEMPTED: ExecutionStatus.PREEMPTED,
 }
-
-
-def is_connected(inner: actionlib.ActionClient) -> bool:
-    """Whether all topics of the action are connected to one server now. Does not wait."""
-    status = inner.last_status_msg
-    if status is None:
-        return False
-    server = status._connection_header["callerid"]
-    return (
-        inner.pub_goal.impl is not None
-        and inner.pub_goal.impl.has_connection(server)
-        and inner.pub_cancel.impl.has_connection(server)
-        and inner.result_sub.get_num_connections() > 0
-        and inner.feedback_sub.get_num_connections() > 0
-    )
 
 
 class ActionHandle(ControllerHandle):
@@ -77,7 +63,7 @@ class ActionHandle(ControllerHandle):
 
     @property
     def connected(self) -> bool:
-        return is_connected(self._client)
+        return action_links.is_connected(self._client)
 
     def wait_for_server(self, timeout: float) -> bool:
         """Wait (wall seconds) for the action server."""
