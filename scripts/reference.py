@@ -16,6 +16,9 @@ ROOT = Path(__file__).resolve().parent.parent
 OUT = ROOT / "out" / "reference"
 PACKAGES = (
     "ode_sim",
+    "ode_sim_rendering",
+    "ode_sim_viewer",
+    "ode_sim_gym",
     "motion",
     "building_editor",
     "gazebo_ros",

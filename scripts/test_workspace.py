@@ -64,8 +64,15 @@ def room(package):
     return PACKAGES[package].relative_to(ROOT / "src").parts[0]
 
 
-def test_ode_sim_imports_no_ros():
-    for package, allowed in (("ode_sim", {"ode_sim", "lenient_xml"}), ("lenient_xml", {"lenient_xml"})):
+def test_the_simulator_without_ros_imports_none_and_points_one_way():
+    below = {"ode_sim", "lenient_xml"}
+    for package, allowed in (
+        ("lenient_xml", {"lenient_xml"}),
+        ("ode_sim", below),
+        ("ode_sim_rendering", {*below, "ode_sim_rendering"}),
+        ("ode_sim_viewer", {*below, "ode_sim_rendering", "ode_sim_viewer"}),
+        ("ode_sim_gym", {*below, "ode_sim_rendering", "ode_sim_gym"}),
+    ):
         for path in python_files(package):
             assert not imports(path) & (ROS_MODULES | (set(PACKAGES) - allowed)), path
 

@@ -48,7 +48,7 @@ def arm_scene():
     import rospkg
     from ode_sim.description import ResourceFinder, read_urdf
     from ode_sim.description.model import Light, Link, Material, Model, Plane, Pose, Visual
-    from ode_sim.rendering import Camera, arrange, look_at
+    from ode_sim_rendering import Camera, arrange, look_at
 
     pack = rospkg.RosPack()
     file = os.path.join(pack.get_path("arm_description"), "urdf", "arm.urdf.xacro")
@@ -66,9 +66,9 @@ class BareDraw:
     """The scene's triangles at fixed places, one colour each, and the picture read back."""
 
     def __init__(self, scene, poses, camera):
-        from ode_sim.rendering import create_context
-        from ode_sim.rendering.assets import Assets
-        from ode_sim.rendering.renderer import Renderer, pose_matrices
+        from ode_sim_rendering import create_context
+        from ode_sim_rendering.assets import Assets
+        from ode_sim_rendering.renderer import Renderer, pose_matrices
 
         self.ctx = create_context()
         program = self.ctx.program(
@@ -104,7 +104,7 @@ class BareDraw:
 
 def draw_costs():
     """Milliseconds of a frame, with and without shadows, and of a bare draw; taken in turns, medians."""
-    from ode_sim.rendering import Renderer
+    from ode_sim_rendering import Renderer
 
     scene, poses, camera = arm_scene()
     renderers = {"frame": Renderer(shadows="off"), "frame with shadow": Renderer(shadows="on")}
@@ -133,7 +133,7 @@ def process_rate():
     import ode_sim
     import rospkg
     from ode_sim.description import ResourceFinder
-    from ode_sim.rendering import Camera, RenderProcess, look_at
+    from ode_sim_rendering import Camera, RenderProcess, look_at
 
     pack = rospkg.RosPack()
     file = os.path.join(pack.get_path("arm_description"), "urdf", "arm.urdf.xacro")

@@ -9,7 +9,8 @@ import sys
 import tempfile
 import time
 
-from lab_check import faults, sandbox
+from lab_check import faults
+from lab_check.isolation import sandbox
 from lab_check.outcome import Result
 from lab_check.report import marks
 
@@ -69,10 +70,11 @@ def sandbox_cost(scratch, runs=10):
 
 def queue(count, scratch):
     """Grades ``count`` submissions whose examination takes no time; for a process of its own, which prints its peak memory, MB."""
-    from lab_check import grade, gradebook, spec
-    from lab_check.engines import Engine
+    from lab_check.classroom import grade, gradebook
+    from lab_check.classroom.engines import Engine
+    from lab_check.classroom.store import Store
     from lab_check.outcome import TaskResult, Verdict
-    from lab_check.store import Store
+    from lab_check.specs import spec
 
     class Nothing(Engine):
         def __init__(self):

@@ -18,7 +18,7 @@ from dataclasses import replace
 
 import ode_sim
 import rospy
-from gazebo_ros import command_line
+from gazebo_ros.commands import command_line
 from gazebo_ros.node import _SWITCH_INTERVAL, make_server
 from gazebo_ros_control.plugin import GazeboRosControl
 from robots import ROBOTS, write_world

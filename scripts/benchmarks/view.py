@@ -164,7 +164,7 @@ def drawing_figures():
     """Processor seconds until 200 models are drawn for a page, and per frame in which all of them move."""
     import numpy as np
     from ode_sim import World
-    from ode_sim.viewer import LocalSimulation, Page
+    from ode_sim_viewer import LocalSimulation, Page
 
     world = World.load(world_text(200))
     page = Page(LocalSimulation(world, paused=True), port=0)

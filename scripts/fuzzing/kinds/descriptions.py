@@ -29,7 +29,7 @@ class _XmlKind(Kind):
 
     def prepare(self) -> None:
         import ode_sim  # noqa: F401  (imported here, shared by all workers)
-        import ode_sim.rendering.assets  # noqa: F401
+        import ode_sim_rendering.assets  # noqa: F401
 
         snippets = Path(__file__).parents[1] / self.snippets
         self._mutator = xml_cases.XmlMutator(self.seeds(), snippets.read_bytes())
@@ -123,8 +123,8 @@ def _body(text: bytes) -> bytes:
 
 def _draw(world) -> None:
     """What a camera would be told to draw: meshes and textures are read, nothing is rendered."""
-    from ode_sim.rendering.assets import Assets
-    from ode_sim.rendering.scene import describe
+    from ode_sim_rendering.assets import Assets
+    from ode_sim_rendering.scene import describe
 
     assets = Assets()
     for seen in describe(world).visuals:

@@ -38,9 +38,9 @@ class LaunchKind(Kind):
         import controller_manager.command_line  # noqa: F401
         import controller_manager.spawner  # noqa: F401
         import controller_manager_tests  # noqa: F401
-        import gazebo_ros.gz  # noqa: F401
+        import gazebo_ros.commands.gz  # noqa: F401
+        import gazebo_ros.commands.spawn_model  # noqa: F401
         import gazebo_ros.node  # noqa: F401
-        import gazebo_ros.spawn_model  # noqa: F401
         import node_signals  # noqa: F401
         import roslaunch.config  # noqa: F401
         import rosmaster.master  # noqa: F401

@@ -49,7 +49,7 @@ class MeshKind(Kind):
         import collada  # noqa: F401
         import ode_sim  # noqa: F401
         import ode_sim.mesh  # noqa: F401
-        import ode_sim.rendering.assets  # noqa: F401
+        import ode_sim_rendering.assets  # noqa: F401
         from PIL import Image
 
         self._files: Dict[str, List[bytes]] = {
@@ -140,7 +140,7 @@ class MeshKind(Kind):
     @staticmethod
     def _drawn(told: dict, path: str) -> None:
         from ode_sim.description import model as d
-        from ode_sim.rendering.assets import Assets
+        from ode_sim_rendering.assets import Assets
 
         assets = Assets()
         shape = (

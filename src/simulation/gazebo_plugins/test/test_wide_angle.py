@@ -4,7 +4,7 @@ import xml.etree.ElementTree as ET
 from types import SimpleNamespace
 
 import pytest
-from gazebo_plugins.ros_camera import camera_of
+from gazebo_plugins.cameras.ros_camera import camera_of
 from gazebo_ros.plugin import PluginError
 from ode_sim.description.model import Pose
 

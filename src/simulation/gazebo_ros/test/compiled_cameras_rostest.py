@@ -247,7 +247,7 @@ class ProcessTest(Case):
                 with open(f"/proc/{each}/stat", encoding="utf-8") as file:
                     parent = int(file.read().rpartition(")")[2].split()[1])
                 with open(f"/proc/{each}/cmdline", encoding="utf-8") as file:
-                    if parent == pid and "ode_sim.rendering.worker" in file.read():
+                    if parent == pid and "ode_sim_rendering.worker" in file.read():
                         found.append(int(each))
             except OSError:
                 continue

@@ -20,7 +20,7 @@ import test_support
 from gazebo_msgs import srv
 from gazebo_ros.srv import DescribeWorld, TakePicture
 from ode_sim.description.exchange import loads
-from ode_sim.viewer.simulation import WorldRecord
+from ode_sim_viewer.simulation import WorldRecord
 from processes import BENCH, Server
 from rosgraph_msgs.msg import Clock
 from simulator import Simulator, box, pose, urdf

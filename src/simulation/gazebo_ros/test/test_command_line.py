@@ -1,5 +1,5 @@
 import pytest
-from gazebo_ros import command_line
+from gazebo_ros.commands import command_line
 
 
 def test_what_the_launch_file_passes():

@@ -1,7 +1,7 @@
 """gz sdf: files are checked and printed without a simulator."""
 
 import pytest
-from gazebo_ros import gz
+from gazebo_ros.commands import gz
 from ode_sim.description import load_world, read_model
 
 ROBOT = """<robot name="cart">

@@ -4,7 +4,7 @@ import sys
 import xml.etree.ElementTree as ET
 
 import pytest
-from gazebo_ros import spawn_model
+from gazebo_ros.commands import spawn_model
 
 ROBOT = (
     '<?xml version="1.0"?><robot name="r"><!-- note --><link name="l"><visual><geometry>'

@@ -6,7 +6,7 @@ import shutil
 import time
 
 import pytest
-from lab_check import group, sandbox
+from lab_check.isolation import control_group, sandbox
 from teachers import WHO, Teacher
 
 _MODE = "RAY_AUTH_MODE"  # set once per process by who connects to a cluster; each test is a process of its own in that
@@ -30,8 +30,8 @@ def teacher(request):
         sandbox.check()
     except sandbox.SandboxError as error:
         pytest.skip(str(error))
-    with group.bounded(10, 1e9) as place:
-        if request.param == "root" and not group.counts_memory(place):
+    with control_group.bounded(10, 1e9) as place:
+        if request.param == "root" and not control_group.counts_memory(place):
             pytest.skip("no control group can be made here")
     place = pathlib.Path(f"/tmp/lab_check_walls.{os.getpid()}.{time.monotonic_ns()}")  # pytest's own folder is closed to other users
     place.mkdir()

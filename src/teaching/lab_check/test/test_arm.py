@@ -5,8 +5,10 @@ import pathlib
 import xml.etree.ElementTree as ET
 
 import pytest
-from lab_check import faults, report, sandbox, spec
+from lab_check import faults, report
 from lab_check.check import check
+from lab_check.isolation import sandbox
+from lab_check.specs import spec
 
 ROOT = pathlib.Path(__file__).parent.parent
 ARM = ROOT.parents[1] / "labs" / "arm"

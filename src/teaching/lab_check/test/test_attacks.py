@@ -10,7 +10,7 @@ import sys
 import threading
 
 import pytest
-from lab_check import own_code
+from lab_check.examination import submission_code
 from teachers import CMAKE, MANIFEST, reasons
 
 pytestmark = pytest.mark.slow
@@ -171,8 +171,8 @@ master = xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"])
 for call, more in ((master.release, ()), (master.told, ()), (master.simulatorIs, ("/evil", rospy.get_node_uri(), 1))):
     print("MASTER", call("/evil", "", *more)[0], flush=True)
 others = [pid for pid in os.listdir("/proc") if pid.isdigit()]
-seen = [pid for pid in others if any(word in pathlib.Path("/proc", pid, "cmdline").read_bytes()
-                                     for word in (b"lab_check.probe", b"lab_check.session", b"lab_check.examiner", b"held_master"))]
+words = [b"lab_check.examination." + word for word in (b"probe", b"session", b"examiner", b"guarded_master")]
+seen = [pid for pid in others if any(word in pathlib.Path("/proc", pid, "cmdline").read_bytes() for word in words)]
 print("SEEN", seen, flush=True)
 def reached(address, family):
     try:
@@ -316,7 +316,7 @@ def _memory_of_masters():
     most = 0.0
     for pid in filter(str.isdigit, os.listdir("/proc")):
         with contextlib.suppress(OSError):
-            if b"lab_check.held_master" in pathlib.Path("/proc", pid, "cmdline").read_bytes().split(b"\0"):
+            if b"lab_check.examination.guarded_master" in pathlib.Path("/proc", pid, "cmdline").read_bytes().split(b"\0"):
                 most = max(most, float(pathlib.Path("/proc", pid, "statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE"))
     return most
 
@@ -359,7 +359,7 @@ def test_what_is_code_of_the_submission(tmp_path):
     there, here = os.pipe2(os.O_NONBLOCK)
     child = os.fork()
     if child == 0:
-        own_code.tell(here, str(tmp_path / "home"))
+        submission_code.tell(here, str(tmp_path / "home"))
         os.chdir(tmp_path / "home")
         for name in ("a.py", str(tmp_path / "home" / "b.so"), os.fsencode("c.so.1"), "d.dae", sys.executable):
             with open(name, "rb"):
@@ -367,7 +367,7 @@ def test_what_is_code_of_the_submission(tmp_path):
         os._exit(0)
     os.waitpid(child, 0)
     os.close(here)
-    assert own_code.told(there) == [str(tmp_path / "home" / name) for name in ("a.py", "b.so", "c.so.1")]
+    assert submission_code.told(there) == [str(tmp_path / "home" / name) for name in ("a.py", "b.so", "c.so.1")]
     os.close(there)
 
 

@@ -6,7 +6,9 @@ import signal
 import time
 
 import pytest
-from lab_check import cluster, engines, grade, node, parcel, sandbox, spec, store
+from lab_check.classroom import cluster, cluster_node, engines, grade, packed_files, store
+from lab_check.isolation import sandbox
+from lab_check.specs import spec
 
 SPEC = """\
 title: T
@@ -35,15 +37,15 @@ def course(tmp_path):
 def test_a_parcel_holds_links_as_links_and_has_a_bound(course):
     path = course / "submissions" / "good"
     os.mkfifo(path / "pipe")
-    parcel.unpack(parcel.pack(path), course / "there")
+    packed_files.unpack(packed_files.pack(path), course / "there")
     assert os.readlink(course / "there" / "good" / "p" / "root") == "/"
     assert (course / "there" / "good" / "p" / "readme.txt").read_text() == "hello" and not (course / "there" / "good" / "pipe").exists()
     with open(path / "big", "wb") as file:
         file.truncate(2_000_000_000)
-    with pytest.raises(parcel.TooLarge):
-        parcel.pack(path, 2e8)
+    with pytest.raises(packed_files.TooLarge):
+        packed_files.pack(path, 2e8)
     (course / "slash").symlink_to("/")
-    parcel.unpack(parcel.pack(course / "slash"), course / "there")
+    packed_files.unpack(packed_files.pack(course / "slash"), course / "there")
     assert os.readlink(course / "there" / "slash") == "/"
 
 
@@ -53,20 +55,20 @@ def test_a_spec_travels_with_what_it_names(course):
     (course / "own.py").write_text("def f(context): return True\n")
     text = SPEC.replace("title: T", "title: T\nalso: [../more]").replace("launch: ''", "launch: p a.launch")
     (course / "course" / "spec.yaml").write_text(text.replace("{file: {path: '*/x'}}", "{python: {file: ../own.py, function: f}}"))
-    packed, path = parcel.pack_spec(spec.load(course / "course" / "spec.yaml"))
-    parcel.unpack(packed, course / "there")
+    packed, path = packed_files.pack_spec(spec.load(course / "course" / "spec.yaml"))
+    packed_files.unpack(packed, course / "there")
     assert path == "course/spec.yaml" and spec.load(course / "there" / path).points == 4
 
 
 def test_an_unfit_node_says_why(monkeypatch):
     monkeypatch.setattr(sandbox, "check", lambda: (_ for _ in ()).throw(sandbox.SandboxError("bwrap is not installed")))
     monkeypatch.setenv("CMAKE_PREFIX_PATH", "")
-    _, said, sent = node.faults("of yesterday", False, b"parcel")
+    _, said, sent = cluster_node.faults("of yesterday", False, b"parcel")
     assert sent == b"parcel"
     assert any("not of yesterday" in line and "same version" in line for line in said)
     assert any("no workspace is sourced" in line for line in said)
     monkeypatch.undo()
-    assert not [line for line in node.faults(node.platform_version(), True)[1] if "version" in line]
+    assert not [line for line in cluster_node.faults(cluster_node.platform_version(), True)[1] if "version" in line]
 
 
 def test_without_ray_the_remedy_is_named(monkeypatch):

@@ -12,8 +12,8 @@ import tempfile
 import time
 
 import pytest
-from lab_check import sandbox
 from lab_check.check import free_port
+from lab_check.isolation import sandbox
 from test_support import wait_until as wait
 
 NAP = f"99{os.getpid()}"  # s that submissions sleep, with the number of one behind the point: as nobody else does

@@ -3,8 +3,9 @@
 import pathlib
 
 import pytest
-from lab_check import sandbox, spec
 from lab_check.check import check
+from lab_check.isolation import sandbox
+from lab_check.specs import spec
 
 pytestmark = pytest.mark.slow
 
@@ -76,7 +77,7 @@ def examine(tmp_path, node="", cmake="", extra="", models="arm"):
 CUSTOM = r"""
 import sys
 print("CUSTOM", sys.orig_argv, flush=True)
-if "lab_check.probe" in " ".join(sys.orig_argv):
+if "lab_check.examination.probe" in " ".join(sys.orig_argv):
     import os
     os.write(2, b"INSIDE THE SIMULATOR\n")
 """

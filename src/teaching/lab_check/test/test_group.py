@@ -6,8 +6,8 @@ import subprocess
 import sys
 
 import pytest
-from lab_check import group
-from lab_check.supervise import Program
+from lab_check.isolation import control_group
+from lab_check.isolation.supervise import Program
 
 MANY = """
 import subprocess
@@ -23,7 +23,7 @@ except OSError as error:
 
 @pytest.fixture
 def place():
-    with group.bounded(20) as place:
+    with control_group.bounded(20) as place:
         if not place:
             pytest.skip("this user can make no control group here")
         yield place
@@ -48,8 +48,8 @@ def test_programs_of_a_submission_start_no_more_than_they_may_together(place):
 
 
 def test_without_such_groups_there_is_no_bound(monkeypatch, tmp_path):
-    monkeypatch.setattr(group, "HIERARCHIES", (str(tmp_path), str(tmp_path / "absent")))
-    with group.bounded(20) as place:
+    monkeypatch.setattr(control_group, "HIERARCHIES", (str(tmp_path), str(tmp_path / "absent")))
+    with control_group.bounded(20) as place:
         assert place == ""
-        group.enter(place)
+        control_group.enter(place)
     assert not any(tmp_path.iterdir())

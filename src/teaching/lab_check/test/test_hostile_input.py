@@ -14,10 +14,13 @@ import urllib.parse
 import zipfile
 
 import pytest
-from lab_check import explain, grade, gradebook, inside, similar, spec, staging, store
+from lab_check import explain
 from lab_check.checks.base import search
+from lab_check.classroom import grade, gradebook, similar, store
 from lab_check.cli import shown
+from lab_check.isolation import staging, untrusted_files
 from lab_check.outcome import Result, TaskResult, name_for
+from lab_check.specs import spec
 
 MANIFEST = b"<package format='2'><name>p</name></package>"
 LIMIT = 2e8
@@ -269,15 +272,15 @@ def test_files_are_opened_as_what_they_are(tmp_path):
     (tmp_path / "p" / "link").symlink_to(tmp_path / "secret")
     (tmp_path / "p" / "folder").symlink_to(tmp_path)
     os.mkfifo(tmp_path / "p" / "pipe")
-    assert inside.read_regular(tmp_path / "p", "launch/a.launch", 100) == b"yes"
-    assert inside.read_regular(tmp_path / "p", "launch/a.launch", 2) == b"ye"
+    assert untrusted_files.read_regular(tmp_path / "p", "launch/a.launch", 100) == b"yes"
+    assert untrusted_files.read_regular(tmp_path / "p", "launch/a.launch", 2) == b"ye"
     for name in ("link", "folder/secret", "pipe", "../secret", str(tmp_path / "secret"), "launch", "absent"):
         with pytest.raises(OSError):
-            inside.read_regular(tmp_path / "p", name, 100)
-    assert inside.matching(tmp_path / "p", "**/*") == ["launch/a.launch"]
-    assert inside.matching(tmp_path / "p", "launch/*.launch") == ["launch/a.launch"]
-    assert inside.matching(tmp_path, "launch/*.launch", anywhere=True) == ["p/launch/a.launch"]
-    assert inside.matching(tmp_path / "p", "*.launch") == [] and inside.matching(tmp_path / "p", "folder/*") == []
+            untrusted_files.read_regular(tmp_path / "p", name, 100)
+    assert untrusted_files.matching(tmp_path / "p", "**/*") == ["launch/a.launch"]
+    assert untrusted_files.matching(tmp_path / "p", "launch/*.launch") == ["launch/a.launch"]
+    assert untrusted_files.matching(tmp_path, "launch/*.launch", anywhere=True) == ["p/launch/a.launch"]
+    assert untrusted_files.matching(tmp_path / "p", "*.launch") == [] and untrusted_files.matching(tmp_path / "p", "folder/*") == []
 
 
 def test_copies_in_archives_are_found_like_those_in_folders(tmp_path):

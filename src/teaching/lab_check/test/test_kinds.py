@@ -3,9 +3,10 @@
 import pathlib
 
 import pytest
-from lab_check import sandbox, spec
 from lab_check.check import check
-from lab_check.spec import SCHEMA
+from lab_check.isolation import sandbox
+from lab_check.specs import spec
+from lab_check.specs.spec import SCHEMA
 
 HERE = pathlib.Path(__file__).parent
 

@@ -5,7 +5,7 @@ import sys
 import time
 
 import pytest
-from lab_check import lockstep
+from lab_check.examination import lockstep
 
 MARK = "LAB_CHECK_TEST=lockstep"
 

@@ -11,9 +11,12 @@ import xml.etree.ElementTree as ET
 import zipfile
 
 import pytest
-from lab_check import engines, explain, faults, grade, gradebook, report, scratch, similar, spec, staging, store, supervise
+from lab_check import explain, faults, report
 from lab_check.checks.files import complain, insane
+from lab_check.classroom import engines, grade, gradebook, similar, store
+from lab_check.isolation import staging, supervise, temporary_folders
 from lab_check.outcome import Result, TaskResult, Verdict, failed_task, share
+from lab_check.specs import spec
 
 MANIFEST = "<package format='2'><name>{}</name></package>"
 
@@ -285,12 +288,12 @@ def test_what_never_began_was_no_try(tmp_path):
 
 
 def test_what_was_killed_leaves_no_folder_for_long(tmp_path, monkeypatch):
-    monkeypatch.setattr(scratch, "top", lambda: tmp_path)
+    monkeypatch.setattr(temporary_folders, "top", lambda: tmp_path)
     (tmp_path / "lab_x.killed").mkdir()
     (tmp_path / "lab_x.killed" / "rest").write_text("x")
-    with scratch.folder("lab_x.") as mine:
+    with temporary_folders.folder("lab_x.") as mine:
         assert mine.is_dir() and (tmp_path / "lab_x.killed").exists()  # it might be new
-        scratch.sweep("lab_x.", young=-1.0)
+        temporary_folders.sweep("lab_x.", young=-1.0)
         assert mine.is_dir() and not (tmp_path / "lab_x.killed").exists()
     assert not list(tmp_path.iterdir())
 
@@ -306,7 +309,7 @@ def test_a_private_folder_of_temporary_files_is_not_used_by_root(tmp_path, monke
     place.mkdir(exist_ok=True)
     private.chmod(0o700)
     monkeypatch.setattr(tempfile, "tempdir", str(place))
-    with scratch.folder("lab_x.") as mine:
+    with temporary_folders.folder("lab_x.") as mine:
         assert tmp_path not in mine.parents and all(path.stat().st_mode & 0o001 for path in mine.parents)
 
 

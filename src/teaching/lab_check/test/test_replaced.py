@@ -8,7 +8,8 @@ import subprocess
 import sys
 
 import pytest
-from lab_check import group, inside, parcel, similar, store
+from lab_check.classroom import packed_files, similar, store
+from lab_check.isolation import control_group, untrusted_files
 from teachers import CMAKE, MANIFEST, reasons
 
 pytestmark = pytest.mark.slow
@@ -187,9 +188,9 @@ def test_folders_without_end_end_no_class(tmp_path):
     try:
         assert len(store.fingerprint(tmp_path / "sub", "")) == 64
         assert similar.prints(tmp_path / "sub")
-        assert len(list(inside.walk(tmp_path / "sub"))) == 60
-        with pytest.raises(parcel.TooLarge, match="too many folders in each other"):
-            parcel.pack(tmp_path / "sub")
+        assert len(list(untrusted_files.walk(tmp_path / "sub"))) == 60
+        with pytest.raises(packed_files.TooLarge, match="too many folders in each other"):
+            packed_files.pack(tmp_path / "sub")
     finally:
         subprocess.run(["rm", "-rf", str(tmp_path / "sub")], check=True)
 
@@ -274,17 +275,17 @@ def test_groups_that_a_killed_driver_left_behind_go_at_the_next_start():
         if not made[0][0]:
             pytest.skip("this user can make no control group here")
         assert all(os.path.isdir(place) for places in made for place in places)
-        sleeper = subprocess.Popen(["sleep", "600"], preexec_fn=lambda: group.enter(os.pathsep.join(made[1])))
+        sleeper = subprocess.Popen(["sleep", "600"], preexec_fn=lambda: control_group.enter(os.pathsep.join(made[1])))
         for driver in drivers[:2]:
             driver.kill()
             driver.wait()
         assert all(os.path.isdir(place) for places in made for place in places), "kill -9 leaves them"
-        with group.bounded(10, 1e9):
+        with control_group.bounded(10, 1e9):
             there = [[os.path.isdir(place) for place in places] for places in made]
         assert not any(there[0]) and all(there[1]) and all(there[2])
         sleeper.kill()
         sleeper.wait()
-        with group.bounded(10, 1e9):
+        with control_group.bounded(10, 1e9):
             assert not any(os.path.isdir(place) for place in made[1])
     finally:
         for process in filter(None, (*drivers, sleeper)):
@@ -292,6 +293,6 @@ def test_groups_that_a_killed_driver_left_behind_go_at_the_next_start():
             process.wait()
         for driver in drivers:
             driver.stdout.close()
-        with group.bounded(10):
+        with control_group.bounded(10):
             pass
     assert not any(pathlib.Path(place).exists() for place in made[2])

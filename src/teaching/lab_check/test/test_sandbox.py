@@ -8,8 +8,9 @@ import subprocess
 import time
 
 import pytest
-from lab_check import group, sandbox, spec
 from lab_check.check import check
+from lab_check.isolation import control_group, sandbox
+from lab_check.specs import spec
 
 ROOT = pathlib.Path(__file__).resolve().parents[4]
 SECRET = "the-solution-is-42"
@@ -82,7 +83,7 @@ def test_fork_bomb_is_ended_and_told(place):
 
 
 def test_threads_are_counted_as_well(place):
-    with group.bounded(1) as bound:
+    with control_group.bounded(1) as bound:
         if not bound and os.getuid() == 0:
             pytest.skip("root can make no control group here, and nothing else holds for root")
     _, log, _ = submit(

@@ -3,7 +3,7 @@
 import pathlib
 
 import pytest
-from lab_check import spec
+from lab_check.specs import spec
 
 GOOD = """\
 title: T
@@ -162,7 +162,7 @@ def test_every_example_of_the_schema_is_good(tmp_path):
 )
 def test_a_first_spec_for_a_launch_file_is_good_as_it_stands(tmp_path, launch, holds):
     """What it must hold is what the labs' URDF and launch files say. Windows are no nodes of an examination."""
-    from lab_check import new_spec
+    from lab_check.specs import new_spec
 
     written = new_spec.text(new_spec.look(*launch.split(), []))
     (tmp_path / "spec.yaml").write_text(written)
@@ -171,7 +171,7 @@ def test_a_first_spec_for_a_launch_file_is_good_as_it_stands(tmp_path, launch, h
 
 
 def test_a_launch_file_that_cannot_be_read_is_one_line(capsys, tmp_path):
-    from lab_check import new_spec
+    from lab_check.specs import new_spec
 
     assert new_spec.main(["nobodys_package", "a.launch"]) == 2
     assert new_spec.main(["arm_gazebo", "no_such.launch"]) == 2

@@ -7,8 +7,10 @@ import types
 
 import pytest
 import yaml
-from lab_check import outcome, store, sweep, sweep_spec
-from lab_check.spec import SpecError
+from lab_check import outcome, sweep
+from lab_check.classroom import store
+from lab_check.specs import sweep_spec
+from lab_check.specs.spec import SpecError
 
 SPEC = """\
 title: T

@@ -16,7 +16,7 @@ from controller_manager_msgs.msg import ControllerState, HardwareInterfaceResour
 from controller_manager_msgs.srv import ListControllers, SwitchController, SwitchControllerResponse
 from gazebo_msgs.srv import SpawnModel
 from geometry_msgs.msg import Pose, Twist, Vector3
-from ode_sim.viewer.porter import entitled
+from ode_sim_viewer.porter import entitled
 from std_msgs.msg import ColorRGBA, Float64
 from visualization_msgs.msg import Marker
 

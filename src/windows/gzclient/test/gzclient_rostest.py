@@ -15,8 +15,8 @@ from ode_sim import World, math3
 from ode_sim.description import model as d
 from ode_sim.description.sdf_writer import light_text
 from ode_sim.math3 import Pose
-from ode_sim.viewer import Refused
-from ode_sim.viewer.simulation import SurfaceProperties
+from ode_sim_viewer import Refused
+from ode_sim_viewer.simulation import SurfaceProperties
 from std_srvs.srv import Empty
 
 PATIENCE = 180.0  # s, on a machine that does other things too

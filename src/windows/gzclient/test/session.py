@@ -15,10 +15,10 @@ from gazebo_msgs.srv import GetModelState, GetPhysicsProperties, GetWorldPropert
 from gazebo_ros.srv import DescribeWorld
 from ode_sim.description.exchange import loads
 from ode_sim.math3 import quat_to_rpy
-from ode_sim.viewer import simulation  # noqa: F401  how a world is described
+from ode_sim_viewer import simulation  # noqa: F401  how a world is described
 
 HERE = os.path.dirname(os.path.realpath(__file__))
-FIELD = 0.9  # rad, ode_sim.viewer.eye
+FIELD = 0.9  # rad, ode_sim_viewer.eye
 
 
 def call(name, service, *arguments):

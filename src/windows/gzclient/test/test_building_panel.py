@@ -13,7 +13,7 @@ pytest.importorskip("viser")
 
 from gzclient.building.plan import Element  # noqa: E402
 from gzclient.panels.building import BuildingPanel  # noqa: E402
-from ode_sim.viewer import LocalSimulation, Page  # noqa: E402
+from ode_sim_viewer import LocalSimulation, Page  # noqa: E402
 from PIL import Image  # noqa: E402
 
 # the room of the mobile robot's course: where its walls meet; and of each wall length, middle x and y, yaw

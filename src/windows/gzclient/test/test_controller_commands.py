@@ -8,7 +8,7 @@ from geometry_msgs.msg import Twist
 from gzclient.controller_commands import command_of, joints_of
 from ode_sim.description import model as d
 from ode_sim.description import read_model
-from ode_sim.viewer.simulation import Frame, ModelRecord, WorldRecord
+from ode_sim_viewer.simulation import Frame, ModelRecord, WorldRecord
 from std_msgs.msg import Float64, Float64MultiArray
 
 NAMES = ("lift", "turn")

@@ -9,8 +9,8 @@ from geometry_msgs.msg import Point, Quaternion, Vector3
 from ode_sim import World
 from ode_sim.description import model as d
 from ode_sim.math3 import Pose
-from ode_sim.viewer import LocalSimulation, Page
-from ode_sim.viewer.shapes import shape_model
+from ode_sim_viewer import LocalSimulation, Page
+from ode_sim_viewer.shapes import shape_model
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 

@@ -11,7 +11,7 @@ from gzclient.sensor_frames import field_of_view, find_frame, optical, range_con
 from ode_sim.description import model as d
 from ode_sim.description import read_model
 from ode_sim.math3 import Pose
-from ode_sim.viewer import ModelRecord, Refused, WorldRecord
+from ode_sim_viewer import ModelRecord, Refused, WorldRecord
 from sensor_msgs.msg import CompressedImage, Image, JointState, LaserScan, Range
 
 ROBOT = """<robot name="r"><link name="base"/><link name="eye"><inertial><mass value="1"/>

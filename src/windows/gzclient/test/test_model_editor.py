@@ -11,7 +11,7 @@ from gzclient.modelling.draft import Draft
 from ode_sim import World, math3
 from ode_sim.description import model as d
 from ode_sim.math3 import Pose
-from ode_sim.viewer import LocalSimulation, Page, Refused
+from ode_sim_viewer import LocalSimulation, Page, Refused
 
 STL = b"""solid t
 facet normal 0 0 1

@@ -8,7 +8,7 @@ from building_editor.building import building_of, read_plan
 from gzclient.building import files
 from gzclient.building.plan import Element, Plan, snapped
 from ode_sim import World
-from ode_sim.viewer import Refused
+from ode_sim_viewer import Refused
 
 ROOM = ((0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0), (0.0, 0.0))
 

@@ -10,7 +10,7 @@ from gzclient.building import files
 from gzclient.building.plan import Plan
 from gzclient.building.reopened import plan_of
 from ode_sim.description import load_world, read_sdf_model
-from ode_sim.viewer import Refused
+from ode_sim_viewer import Refused
 
 LINK = """<link name='{name}'><pose frame=''>{pose}</pose>{shapes}</link>"""
 SHAPE = """<collision name='{name}_Collision{end}'><geometry><box><size>{size}</size></box></geometry>

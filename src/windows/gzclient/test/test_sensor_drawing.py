@@ -9,8 +9,8 @@ from geometry_msgs.msg import Vector3, Wrench
 from ode_sim import World
 from ode_sim.description import model as d
 from ode_sim.math3 import Pose, quat_from_rpy
-from ode_sim.viewer import LocalSimulation, Page
-from ode_sim.viewer.shapes import shape_model
+from ode_sim_viewer import LocalSimulation, Page
+from ode_sim_viewer.shapes import shape_model
 from sensor_msgs.msg import JointState, LaserScan
 
 pytest.importorskip("viser")

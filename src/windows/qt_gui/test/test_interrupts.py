@@ -9,7 +9,7 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 from python_qt_binding.QtCore import QTimer  # noqa: E402
 from python_qt_binding.QtWidgets import QApplication  # noqa: E402
-from qt_gui.interrupts import Interrupts  # noqa: E402
+from qt_gui.application.interrupts import Interrupts  # noqa: E402
 
 
 @pytest.fixture

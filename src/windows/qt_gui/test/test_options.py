@@ -1,8 +1,8 @@
 """The command line, without a window."""
 
 import pytest
+from qt_gui.application.options import parse
 from qt_gui.errors import UsageError
-from qt_gui.options import parse
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 import sys
 
-from qt_gui import reporting
+from qt_gui.application import reporting
 
 
 def test_an_exception_is_one_line_with_its_place():

@@ -186,7 +186,7 @@ RULES = [
 
 def test_rules_of_a_perspective_file_of_noetic_are_kept(tmp_path):
     from python_qt_binding.QtCore import QDateTime
-    from qt_gui import perspective_file
+    from qt_gui.application import perspective_file
 
     def stamp(seconds):
         return QDateTime.fromMSecsSinceEpoch(round(seconds * 1000)).toString("hh:mm:ss.zzz (yyyy-MM-dd)")

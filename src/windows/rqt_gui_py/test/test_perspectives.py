@@ -4,9 +4,9 @@ import json
 
 import pytest
 from python_qt_binding.QtCore import QByteArray
-from qt_gui import perspective_file
+from qt_gui.application import perspective_file
+from qt_gui.application.perspective_dialog import PerspectiveDialog
 from qt_gui.errors import PerspectiveError
-from qt_gui.perspective_dialog import PerspectiveDialog
 from rqt_testing.in_process import errors, find, open_gui, open_plugin, process_events
 
 EDIT = """

@@ -1,4 +1,4 @@
-"""Whether the server of an action would hear a goal now: what wait_for_server of rospy's actionlib cannot tell of a server that has died."""
+"""Whether the server of an action would hear a goal now, which rospy's actionlib cannot tell of a server that has died."""
 
 from __future__ import annotations
 

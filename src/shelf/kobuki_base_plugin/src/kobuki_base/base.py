@@ -7,9 +7,9 @@ from types import ModuleType
 from typing import Any, Optional, Set
 
 import rospy
-from gazebo_plugins.imu import Differentiator
+from gazebo_plugins.drives.wheels import Command
 from gazebo_plugins.ros_side import TfBroadcaster, Topics, diagonal, find_joint, pose_msg
-from gazebo_plugins.wheels import Command
+from gazebo_plugins.sensors.imu import Differentiator
 from gazebo_ros.plugin import ModelPlugin, PluginError
 from geometry_msgs.msg import Quaternion, Vector3
 from nav_msgs.msg import Odometry

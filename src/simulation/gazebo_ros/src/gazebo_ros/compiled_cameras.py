@@ -14,7 +14,7 @@ import rospy
 from gazebo_cpp import _core
 from ode_sim.description import model as d
 from ode_sim.errors import CameraError
-from ode_sim.rendering import ENCODINGS, Camera, Frame, read_camera
+from ode_sim_rendering import ENCODINGS, Camera, Frame, read_camera
 
 from gazebo_ros.rate_watch import RateWatch
 from gazebo_ros.studio import Shooting

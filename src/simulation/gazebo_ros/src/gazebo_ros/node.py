@@ -24,7 +24,7 @@ from ode_sim.description import DescriptionError, Problem, ResourceFinder, load_
 from ode_sim.description import model as d
 from rospy.names import load_mappings
 
-from gazebo_ros import command_line, compiled
+from gazebo_ros import compiled
 from gazebo_ros.api.clock import ClockPublisher, stand_as_subscriber
 from gazebo_ros.api.forces import ForceJobs
 from gazebo_ros.api.joint_commands import JointCommands
@@ -42,6 +42,7 @@ from gazebo_ros.api.stepping import SteppingServices
 from gazebo_ros.api.surfaces import SurfaceServices
 from gazebo_ros.api.timeline import TimelineServices
 from gazebo_ros.api.view import ViewServices
+from gazebo_ros.commands import command_line
 from gazebo_ros.delivery import Delivery
 from gazebo_ros.finding import make_finder
 from gazebo_ros.first_view import first_view

@@ -7,7 +7,7 @@ from typing import Callable, Tuple
 
 import numpy as np
 import rospy
-from ode_sim.rendering import Camera, Frame, RenderProcess
+from ode_sim_rendering import Camera, Frame, RenderProcess
 
 
 class _Shared:

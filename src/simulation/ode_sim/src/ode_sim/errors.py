@@ -8,7 +8,7 @@
     ├── CameraError        ValueError  a camera that cannot be made; names the value and what is allowed
     ├── Refused            ValueError  what was asked for is not done; says why, and what to do
     │   └── UnknownDevice              rendering.devices: there is no such card; lists those that there are
-    ├── Failure                        gazebo_ros.command_line: a command ends, with this line and exit code 1
+    ├── Failure                        gazebo_ros.commands.command_line: a command ends, with this line and exit code 1
     └── Unavailable        RuntimeError  something is missing here and now: a package, a free port
         ├── RenderingUnavailable       no OpenGL on this machine
         └── Stopped                    gazebo_ros.server: the simulator is shutting down; the call was not made

@@ -430,12 +430,6 @@ class World:
             raise ValueError(f"{len(origins)} ray origins but {len(directions)} directions")
         return self.core.cast_rays(origins, directions, float(max_range), [c.id for c in ignore])
 
-    def render(self, camera, kind: str = "image") -> np.ndarray:
-        """What a :class:`ode_sim.rendering.Camera` sees now, see :func:`ode_sim.rendering.render`."""
-        from ode_sim.rendering import render
-
-        return render(self, camera, kind)
-
     # ------------------------------------------------------------------------------------------ <state>
 
     def _apply_state(self, state: d.WorldState) -> None:

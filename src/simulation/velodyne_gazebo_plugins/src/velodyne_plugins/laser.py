@@ -5,9 +5,9 @@ the same instant, so time is 0.
 """
 
 import numpy as np
-from gazebo_plugins.image_message import PointCloud2
-from gazebo_plugins.laser import RayFan
+from gazebo_plugins.cameras.image_message import PointCloud2
 from gazebo_plugins.ros_side import Topics, subscribed
+from gazebo_plugins.sensors.laser import RayFan
 from gazebo_ros.plugin import SensorPlugin
 from sensor_msgs.msg import PointField
 

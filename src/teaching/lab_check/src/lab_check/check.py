@@ -16,22 +16,23 @@ import uuid
 from dataclasses import asdict
 from typing import List, Optional
 
-from . import group, report, sandbox, scratch
+from . import report
 from .errors import LabError
-from .job import Job, most_tasks
+from .examination.job import Job, most_tasks
+from .isolation import control_group, sandbox, temporary_folders
+from .isolation.supervise import STRETCH, die_with_parent
 from .outcome import Result
-from .spec import Spec
-from .supervise import STRETCH, die_with_parent
+from .specs.spec import Spec
 
 _KEPT = (
-    "lab_check.probe",
-    "lab_check.session",
-    "lab_check.held_launch",
+    "lab_check.examination.probe",
+    "lab_check.examination.session",
+    "lab_check.examination.guarded_roslaunch",
     "gazebo_ros_control.plugin",
-    "gazebo_plugins.ros_camera",
-    "gazebo_plugins.diff_drive",
-    "ode_sim.rendering.portrait",
-    "ode_sim.rendering.renderer",
+    "gazebo_plugins.cameras.ros_camera",
+    "gazebo_plugins.drives.diff_drive",
+    "ode_sim_rendering.portrait",
+    "ode_sim_rendering.renderer",
     "joint_state_controller",
     "xacro",
 )
@@ -95,7 +96,7 @@ def _clear(out: pathlib.Path) -> None:
         out.mkdir(parents=True, exist_ok=True)
         for entry in list(os.scandir(out)):
             if _OURS.fullmatch(entry.name):
-                scratch.remove(pathlib.Path(entry.path))
+                temporary_folders.remove(pathlib.Path(entry.path))
         if not os.access(out, os.W_OK):
             raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
     except OSError as error:
@@ -114,7 +115,10 @@ def check(spec: Spec, submission: pathlib.Path, out: pathlib.Path, unsafe: bool 
     keep_bytecode()
     limits = {name: spec.limit(name) for name in spec.data["limits"]}
     # Its files lie in memory: the kernel's bound holds for both together, the Guard tells one from the other.
-    with scratch.folder("lab_check.") as place, group.bounded(most_tasks(limits), limits["memory"] + limits["disk"]) as bounds:
+    with (
+        temporary_folders.folder("lab_check.") as place,
+        control_group.bounded(most_tasks(limits), limits["memory"] + limits["disk"]) as bounds,
+    ):
         os.chmod(place, 0o755)
         job = Job(
             spec.data,
@@ -138,7 +142,7 @@ def check(spec: Spec, submission: pathlib.Path, out: pathlib.Path, unsafe: bool 
 def _examine(job: Job, spec: Spec, submission: pathlib.Path, out: pathlib.Path) -> Result:
     job_file = out / ".job"
     job.save(job_file)
-    words = [*sandbox.isolated(), "-m", "lab_check.examiner", str(job_file)]
+    words = [*sandbox.isolated(), "-m", "lab_check.examination.examiner", str(job_file)]
     sessions = len({task["launch"] for task in spec.data["tasks"]})
     patience = STRETCH * (spec.data["build"]["timeout"] * 2 + sessions * (job.limits["time"] + 90))
     try:

@@ -11,7 +11,7 @@ from typing import List, Optional
 
 def load_spec(path: str):
     """The spec; its faults go to the terminal, and the program ends with 2."""
-    from .spec import SpecError, load
+    from .specs.spec import SpecError, load
 
     try:
         return load(path)
@@ -22,9 +22,9 @@ def load_spec(path: str):
 
 
 def allowed(unsafe: bool) -> None:
-    from .group import bounded
-    from .sandbox import Platform, SandboxError, remark
-    from .sandbox import check as try_it
+    from .isolation.control_group import bounded
+    from .isolation.sandbox import Platform, SandboxError, remark
+    from .isolation.sandbox import check as try_it
 
     try:
         Platform.here()
@@ -113,19 +113,19 @@ def shown(text: str) -> str:
 
 
 def grade(arguments: Optional[List[str]] = None) -> int:
-    from .grade import main
+    from .classroom.grade import main
 
     return main(arguments)
 
 
 def new(arguments: Optional[List[str]] = None) -> int:
-    from .new_spec import main
+    from .specs.new_spec import main
 
     return main(arguments)
 
 
 def similar(arguments: Optional[List[str]] = None) -> int:
-    from .similar import main
+    from .classroom.similar import main
 
     return main(arguments)
 

@@ -11,13 +11,13 @@ import pathlib
 import sys
 from typing import Any, Dict, List, Optional, Tuple
 
-from .engines import How, Pool
-from .grade import run
+from .classroom.engines import How, Pool
+from .classroom.grade import run
+from .classroom.store import Store, fingerprint, result_of
 from .outcome import Result
 from .report.page import STYLE
-from .spec import SpecError
-from .store import Store, fingerprint, result_of
-from .sweep_spec import PlaceError, Sweep, load_sweep
+from .specs.spec import SpecError
+from .specs.sweep_spec import PlaceError, Sweep, load_sweep
 
 _MOST_PLOTS = 24
 

@@ -34,7 +34,7 @@ PACKAGES = (
 VARIABLES = re.compile(r"ROS_|GAZEBO_|ODE_SIM_|CMAKE_PREFIX_PATH|PYTHONPATH|DISPLAY|WAYLAND_|QT_|LIBGL_|MESA_|LANG|LC_ALL|XDG_SESSION")
 LINES = 200  # of each log, from its end
 LOGS = 8  # the newest
-_DRAWS = "from ode_sim.rendering import Renderer; print(Renderer().device)"
+_DRAWS = "from ode_sim_rendering import Renderer; print(Renderer().device)"
 _SECONDS = 20.0  # for each program that is asked
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import List
 
-from gazebo_ros.command_line import VERSION
-from ode_sim.viewer.website import DEFAULT_PORT
+from gazebo_ros.commands.command_line import VERSION
+from ode_sim_viewer.website import DEFAULT_PORT
 
 
 def parse(arguments: List[str]) -> argparse.Namespace:

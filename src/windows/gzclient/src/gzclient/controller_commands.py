@@ -12,8 +12,8 @@ from control_msgs.msg import GripperCommandActionGoal
 from four_wheel_steering_msgs.msg import FourWheelSteering
 from geometry_msgs.msg import Twist, Vector3
 from ode_sim.description import model as d
-from ode_sim.viewer.panels.joints import range_of
-from ode_sim.viewer.simulation import Frame, ModelRecord, WorldRecord
+from ode_sim_viewer.panels.joints import range_of
+from ode_sim_viewer.simulation import Frame, ModelRecord, WorldRecord
 from std_msgs.msg import Float64, Float64MultiArray
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 

@@ -15,7 +15,7 @@ from urllib.parse import urlsplit
 
 import node_signals
 from node_signals import orphans, verbose
-from ode_sim.viewer.website import Unavailable, Website
+from ode_sim_viewer.website import Unavailable, Website
 
 from gzclient import command_line, desktop
 

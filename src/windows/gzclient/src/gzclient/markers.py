@@ -8,8 +8,8 @@ from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple
 import numpy as np
 from ode_sim.errors import SimulationError
 from ode_sim.math3 import Pose
-from ode_sim.rendering import geometry
-from ode_sim.viewer.drawing import rgb255, take_away, wxyz
+from ode_sim_rendering import geometry
+from ode_sim_viewer.drawing import rgb255, take_away, wxyz
 from visualization_msgs.msg import Marker
 
 _MOST = 2000  # markers of one topic

@@ -11,13 +11,13 @@ from gzclient.ros_simulation import RosSimulation
 
 
 def make_page(website: Any, shadows: bool) -> Any:
-    """:class:`ode_sim.viewer.Page` on ``website``, which somebody has knocked at.
+    """:class:`ode_sim_viewer.Page` on ``website``, which somebody has knocked at.
 
     :param shadows: also where the graphics are computed by the processor
     """
     simulation = RosSimulation()
     simulation.look(True)  # the first frame comes while the rest is imported
-    from ode_sim.viewer import Page
+    from ode_sim_viewer import Page
 
     return Page(
         simulation,

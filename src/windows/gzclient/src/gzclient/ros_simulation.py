@@ -40,7 +40,7 @@ from geometry_msgs.msg import Pose as PoseMsg
 from ode_sim.description import model as d
 from ode_sim.description.exchange import dumps, loads
 from ode_sim.description.sdf_writer import light_text
-from ode_sim.viewer.simulation import Frame, KeptMoment, LinkProperties, Looks, Refused, Simulation, SurfaceProperties, WorldRecord
+from ode_sim_viewer.simulation import Frame, KeptMoment, LinkProperties, Looks, Refused, Simulation, SurfaceProperties, WorldRecord
 from std_msgs.msg import ColorRGBA
 from std_srvs.srv import Empty
 

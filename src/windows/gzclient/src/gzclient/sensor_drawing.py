@@ -9,9 +9,9 @@ import numpy as np
 from gazebo_msgs.msg import ContactsState
 from geometry_msgs.msg import WrenchStamped
 from ode_sim.math3 import Pose, rotate, scale
-from ode_sim.viewer.arrows import Forces
-from ode_sim.viewer.drawing import wxyz
-from ode_sim.viewer.simulation import Frame, WorldRecord
+from ode_sim_viewer.arrows import Forces
+from ode_sim_viewer.drawing import wxyz
+from ode_sim_viewer.simulation import Frame, WorldRecord
 from sensor_msgs.msg import Image, LaserScan, PointCloud2, Range
 
 from gzclient.images import picture_of

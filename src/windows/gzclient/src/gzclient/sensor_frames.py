@@ -7,7 +7,7 @@ from typing import Any, Dict, Optional, Tuple
 
 import numpy as np
 from ode_sim.math3 import Pose, compose, quat_from_rpy
-from ode_sim.viewer.simulation import WorldRecord
+from ode_sim_viewer.simulation import WorldRecord
 
 _OPTICAL = quat_from_rpy(-math.pi / 2, 0.0, -math.pi / 2)  # of a body frame: x forward becomes z forward
 _MOST_POINTS = 4000  # of a scan that are sent to a page

@@ -8,7 +8,7 @@ from typing import Any, Dict, List, Tuple
 import numpy as np
 import rospy
 from ode_sim.math3 import Pose, compose, inverse
-from ode_sim.viewer.simulation import Frame, WorldRecord
+from ode_sim_viewer.simulation import Frame, WorldRecord
 from tf2_msgs.msg import TFMessage
 
 _MOST = 200  # frames

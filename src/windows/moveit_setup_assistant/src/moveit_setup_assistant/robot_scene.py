@@ -11,7 +11,7 @@ import numpy as np
 from motion.files import resolve
 from ode_sim.description import model as d
 from ode_sim.math3 import from_rpy
-from ode_sim.rendering.scene import WORLD_FRAME, SceneDescription, SceneLight, SceneVisual
+from ode_sim_rendering.scene import WORLD_FRAME, SceneDescription, SceneLight, SceneVisual
 
 from moveit_setup_assistant.robot_source import Robot
 
@@ -21,7 +21,7 @@ _PLAIN = (0.6, 0.6, 0.65, 1.0)
 
 
 class RobotScene:
-    """What :class:`ode_sim.rendering.Renderer` draws of a robot; links keep the order of ``links``."""
+    """What :class:`ode_sim_rendering.Renderer` draws of a robot; links keep the order of ``links``."""
 
     def __init__(self, robot: Robot) -> None:
         root = lenient_xml.fromstring(robot.urdf)

@@ -6,7 +6,7 @@ import math
 from typing import Iterable, Optional
 
 import numpy as np
-from ode_sim.rendering import Camera, Renderer, RenderingUnavailable, look_at
+from ode_sim_rendering import Camera, Renderer, RenderingUnavailable, look_at
 from python_qt_binding.QtCore import QPoint, Qt, QTimer, Signal
 from python_qt_binding.QtGui import QImage, QPainter
 from python_qt_binding.QtWidgets import QWidget

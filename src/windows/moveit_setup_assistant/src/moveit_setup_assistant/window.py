@@ -21,7 +21,7 @@ from python_qt_binding.QtWidgets import (
     QVBoxLayout,
     QWidget,
 )
-from qt_gui.interrupts import Interrupts
+from qt_gui.application.interrupts import Interrupts
 
 from moveit_setup_assistant.configuration import Configuration
 from moveit_setup_assistant.errors import AssistantError

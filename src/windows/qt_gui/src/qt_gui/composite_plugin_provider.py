@@ -2,9 +2,9 @@
 
 from python_qt_binding.QtCore import qCritical
 
+from qt_gui.application.reporting import describe
 from qt_gui.errors import PluginLoadError
 from qt_gui.plugin_provider import PluginProvider
-from qt_gui.reporting import describe
 
 
 class CompositePluginProvider(PluginProvider):

@@ -6,10 +6,10 @@ from python_qt_binding.QtCore import QObject, Qt
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import QApplication
 
-from qt_gui.compatibility import QAction
+from qt_gui.application.compatibility import QAction
+from qt_gui.application.help_and_about import show_about, show_plugin_help
 from qt_gui.composite_plugin_provider import CompositePluginProvider
 from qt_gui.errors import UsageError
-from qt_gui.help_and_about import show_about, show_plugin_help
 from qt_gui.main_window import MainWindow
 from qt_gui.perspective_manager import HIDDEN, PerspectiveManager
 from qt_gui.plugin_manager import PluginManager
@@ -21,7 +21,7 @@ class Gui(QObject):
 
     :param providers: list of :class:`qt_gui.plugin_provider.PluginProvider`
     :param settings: the ``QSettings`` to keep everything in
-    :param options: what :func:`qt_gui.options.parse` returns
+    :param options: what :func:`qt_gui.application.options.parse` returns
     """
 
     def __init__(self, providers, settings, options):

@@ -8,7 +8,7 @@ from typing import Any, Optional
 
 from node_signals.display import missing_display
 
-from qt_gui import options as command_line
+from qt_gui.application import options as command_line
 from qt_gui.errors import PerspectiveError, UsageError
 
 
@@ -49,11 +49,11 @@ class Main:
             setattr(sys, "SELECT_QT_BINDING", options.qt_binding)  # noqa: B010  as python_qt_binding is told which one
         from python_qt_binding.QtCore import QSettings
 
-        from qt_gui import reporting
-        from qt_gui.compatibility import accept_floats
+        from qt_gui.application import reporting
+        from qt_gui.application.compatibility import accept_floats
 
         if options.command_start_plugin is not None or options.command_switch_perspective is not None:
-            from qt_gui.remote_control import send_command
+            from qt_gui.application.remote_control import send_command
 
             return send_command(options)
         settings = QSettings(QSettings.Format.IniFormat, QSettings.Scope.UserScope, "ros.org", self._settings_filename)
@@ -79,9 +79,9 @@ class Main:
         return self._show(app, gui)
 
     def _show(self, app, gui):
+        from qt_gui.application.interrupts import Interrupts
+        from qt_gui.application.remote_control import RemoteControl
         from qt_gui.icon_loader import choose_theme
-        from qt_gui.interrupts import Interrupts
-        from qt_gui.remote_control import RemoteControl
 
         choose_theme()
         interrupts = Interrupts(lambda: (app.closeAllWindows(), app.quit()))

@@ -3,7 +3,7 @@
 from python_qt_binding.QtCore import QObject
 from python_qt_binding.QtWidgets import QMenu
 
-from qt_gui.compatibility import QAction
+from qt_gui.application.compatibility import QAction
 
 
 class MenuManager(QObject):

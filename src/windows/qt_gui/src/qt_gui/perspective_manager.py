@@ -7,11 +7,11 @@ from python_qt_binding.QtCore import QObject, Signal, qCritical
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import QFileDialog, QInputDialog, QMessageBox
 
-from qt_gui import perspective_file
-from qt_gui.compatibility import QAction
+from qt_gui.application import perspective_file
+from qt_gui.application.compatibility import QAction
+from qt_gui.application.perspective_dialog import ask_new_name
 from qt_gui.errors import PerspectiveError
 from qt_gui.menu_manager import MenuManager
-from qt_gui.perspective_dialog import ask_new_name
 from qt_gui.settings import Settings
 from qt_gui.settings_proxy import SettingsProxy
 

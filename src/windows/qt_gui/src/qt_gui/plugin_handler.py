@@ -5,10 +5,10 @@ from typing import Any
 from python_qt_binding.QtCore import QEvent, QObject, QSize, Qt, Signal, qCritical, qWarning
 from python_qt_binding.QtWidgets import QDockWidget, QToolBar
 
+from qt_gui.application.reporting import describe
 from qt_gui.dock_widget import DockWidget, DockWidgetContainer
 from qt_gui.icon_loader import get_icon
 from qt_gui.plugin_context import PluginContext
-from qt_gui.reporting import describe
 
 
 class PluginHandler(QObject):

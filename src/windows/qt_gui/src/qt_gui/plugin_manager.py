@@ -4,12 +4,12 @@ from typing import Any, Dict
 
 from python_qt_binding.QtCore import QObject, Qt, Signal, qCritical, qWarning
 
+from qt_gui.application.reporting import describe
 from qt_gui.errors import PluginLoadError
 from qt_gui.plugin_descriptor import PluginDescriptor
 from qt_gui.plugin_handler import ContainerHandler, PluginHandler
 from qt_gui.plugin_instance_id import PluginInstanceId
 from qt_gui.reload_importer import ReloadImporter
-from qt_gui.reporting import describe
 
 #: Names under which perspectives have plugins that are called otherwise here: pluginlib's names of compiled ones have no package, and two
 #: of this platform's had names of their own once.

@@ -3,7 +3,7 @@
 from python_qt_binding.QtCore import QObject, Signal
 from python_qt_binding.QtWidgets import QMenu
 
-from qt_gui.compatibility import QAction
+from qt_gui.application.compatibility import QAction
 from qt_gui.icon_loader import get_icon
 from qt_gui.menu_manager import MenuManager
 

@@ -2,8 +2,8 @@
 
 from python_qt_binding.QtCore import qCritical
 
+from qt_gui.application.reporting import describe
 from qt_gui.composite_plugin_provider import CompositePluginProvider
-from qt_gui.reporting import describe
 
 
 class RecursivePluginProvider(CompositePluginProvider):

@@ -8,7 +8,7 @@ from python_qt_binding.QtGui import QImage, QKeySequence, QPainter
 from python_qt_binding.QtWidgets import QFileDialog, QGraphicsScene, QLabel, QVBoxLayout, QWidget
 from qt_dotgraph.dot_to_qt import DotToQtGenerator
 from qt_dotgraph.layout import LayoutError, layout, render
-from qt_gui.compatibility import QShortcut
+from qt_gui.application.compatibility import QShortcut
 
 from rqt_graph.background import Latest
 from rqt_graph.interactive_graphics_view import InteractiveGraphicsView

@@ -6,7 +6,7 @@ import rospy
 from python_qt_binding.QtCore import Qt, QTimer, Signal
 from python_qt_binding.QtGui import QKeySequence
 from python_qt_binding.QtWidgets import QCheckBox, QComboBox, QCompleter, QLineEdit, QSpinBox, QToolTip, QVBoxLayout, QWidget
-from qt_gui.compatibility import QShortcut
+from qt_gui.application.compatibility import QShortcut
 from rosgraph_msgs.msg import TopicStatistics
 from rqt_gui_py.plugin import Plugin
 

@@ -21,7 +21,7 @@ from python_qt_binding.QtWidgets import (
     QVBoxLayout,
     QWidget,
 )
-from qt_gui.compatibility import QAction
+from qt_gui.application.compatibility import QAction
 
 from rqt_image_view.canvas import Canvas
 from rqt_image_view.pictures import COLOR_SCHEMES, DepthView

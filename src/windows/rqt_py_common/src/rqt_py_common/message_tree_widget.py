@@ -3,7 +3,7 @@
 from python_qt_binding.QtCore import QMimeData, Qt
 from python_qt_binding.QtGui import QDrag, QIcon
 from python_qt_binding.QtWidgets import QHeaderView, QMenu, QTreeView
-from qt_gui.compatibility import QAction
+from qt_gui.application.compatibility import QAction
 
 
 class MessageTreeWidget(QTreeView):

@@ -3,7 +3,7 @@
 from python_qt_binding.QtCore import Qt, Signal
 from python_qt_binding.QtGui import QKeySequence
 from python_qt_binding.QtWidgets import QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QLineEdit, QPushButton, QSlider, QWidget
-from qt_gui.compatibility import QShortcut
+from qt_gui.application.compatibility import QShortcut
 
 _SCALE = 1000  # slider units for 1 m/s or rad/s
 _STEP = 10  # slider units for a key; ten times that with Shift

@@ -31,9 +31,9 @@ if "XDG_RUNTIME_DIR" not in os.environ:
 from python_qt_binding.QtCore import QEvent, QObject, QSettings  # noqa: E402
 from python_qt_binding.QtTest import QTest  # noqa: E402
 from python_qt_binding.QtWidgets import QApplication, QWidget  # noqa: E402
-from qt_gui import options as command_line  # noqa: E402
-from qt_gui import reporting  # noqa: E402
-from qt_gui.compatibility import accept_floats  # noqa: E402
+from qt_gui.application import options as command_line  # noqa: E402
+from qt_gui.application import reporting  # noqa: E402
+from qt_gui.application.compatibility import accept_floats  # noqa: E402
 from qt_gui.gui import Gui  # noqa: E402
 from qt_gui.icon_loader import choose_theme  # noqa: E402
 from qt_gui.plugin_context import PluginContext  # noqa: E402

@@ -5,7 +5,7 @@ import tf2_ros
 from python_qt_binding.QtCore import Qt, QTimer
 from python_qt_binding.QtGui import QKeySequence
 from python_qt_binding.QtWidgets import QCheckBox, QVBoxLayout, QWidget
-from qt_gui.compatibility import QShortcut
+from qt_gui.application.compatibility import QShortcut
 from rqt_graph.graph_pane import GraphPane
 from rqt_graph.toolbar import Row
 from rqt_gui_py.plugin import Plugin

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, Optional
 
 import numpy as np
 import rospy
-from ode_sim.rendering import describe
+from ode_sim_rendering import describe
 
 from gazebo_ros.api.handlers import Refused, advertise, listing
 from gazebo_ros.server import Server
 from gazebo_ros.srv import TakePicture
 
 if TYPE_CHECKING:
-    from ode_sim.rendering.portrait import Painter
+    from ode_sim_rendering.portrait import Painter
 
 _SIZE = (1280, 800)
 _LARGEST = 4096  # pixels along a side
@@ -26,7 +26,7 @@ class PictureServices:
         advertise(server, "take_picture", TakePicture, self._take, in_physics_thread=False)
 
     def _take(self, request, response) -> str:
-        from ode_sim.rendering.portrait import VIEWS, Painter, Portrait
+        from ode_sim_rendering.portrait import VIEWS, Painter, Portrait
 
         width, height = request.width or _SIZE[0], request.height or _SIZE[1]
         eye = self._server.first_view if not request.view and not request.model else None

@@ -7,7 +7,7 @@ from typing import List
 from ode_sim import CollisionHandle, LinkHandle, ModelHandle
 from ode_sim.description import model as d
 from ode_sim.description.exchange import loads
-from ode_sim.viewer.surfaces import paint, set_looks
+from ode_sim_viewer.surfaces import paint, set_looks
 
 from gazebo_ros.api.handlers import Refused, advertise, finite
 from gazebo_ros.server import Server

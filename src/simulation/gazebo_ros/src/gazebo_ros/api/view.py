@@ -12,10 +12,10 @@ import numpy as np
 import rospy
 from ode_sim.description.exchange import dumps
 from ode_sim.description.sdf_writer import world_text
-from ode_sim.rendering.watch import SceneWatch
-from ode_sim.viewer.contacts import ContactWatch
-from ode_sim.viewer.saving import describe_now
-from ode_sim.viewer.simulation import WorldRecord, record_world
+from ode_sim_rendering.watch import SceneWatch
+from ode_sim_viewer.contacts import ContactWatch
+from ode_sim_viewer.saving import describe_now
+from ode_sim_viewer.simulation import WorldRecord, record_world
 
 from gazebo_ros.api.handlers import advertise
 from gazebo_ros.api.on_demand import OnDemand

@@ -9,7 +9,7 @@ import threading
 from dataclasses import dataclass, field
 from typing import Any, Callable, Dict, List, Optional, Set, Tuple
 
-from ..bench import Bench, Sample
+from ..examination.simulated_world import Bench, Sample
 
 
 @dataclass
@@ -17,7 +17,9 @@ class Context:
     """What a check may look at. ``log()`` is what was printed since the task began."""
 
     spec_folder: pathlib.Path
-    home: pathlib.Path  # of the submission; below it, its programs may have put links in the place of anything: see lab_check.inside
+    home: (
+        pathlib.Path
+    )  # of the submission; below it, its programs may have put links in the place of anything: see isolation.untrusted_files
     source: pathlib.Path  # its packages
     packages: Dict[str, pathlib.Path]
     log: Callable[[], str] = lambda: ""

@@ -8,7 +8,7 @@ from typing import Any, Dict, List, Tuple
 
 import lenient_xml
 
-from ..inside import matching, read_regular
+from ..isolation.untrusted_files import matching, read_regular
 from .base import Check, names, search
 
 _LARGEST = 1_000_000  # bytes of a file in which a pattern is looked for

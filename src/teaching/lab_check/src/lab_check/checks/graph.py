@@ -10,8 +10,8 @@ from typing import Any, Dict, List, Tuple
 import rosgraph
 import rospy
 
-from ..bench import Sample
-from ..commands import CommandError, find_topic
+from ..examination.commands import CommandError, find_topic
+from ..examination.simulated_world import Sample
 from ..explain import crashed, error_lines, refusal, timeless
 from .base import Check, names, search
 

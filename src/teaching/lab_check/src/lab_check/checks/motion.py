@@ -9,9 +9,9 @@ import image_pixels
 import numpy as np
 import rospy
 
-from ..bench import Sample
-from ..commands import CommandError, find_topic
-from ..seen import share_of
+from ..examination.camera_visibility import share_of
+from ..examination.commands import CommandError, find_topic
+from ..examination.simulated_world import Sample
 from .base import Check, names
 
 _EVERY = 0.05  # s between two points of a plot

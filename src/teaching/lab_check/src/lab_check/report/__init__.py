@@ -8,7 +8,7 @@ import xml.etree.ElementTree as ET
 from dataclasses import replace
 
 from ..outcome import Result
-from ..spec import Spec
+from ..specs.spec import Spec
 from .page import page
 
 

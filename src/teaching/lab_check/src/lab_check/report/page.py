@@ -10,7 +10,7 @@ import pathlib
 from typing import Dict, List
 
 from ..outcome import Result, TaskResult, readable
-from ..spec import Spec
+from ..specs.spec import Spec
 
 STYLE = """body {font: 16px/1.45 sans-serif; max-width: 60em; margin: 2em auto; padding: 0 1em; color: #222}
 h1 {margin-bottom: 0} h2 {margin: 1.6em 0 .3em; border-top: 1px solid #ccc; padding-top: .8em}

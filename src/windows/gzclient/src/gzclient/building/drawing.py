@@ -10,7 +10,7 @@ from building_editor.building import Building, Look, Stairs, Wall
 from building_editor.sdf_model import FLOOR_THICKNESS, floor_pieces, outline, stair_boxes, stairwell, wall_boxes
 from ode_sim.description.materials import gazebo_material
 from ode_sim.math3 import quat_from_rpy
-from ode_sim.viewer.drawing import rgb255, wxyz
+from ode_sim_viewer.drawing import rgb255, wxyz
 
 from gzclient.building.plan import Element, Plan, Point
 

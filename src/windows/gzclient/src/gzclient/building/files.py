@@ -11,8 +11,8 @@ from building_editor import preview, sdf_model
 from building_editor.building import PlanError, building_of
 from building_editor.plan_file import load_plan
 from ode_sim.description import read_sdf_model
-from ode_sim.viewer.simulation import Refused
 from ode_sim.whole_files import write_whole
+from ode_sim_viewer.simulation import Refused
 
 from gzclient.building.reopened import plan_of
 

@@ -6,7 +6,7 @@ import math
 from functools import partial
 from typing import Any, Callable, Dict, List, Optional, Tuple
 
-from ode_sim.viewer.simulation import Refused
+from ode_sim_viewer.simulation import Refused
 
 from gzclient.building.plan import Element, Plan
 

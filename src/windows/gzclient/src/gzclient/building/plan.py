@@ -11,7 +11,7 @@ import math
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 from building_editor.building import Building, PlanError, building_of
-from ode_sim.viewer.simulation import Refused
+from ode_sim_viewer.simulation import Refused
 
 Point = Tuple[float, float]
 

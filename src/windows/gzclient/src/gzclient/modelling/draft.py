@@ -14,10 +14,10 @@ from ode_sim.description import DescriptionError, ResourceFinder, read_sdf_model
 from ode_sim.description import model as d
 from ode_sim.description.sdf_writer import model_text
 from ode_sim.math3 import Pose, vec3
-from ode_sim.viewer.panels.base import free_name
-from ode_sim.viewer.shapes import Simple, shape_model
-from ode_sim.viewer.simulation import Refused
 from ode_sim.whole_files import write_whole
+from ode_sim_viewer.panels.base import free_name
+from ode_sim_viewer.shapes import Simple, shape_model
+from ode_sim_viewer.simulation import Refused
 
 from gzclient.modelling import meshes
 

@@ -7,8 +7,8 @@ from typing import Any, Callable, Dict, List, Tuple
 
 import numpy as np
 from ode_sim.description import model as d
-from ode_sim.rendering.assets import Assets
-from ode_sim.viewer.drawing import rgb255, take_away, wxyz
+from ode_sim_rendering.assets import Assets
+from ode_sim_viewer.drawing import rgb255, take_away, wxyz
 
 _PICKED = (255, 170, 0)
 _AXIS = 0.3  # m

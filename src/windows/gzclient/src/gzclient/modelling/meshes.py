@@ -13,7 +13,7 @@ import numpy as np
 from ode_sim.description import model as d
 from ode_sim.math3 import Pose, vec3
 from ode_sim.mesh import load_surface, load_visual, mass_properties
-from ode_sim.viewer.simulation import Refused
+from ode_sim_viewer.simulation import Refused
 
 MESHES = (".stl", ".obj", ".dae")
 #: Below the folder of the model, as in every model of Gazebo.

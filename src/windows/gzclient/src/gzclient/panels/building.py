@@ -12,9 +12,9 @@ from building_editor.building import PlanError
 from ode_sim.description.materials import NAMES
 from ode_sim.description.model import one_line
 from ode_sim.math3 import Pose
-from ode_sim.viewer.eye import put_eye
-from ode_sim.viewer.panels.base import Panel, counted, note
-from ode_sim.viewer.simulation import Refused
+from ode_sim_viewer.eye import put_eye
+from ode_sim_viewer.panels.base import Panel, counted, note
+from ode_sim_viewer.simulation import Refused
 from PIL import Image
 
 from gzclient.building import files

@@ -7,8 +7,8 @@ from typing import Any, List, NamedTuple, Tuple
 import rosgraph
 import rospy
 from controller_manager_msgs.srv import ListControllers, SwitchController, SwitchControllerRequest
-from ode_sim.viewer.panels.base import Panel, note
-from ode_sim.viewer.simulation import Frame, Refused
+from ode_sim_viewer.panels.base import Panel, note
+from ode_sim_viewer.simulation import Frame, Refused
 
 from gzclient.controller_commands import Command, command_of, joints_of
 

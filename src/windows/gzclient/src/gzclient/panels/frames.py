@@ -6,8 +6,8 @@ from typing import Any, Dict, Optional
 
 import numpy as np
 from ode_sim.math3 import Pose
-from ode_sim.viewer.panels.base import Panel, note
-from ode_sim.viewer.simulation import Frame
+from ode_sim_viewer.panels.base import Panel, note
+from ode_sim_viewer.simulation import Frame
 
 from gzclient.tf_frames import TfFrames
 

@@ -9,8 +9,8 @@ from typing import Any, Dict, Optional
 import rosgraph
 import rospy
 from ode_sim.math3 import Pose
-from ode_sim.viewer.panels.base import Panel, note
-from ode_sim.viewer.simulation import Frame, Refused, WorldRecord
+from ode_sim_viewer.panels.base import Panel, note
+from ode_sim_viewer.simulation import Frame, Refused, WorldRecord
 from visualization_msgs.msg import Marker, MarkerArray
 
 from gzclient.markers import Markers, Unfit

@@ -7,10 +7,10 @@ from typing import Any, Callable, Dict, List, Optional
 
 from ode_sim.description import model as d
 from ode_sim.math3 import Pose, vec3
-from ode_sim.viewer.eye import put_eye
-from ode_sim.viewer.panels.base import Panel, counted, note
-from ode_sim.viewer.shapes import Simple
-from ode_sim.viewer.simulation import Refused
+from ode_sim_viewer.eye import put_eye
+from ode_sim_viewer.panels.base import Panel, counted, note
+from ode_sim_viewer.shapes import Simple
+from ode_sim_viewer.simulation import Refused
 
 from gzclient.modelling import draft
 from gzclient.modelling.draft import JOINTS, Draft

@@ -8,10 +8,10 @@ from typing import Any, Dict, Optional
 import rosgraph
 import rospy
 from ode_sim.math3 import Pose
-from ode_sim.viewer.arrows import Forces
-from ode_sim.viewer.drawing import take_away
-from ode_sim.viewer.panels.base import Panel, note
-from ode_sim.viewer.simulation import Frame, Refused, WorldRecord
+from ode_sim_viewer.arrows import Forces
+from ode_sim_viewer.drawing import take_away
+from ode_sim_viewer.panels.base import Panel, note
+from ode_sim_viewer.simulation import Frame, Refused, WorldRecord
 
 from gzclient.sensor_drawing import KINDS, Place, View
 from gzclient.sensor_frames import find_frame

@@ -11,8 +11,8 @@ import numpy as np
 import rosgraph
 import roslib.message
 import rospy
-from ode_sim.viewer.panels.base import Panel, escaped, note
-from ode_sim.viewer.simulation import Frame, Refused
+from ode_sim_viewer.panels.base import Panel, escaped, note
+from ode_sim_viewer.simulation import Frame, Refused
 
 from gzclient.images import picture_of
 

@@ -2,7 +2,7 @@
 
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import QToolBar
-from qt_gui.compatibility import QAction
+from qt_gui.application.compatibility import QAction
 
 from rqt_bag.plugins.message_view import MessageView
 

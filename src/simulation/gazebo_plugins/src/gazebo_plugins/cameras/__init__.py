@@ -1,0 +1,1 @@
+"""Cameras and what they publish (images, depth, point clouds, camera_info)."""

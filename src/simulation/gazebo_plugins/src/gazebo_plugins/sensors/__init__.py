@@ -1,0 +1,1 @@
+"""Sensors without pictures (ranges, inertia, contacts, wrenches, pose) and the hector_gazebo family."""

@@ -1,0 +1,1 @@
+"""What one types (gazebo, gz, spawn_model, picture), over the services of a running simulator."""

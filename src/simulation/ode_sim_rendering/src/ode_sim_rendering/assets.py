@@ -1,0 +1,166 @@
+"""From a visual of the description to what is drawn: meshes, textures, colours. Everything is loaded once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Callable, Dict, Hashable, List, Optional, Tuple
+
+import numpy as np
+from ode_sim.description import model as d
+from ode_sim.description.model import DescriptionError, one_line, quoted
+from ode_sim.heightmap import load_heights
+from ode_sim.images import read_rgba
+from ode_sim.math3 import compose, quat_between
+
+from ode_sim_rendering import geometry
+from ode_sim_rendering.geometry import TriMesh
+
+_WHITE = (1.0, 1.0, 1.0, 1.0)
+_BLACK = (0.0, 0.0, 0.0, 1.0)
+_SHININESS = 10.0
+
+
+@dataclass(frozen=True)
+class Look:
+    """Colours 0..1 as drawn: ``ambient diffuse emissive`` rgb, ``specular`` rgb, ``alpha``; ``texture`` a file or
+    ''."""
+
+    ambient: Tuple[float, float, float]
+    diffuse: Tuple[float, float, float]
+    specular: Tuple[float, float, float]
+    emissive: Tuple[float, float, float]
+    alpha: float
+    texture: str = ""
+    shininess: float = _SHININESS
+
+
+@dataclass(frozen=True)
+class Part:
+    """One mesh with one look: ``key`` names the mesh among :attr:`Assets.meshes`; ``pose`` X_LP, ``scale`` (3,)."""
+
+    key: Hashable
+    look: Look
+    pose: d.Pose
+    scale: Tuple[float, float, float]
+
+
+def look_of(material: Optional[d.Material], own: Optional[d.Material], transparency: float) -> Look:
+    """``material`` as written in the visual wins over the mesh's ``own``; what neither says is white."""
+    named = material if material is not None and _says_something(material) else own
+    diffuse = (named and named.diffuse) or (named and named.ambient) or _WHITE
+    ambient = (named and named.ambient) or diffuse
+    specular = (named and named.specular) or _BLACK
+    emissive = (named and named.emissive) or _BLACK
+    alpha = min(1.0, max(0.0, diffuse[3] * (1.0 - transparency)))
+    return Look(ambient[:3], diffuse[:3], specular[:3], emissive[:3], alpha, named.texture if named else "")
+
+
+def _says_something(material: d.Material) -> bool:
+    return bool(material.texture) or any(
+        colour is not None for colour in (material.ambient, material.diffuse, material.specular, material.emissive)
+    )
+
+
+class Assets:
+    """Meshes by key and textures by file, with the lines to say about those that could not be had.
+
+    :ivar meshes: key -> TriMesh. :ivar problems: lines, each naming visual, model and file; drained by the caller.
+    """
+
+    def __init__(self, load_mesh: Optional[Callable] = None):
+        if load_mesh is None:
+            from ode_sim.mesh import load_visual
+
+            load_mesh = load_visual
+        self._load_mesh: Callable = load_mesh
+        self.meshes: Dict[Hashable, TriMesh] = {}
+        self.problems: List[str] = []
+        self._files: Dict[Hashable, List[Tuple[Hashable, Optional[d.Material]]]] = {}
+        self._shapes = {"box": geometry.box, "sphere": geometry.sphere, "cylinder": geometry.cylinder, "plane": geometry.plane}
+
+    def note(self, name: str, trouble: str) -> None:
+        """A problem of the visual of that scoped name."""
+        self.problems.append(f"{_describe(name)} {trouble}")
+
+    def parts(self, visual: d.Visual, name: str) -> List[Part]:
+        """What to draw for ``visual``; empty (and a problem noted) where there is nothing.
+
+        :param name: scoped name ``model::link::visual`` for messages.
+        """
+        shape = visual.geometry
+        try:
+            with np.errstate(all="ignore"):
+                pieces, pose, scale = self._pieces(shape, visual.pose)
+                return [Part(key, look_of(visual.material, own, visual.transparency), pose, scale) for key, own in pieces]
+        except Exception as error:  # whatever a broken file makes a parser raise: the rest is drawn all the same
+            self.note(name, f"is not drawn: {one_line(error, 200).strip() or type(error).__name__}")
+            return []
+
+    def _pieces(self, shape, pose: d.Pose):
+        """([(mesh key, the mesh's own material)], pose, scale) of a geometry."""
+        one = (1.0, 1.0, 1.0)
+        if shape is None:
+            return [], pose, one
+        if isinstance(shape, d.Box):
+            return self._shape("box"), pose, shape.size
+        if isinstance(shape, d.Sphere):
+            return self._shape("sphere"), pose, (shape.radius,) * 3
+        if isinstance(shape, d.Cylinder):
+            return self._shape("cylinder"), pose, (shape.radius, shape.radius, shape.length)
+        if isinstance(shape, d.Plane):
+            tilt = d.Pose(q=quat_between((0.0, 0.0, 1.0), shape.normal))
+            return self._shape("plane"), compose(pose, tilt), (shape.size[0], shape.size[1], 1.0)
+        if isinstance(shape, d.Capsule):
+            return self._made(shape, lambda: geometry.capsule(shape.radius, shape.length)), pose, one
+        if isinstance(shape, d.Polyline):
+            return self._made(shape, lambda: geometry.extrusion(np.array(shape.points), shape.height)), pose, one
+        if isinstance(shape, d.Ribbon):
+            return self._made(shape, lambda: geometry.ribbon(np.array(shape.points), shape.width)), pose, one
+        if isinstance(shape, d.Heightmap):
+            if not shape.path:
+                return [], pose, one  # the reader has said so already
+            return self._made(shape, lambda: geometry.height_grid(load_heights(shape), shape.size, shape.pos)), pose, one
+        if isinstance(shape, d.Mesh):
+            return (self._mesh_file(shape) if shape.path else []), pose, one
+        raise ValueError(f"geometry {type(shape).__name__} cannot be drawn")
+
+    def _shape(self, name: str):
+        return self._made(name, self._shapes[name])
+
+    def _made(self, key: Hashable, make: Callable[[], TriMesh]):
+        if key not in self.meshes:
+            self.meshes[key] = make()
+        return [(key, None)]
+
+    def _mesh_file(self, shape: d.Mesh):
+        shape = replace(shape, uri="")  # the same file by two names is drawn as one mesh
+        if shape not in self._files:
+            pieces: List[Tuple[Hashable, Optional[d.Material]]] = []
+            for number, (vertices, triangles, normals, uv, material) in enumerate(
+                self._load_mesh(shape.path, shape.scale, shape.submesh, shape.center)
+            ):
+                key = (shape, number)
+                self.meshes[key] = TriMesh(vertices, normals, triangles, uv)
+                pieces.append((key, material))
+            self._files[shape] = pieces
+        return self._files[shape]
+
+    def texture(self, path: str, name: str, most: int = 4096) -> Optional[np.ndarray]:
+        """RGBA bytes (H,W,4), first row at the bottom, of an image file; None (and a problem noted) if unreadable.
+
+        :param most: pixels along a side; of a larger image only every second, third ... row and column is taken.
+        """
+        try:
+            image = read_rgba(path)
+        except DescriptionError as error:
+            self.note(name, f"is drawn without its texture: {error}")
+            return None
+        step = -(-max(image.shape[:2]) // most)
+        return np.ascontiguousarray(image[::-step, ::step])
+
+
+def _describe(name: str) -> str:
+    """``visual 'v' of link 'l' of model 'm'`` from a scoped name."""
+    model, _, rest = name.partition("::")
+    link, _, visual = rest.rpartition("::")
+    return f"visual '{quoted(visual or name)}' of link '{quoted(link)}' of model '{quoted(model)}'"

@@ -1,0 +1,67 @@
+"""How the world is drawn."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ode_sim_viewer.eye import put_eye, view_of
+from ode_sim_viewer.overlays import Overlays
+from ode_sim_viewer.panels.base import Panel
+from ode_sim_viewer.simulation import Frame
+
+_VIEWS = {"Front": (1.0, 0.0, 0.15), "Left": (0.0, 1.0, 0.15), "Top": (0.01, 0.0, 1.0), "Corner": (0.7, -0.7, 0.4)}
+
+
+class ViewPanel(Panel):
+    title = "View"
+
+    def __init__(self, page: Any):
+        super().__init__(page)
+        for kind in Overlays.KINDS:
+            box = self.gui.add_checkbox(kind.capitalize(), False)
+            self._on_box(box, lambda on, kind=kind: page.overlays.show(kind, on))
+        self._on_box(self.gui.add_checkbox("Contacts", False, hint="where bodies touch, and with what force"), page.overlays.contacts)
+        self._scale = self.gui.add_number("Arrow for 1 N (m)", page.overlays.force_scale, min=1e-6, max=10.0, step=0.001)
+        self._scale.on_update(lambda event: setattr(page.overlays, "force_scale", float(event.target.value)))
+        self._on_box(self.gui.add_checkbox("Grid", True), lambda on: setattr(page.drawing.grid, "visible", on))
+        for name in ("transparent", "wireframe", "shadows"):
+            box = self.gui.add_checkbox(name.capitalize(), getattr(page.drawing, name))
+            self._on_box(box, lambda on, name=name: self._draw_as(name, on))
+        self.gui.add_button("Show all", hint="from where the whole world is seen").on_click(self._on_all)
+        self._follow = self.gui.add_checkbox("Follow what is picked", False, hint="the eye keeps its distance")
+        views = self.gui.add_button_group("Look from", tuple(_VIEWS))
+        views.on_click(self._on_view)
+        self._followed: tuple = ()
+
+    def _on_box(self, box: Any, f: Any) -> None:
+        box.on_update(lambda event: event.client_id is not None and self.page.later(lambda: f(event.target.value)))
+
+    def _draw_as(self, name: str, on: bool) -> None:
+        setattr(self.page.drawing, name, on)
+        self.page.redraw()
+
+    def on_frame(self, frame: Frame) -> None:
+        pose = self.page.selection.pose() if self._follow.value else None
+        if pose is None:
+            self._followed = ()
+            return
+        if self._followed:
+            moved = [now - before for now, before in zip(pose.p, self._followed)]
+            if max(map(abs, moved)) > 1e-4:
+                for client in self.page.server.get_clients().values():
+                    eye, at = client.camera.position, client.camera.look_at
+                    put_eye(client, [float(v) + m for v, m in zip(eye, moved)], [float(v) + m for v, m in zip(at, moved)])
+        self._followed = pose.p
+
+    def _on_all(self, event: Any) -> None:
+        if event.client is not None and self.page.frame is not None:
+            place, target = view_of(*self.page.drawing.corners(self.page.frame))
+            put_eye(event.client, place, target)
+
+    def _on_view(self, event: Any) -> None:
+        if event.client is None:
+            return
+        pose, camera = self.page.selection.pose(), event.client.camera
+        at = pose.p if pose is not None else tuple(float(v) for v in camera.look_at)
+        distance = sum((float(a) - b) ** 2 for a, b in zip(camera.position, at)) ** 0.5 or 3.0
+        put_eye(event.client, [a + distance * v for a, v in zip(at, _VIEWS[event.target.value])], at)

@@ -1,0 +1,46 @@
+"""What a simulated camera sees of each model. ``python3 -m lab_check.examination.camera_visibility`` is a process of its own, so that
+OpenGL stays in it.
+
+Reads a pickled (camera, scene, poses of links) from standard input; writes the share of the picture that each visual has, by its name,
+as JSON.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import pickle
+import sys
+from collections import Counter
+from typing import Dict
+
+import numpy as np
+
+
+def shares(camera, scene, poses) -> Dict[str, float]:
+    """``model::link::visual`` -> its part of the picture, of those that can be seen."""
+    from ode_sim_rendering.renderer import Renderer
+
+    renderer = Renderer()
+    renderer.set_scene(scene)
+    picture = renderer.segmentation(camera, poses)
+    found: Counter = Counter()
+    for number, pixels in zip(*np.unique(picture, return_counts=True)):
+        if number >= 0:
+            found[renderer.visual_names[number]] += int(pixels)
+    return {name: pixels / picture.size for name, pixels in sorted(found.items())}
+
+
+def share_of(name: str, found: Dict[str, float]) -> float:
+    """Of a model, or of ``model::link``."""
+    return sum(part for visual, part in found.items() if visual.startswith(f"{name}::"))
+
+
+def main() -> None:
+    answer = os.fdopen(os.dup(1), "w")
+    os.dup2(2, 1)  # what a library prints is no answer
+    json.dump(shares(*pickle.load(sys.stdin.buffer)), answer)
+
+
+if __name__ == "__main__":
+    main()
