@@ -40,6 +40,7 @@ import coverage_of_tests
 
 ROOT = Path(__file__).resolve().parent.parent
 TIME_LIMIT = 600  # s for one file; a test that takes longer hangs
+GRACE = 3  # s in which what it started ends after it
 ENDING = 30  # s in which it ends what it started, before it is killed
 LONGEST = 2400  # s, for a folder of several files
 QUIET_LINES = 80  # of the output of what failed, with --quiet
@@ -84,6 +85,7 @@ class Result:
     output: str
     reasons: List[str] = field(default_factory=list)
     left_out: int = 0
+    left_behind: List[str] = field(default_factory=list)  # processes that did not end with it
 
 
 def find_jobs(packages: Container[str], kind: str, scripts: bool, slow: bool) -> List[Job]:
@@ -247,7 +249,7 @@ def _listen_to_ctrl_c() -> None:
 
 
 def run(job: Job, scratch: Path) -> Result:
-    """One file in a session of its own; whatever it leaves behind is ended and counts as a failure."""
+    """One file in a session of its own. Whatever it leaves behind is ended, and told."""
     with tempfile.TemporaryDirectory(prefix="t_", ignore_cleanup_errors=True) as temporary:  # short: paths of sockets have 107 bytes
         return _run_in(job, scratch, temporary)
 
@@ -275,32 +277,67 @@ def _command(job: Job, scratch: Path, home: Path) -> List[str]:
     return [sys.executable, "-m", "pytest", *options, f"--junitxml={home / 'report.xml'}", *chosen, str(job.path)]
 
 
+def _ends(process: subprocess.Popen, seconds: float) -> bool:
+    try:
+        process.wait(seconds)
+        return True
+    except subprocess.TimeoutExpired:
+        return False
+
+
+def _started_with(temporary: str) -> Dict[int, str]:
+    """Process ids, and names, of all that were started with this TMPDIR, whatever session or group they are in now."""
+    found = {}
+    for place in Path("/proc").glob("[0-9]*"):
+        try:
+            if f"TMPDIR={temporary}".encode() in (place / "environ").read_bytes().split(b"\0"):
+                found[int(place.name)] = (place / "comm").read_text().strip()
+        except OSError:  # another user's, or just ended
+            continue
+    return found
+
+
+def end_what_is_left(temporary: str) -> List[str]:
+    """Kills the processes of a file that has ended which do not end by themselves in a moment; their names."""
+    until = time.monotonic() + GRACE
+    while (left := _started_with(temporary)) and time.monotonic() < until:
+        time.sleep(0.1)
+    for pid in left:
+        try:
+            os.kill(pid, signal.SIGKILL)
+        except ProcessLookupError:
+            continue
+    return sorted(set(left.values()))
+
+
 def _run_in(job: Job, scratch: Path, temporary: str) -> Result:
     """:param temporary: the folder for what its processes, which may be killed, would leave in /tmp"""
     home = Path(tempfile.mkdtemp(prefix=job.package.name + "_", dir=scratch))
     start = time.monotonic()
-    process = subprocess.Popen(
-        _command(job, scratch, home),
-        cwd=home,
-        env=_environment(job, home, temporary),
-        text=True,
-        errors="replace",
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        start_new_session=True,
-        preexec_fn=_listen_to_ctrl_c,
-    )
-    try:
-        output, _ = process.communicate(timeout=job.time_limit)
-    except subprocess.TimeoutExpired:
+    said = home / "output"
+    with said.open("wb") as file:  # not a pipe: a process that outlives the test would hold it open, and this one would wait for it
+        process = subprocess.Popen(
+            _command(job, scratch, home),
+            cwd=home,
+            env=_environment(job, home, temporary),
+            stdin=subprocess.DEVNULL,
+            stdout=file,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+            preexec_fn=_listen_to_ctrl_c,
+        )
+    stopped = not _ends(process, job.time_limit)
+    if stopped:
         os.killpg(process.pid, signal.SIGINT)  # rostest's nodes have sessions of their own; it ends them on this
-        try:
-            output, _ = process.communicate(timeout=ENDING)
-        except subprocess.TimeoutExpired:
+        if not _ends(process, ENDING):
             os.killpg(process.pid, signal.SIGKILL)
-            output, _ = process.communicate()
+            process.wait()
+    left = end_what_is_left(temporary)
+    output = said.read_text(errors="replace")
+    if stopped:
         output += f"\n{job.name}: stopped after {job.time_limit} s\n"
+    if left:
+        output += f"\n{job.name}: ended what it had left behind: {', '.join(left)}\n"
     seconds = time.monotonic() - start
     aside = 0 if job.slow else left_out(output)
     nothing_chosen = aside > 0 and process.returncode == NONE_CHOSEN
@@ -313,7 +350,7 @@ def _run_in(job: Job, scratch: Path, temporary: str) -> Result:
             failed += 1
             output += f"\n{job.name}: no test ran\n"
     (scratch / (job.name.replace("/", "__") + ".log")).write_text(output)
-    return Result(job, passed, failed, skipped, seconds, output, list(reasons(home)) if failed else [], aside)
+    return Result(job, passed, failed, skipped, seconds, output, list(reasons(home)) if failed else [], aside, left)
 
 
 def faults(result: Result) -> List[str]:
@@ -407,6 +444,9 @@ def main() -> int:
         files = len(find_jobs(packages, options.kind, scripts=True, slow=True)) - len(jobs)
         tests = sum(result.left_out for result in results.values())
         print(f"left out as slow: {files} files of rostest and {tests} tests of pytest; --all runs them too")
+    for result in results.values():
+        if result.left_behind:
+            print(f"left behind by {result.job.name}, and ended: {', '.join(result.left_behind)}")
     print("".join(f"unsteady: {fault}\n" for fault in unsteady), end="")
     print("".join(f"failed: {fault}\n" for result in results.values() if result.failed for fault in faults(result)), end="")
     print(f"{passed} passed, {failed} failed, {skipped} skipped")

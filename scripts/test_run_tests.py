@@ -72,6 +72,23 @@ def test_what_passed_does_not_run_once_more(package, tmp_path):
     assert (results[job.path].passed, results[job.path].failed) == (2, 1)
 
 
+def test_what_is_left_behind_is_ended_and_keeps_nobody_waiting(package, tmp_path):
+    """A process of a session of its own that holds the output open, as a simulator whose test was killed does."""
+    package(
+        {
+            "test_a.py": "import pathlib, subprocess\ndef test_it():\n"
+            "    child = subprocess.Popen(['sleep', '1000'], start_new_session=True)\n"
+            f"    pathlib.Path({str(tmp_path / 'pid')!r}).write_text(str(child.pid))\n"
+        }
+    )
+    (tmp_path / "logs").mkdir()
+    (job,) = run_tests.find_jobs({"box"}, "all", scripts=False, slow=True)
+    result = run_tests.run(job, tmp_path / "logs")
+    assert (result.passed, result.failed, result.left_behind) == (1, 0, ["sleep"]) and "left behind: sleep" in result.output
+    assert result.seconds < 60
+    assert not Path("/proc", (tmp_path / "pid").read_text(), "cwd").exists()
+
+
 def test_many_failures_are_no_accident(whole_run):
     code, lines = whole_run({name: [1, 0] for name in "abcdef"}, "--again")
     assert code == 1

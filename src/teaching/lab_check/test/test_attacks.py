@@ -299,7 +299,7 @@ def test_floods_of_parameters_names_and_connections_are_the_submissions_fault(te
     try:
         asked = ["node: /nobody", "controllers: {count: 1}"]
         tasks = [task(name, f"a.launch attack:={name}", asked) for name in ("parameters", "names", "doors")]
-        spec = HEAD.replace("time: 60", "time: 30") + "".join(tasks)
+        spec = HEAD.replace("time: 60", "time: 12").replace("timeout: 40", "timeout: 15") + "".join(tasks)
         result, out, _ = teacher.examine(spec, "my_robot", submission(FLOOD))
     finally:
         over.set()
@@ -374,7 +374,7 @@ def test_what_is_code_of_the_submission(tmp_path):
 def test_bombs_in_launch_files_end_as_the_submissions_fault(teacher):
     """Of YAML, of xacro, of includes and of $(eval)."""
     names = [name for name in BOMBS if name.endswith(".launch")]
-    spec = HEAD.replace("timeout: 40", "timeout: 8").replace("time: 60", "time: 30") + "".join(task(name, name) for name in names)
+    spec = HEAD.replace("timeout: 40", "timeout: 4").replace("time: 60", "time: 10") + "".join(task(name, name) for name in names)
     result, out, _ = teacher.examine(spec, "my_robot", submission("", **BOMBS))
     assert result["points"] == 10, reasons(result)
     assert "uid=" not in "".join((out / f"launch_{number}.log").read_text() for number in range(len(names)))
