@@ -131,6 +131,7 @@ ROOTS = {
     "rosbridge_library": "RosbridgeError",
     "noetic_environment": "EditorError",
     "foxglove_bridge": "BridgeError",
+    "ros1_bridge": "BridgeError",
     "lenient_xml": "XmlError",
     "urdfdom_py": "ParseError",
 }

@@ -1,0 +1,127 @@
+"""Upstream's options and parameters, and the whitelists of the launch file."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from dataclasses import dataclass
+from typing import Any, Callable, Dict, List, Tuple
+
+from ros1_bridge.errors import BridgeError
+
+_LIVELINESS = {"SYSTEM_DEFAULT": 0, "AUTOMATIC": 1, "MANUAL_BY_TOPIC": 3}
+
+
+class SettingError(BridgeError):
+    """A parameter that cannot be used, in one line."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """Of ``dynamic_bridge``."""
+
+    all_1to2: bool = False
+    all_2to1: bool = False
+    print_pairs: bool = False
+    introspection: bool = False
+    multi_threads: bool = False  # this bridge has threads in any case
+    topic_whitelist: Tuple[str, ...] = (".*",)
+    service_whitelist: Tuple[str, ...] = (".*",)
+    action_whitelist: Tuple[str, ...] = (".*",)
+
+
+def options(words: List[str], get: Callable[[str, Any], Any]) -> Options:
+    """:param get: value of a private parameter, or a default
+    :raises SettingError:
+    """
+    parser = argparse.ArgumentParser(prog="dynamic_bridge", description="Bridge what both ROS 1 and ROS 2 know.")
+    parser.add_argument("--bridge-all-topics", action="store_true", help="bridge all topics in both directions")
+    parser.add_argument("--bridge-all-1to2-topics", action="store_true", help="bridge all ROS 1 topics to ROS 2")
+    parser.add_argument("--bridge-all-2to1-topics", action="store_true", help="bridge all ROS 2 topics to ROS 1")
+    parser.add_argument("--print-pairs", action="store_true", help="print the pairs of types and end")
+    parser.add_argument("--show-introspection", action="store_true", help="print what each side sees")
+    parser.add_argument("--multi-threads", action="store_true", help="taken for upstream's sake")
+    read = parser.parse_args(words)
+    lists = {name: patterns(name, get(name, [".*"])) for name in ("topic_whitelist", "service_whitelist", "action_whitelist")}
+    return Options(
+        read.bridge_all_topics or read.bridge_all_1to2_topics,
+        read.bridge_all_topics or read.bridge_all_2to1_topics,
+        read.print_pairs,
+        read.show_introspection,
+        read.multi_threads,
+        **lists,
+    )
+
+
+def patterns(name: str, value: Any) -> Tuple[str, ...]:
+    words = [value] if isinstance(value, str) else value
+    if not isinstance(words, (list, tuple)) or not all(isinstance(word, str) for word in words):
+        raise SettingError(f"~{name} should be a list of texts, not {value!r}")
+    for word in words:
+        try:
+            re.compile(word)
+        except re.error as error:
+            raise SettingError(f"~{name}: {word!r} is no regular expression: {error}") from None
+    return tuple(words)
+
+
+def allowed(name: str, words: Tuple[str, ...]) -> bool:
+    return any(re.fullmatch(word, name) for word in words)
+
+
+def quality(words: Any, say: Callable[[str], None]) -> Dict[str, Any]:
+    """``qos`` of a topic in upstream's form; what is wrong in it is said and left out."""
+    found: Dict[str, Any] = {"depth": 10}
+    if not isinstance(words, dict):
+        say("qos should be a dictionary; it is left out")
+        return found
+    choices = {
+        "reliability": ("best_effort", "reliable"),
+        "durability": ("transient_local", "volatile"),
+        "history": ("keep_all", "keep_last"),
+    }
+    for name, value in words.items():
+        if name in choices and value in choices[name]:
+            found[name] = value
+        elif name in choices:
+            say(f"qos: {name} is {value!r}, and may be {' or '.join(choices[name])}; it is left out")
+        elif name == "depth" and isinstance(value, int) and value > 0:
+            found[name] = value
+        elif name in ("deadline", "lifespan", "liveliness_lease_duration"):
+            try:
+                found[name] = int(value["secs"]) * 10**9 + int(value["nsecs"])
+            except (TypeError, KeyError, ValueError):
+                say(f"qos: {name} needs secs and nsecs; it is left out")
+        elif name == "liveliness":
+            number = value if isinstance(value, int) else _LIVELINESS.get(str(value).upper().removeprefix("LIVELINESS_"))
+            if number in _LIVELINESS.values():
+                found[name] = number
+            else:
+                say(f"qos: liveliness is {value!r}, and may be {', '.join('LIVELINESS_' + one for one in _LIVELINESS)}; it is left out")
+        else:
+            say(f"qos: {name}: {value!r} is not known; it is left out")
+    if words.get("history") == "keep_last" and "depth" not in words:
+        say("qos: history: keep_last needs depth, too; it is 10")
+    return found
+
+
+def entries(parameter: str, value: Any, key: str, say: Callable[[str], None]) -> List[Dict[str, Any]]:
+    """Entries of ``topics``, ``services_1_to_2`` and ``services_2_to_1`` that can be used."""
+    if not isinstance(value, list):
+        say(f"The parameter '{parameter}' either doesn't exist or isn't an array")
+        return []
+    found = []
+    for number, one in enumerate(value):
+        if not isinstance(one, dict) or not isinstance(one.get(key), str) or not isinstance(one.get("type"), str):
+            say(f"{parameter}[{number}] needs '{key}' and 'type', both texts; it is left out")
+            continue
+        kind = f"{one['package']}/{one['type']}" if one.get("package") else one["type"]
+        package, _, rest = kind.partition("/")
+        if not package or not rest:
+            say(f"{parameter}[{number}]: the type '{kind}' should be package/Name or package/{'msg' if key == 'topic' else 'srv'}/Name")
+            continue
+        queue = one.get("queue_size", 100)
+        found.append(
+            {**one, "type": f"{package}/{rest.rpartition('/')[2]}", "queue_size": queue if isinstance(queue, int) and queue > 0 else 100}
+        )
+    return found

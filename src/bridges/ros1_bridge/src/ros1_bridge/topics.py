@@ -1,0 +1,188 @@
+"""Topics, one way each. Listening starts when somebody on the other side listens."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from typing import Any, Dict, Optional
+
+import rospy
+
+from ros1_bridge.errors import MappingError
+from ros1_bridge.link import Link
+from ros1_bridge.pairs import Pairs, bytes_of, message_class
+from ros1_bridge.wire import Pair
+
+BUFFER = 16 * 1024 * 1024  # bytes that are read at once, of pictures and clouds
+#: Types that sensors of ROS 2 publish as best effort.
+SENSORS = {
+    "sensor_msgs/" + name
+    for name in ("CompressedImage", "FluidPressure", "Image", "Imu", "LaserScan", "MagneticField", "MultiEchoLaserScan", "NavSatFix")
+    + ("PointCloud", "PointCloud2", "Range", "RelativeHumidity", "Temperature", "Illuminance", "CameraInfo")
+}
+
+
+def promised(topic: str, type_name: str) -> Dict[str, Any]:
+    """The quality of service of a topic that has not been told one."""
+    if topic == "/tf_static":
+        return {"depth": 100, "durability": "transient_local"}
+    if topic == "/tf":
+        return {"depth": 100}
+    if type_name in SENSORS:
+        return {"depth": 5, "reliability": "best_effort"}
+    return {"depth": 10}
+
+
+class ToRos2:
+    """A topic of ROS 1, published in ROS 2."""
+
+    def __init__(self, topic: str, pair: Pair, link: Link, pairs: Pairs, words: Optional[Dict[str, Any]] = None, queue: int = 100) -> None:
+        self.topic, self.pair = topic, pair
+        self._link, self._pairs, self._queue, self._told = link, pairs, queue, words is not None
+        self.words = words or promised(topic, pair.ros1)
+        self._lock = threading.Lock()
+        self._subscriber: Optional[rospy.Subscriber] = None
+        link.tell("advertise", topic, pair.ros2, self.words)
+
+    def matched(self, count: int) -> None:
+        """:param count: who listens in ROS 2"""
+        with self._lock:
+            if count and self._subscriber is None:
+                self._subscriber = rospy.Subscriber(
+                    self.topic, rospy.AnyMsg, self._take, queue_size=self._queue, buff_size=BUFFER, tcp_nodelay=True
+                )
+            elif not count and self._subscriber is not None:
+                self._subscriber.unregister()
+                self._subscriber = None
+
+    def unequal(self, policy: str, words: Dict[str, Any]) -> None:
+        """A subscriber asks for more than is promised: it is promised, unless a parameter says what is to be."""
+        more = {"DURABILITY": ("durability", "transient_local"), "RELIABILITY": ("reliability", "reliable")}.get(policy)
+        if self._told or more is None:
+            self._pairs.once(f"{self.topic}: a subscriber of ROS 2 asks for another {policy.lower()} than this topic's, and gets nothing")
+        elif words == self.words:
+            self._promise({**self.words, more[0]: more[1]})
+
+    def close(self) -> None:
+        self.matched(0)
+        self._link.tell("forget", "publisher", self.topic)
+
+    def _promise(self, words: Dict[str, Any]) -> None:
+        self.words = words
+        self._link.tell("advertise", self.topic, self.pair.ros2, words)
+        with self._lock:
+            old, self._subscriber = self._subscriber, None
+        if old is not None:  # what is latched comes once more
+            old.unregister()
+
+    def _take(self, message: rospy.AnyMsg) -> None:
+        header = message._connection_header
+        if header.get("callerid") == rospy.get_name():
+            return  # what this bridge itself has brought from ROS 2
+        if header.get("type") not in (self.pair.ros1, "*"):
+            self._pairs.once(
+                f"{self.topic}: {header.get('callerid')} publishes {header.get('type')}, not {self.pair.ros1}; it is not bridged"
+            )
+            return
+        if header.get("latching") == "1" and not self._told and self.words.get("durability") != "transient_local":
+            self.words = {**self.words, "durability": "transient_local"}
+            self._link.tell("advertise", self.topic, self.pair.ros2, self.words)
+        try:
+            # rospy reads a topic once in a process: /clock comes as its own message
+            data = message._buff if isinstance(message, rospy.AnyMsg) else bytes_of(message)
+            self._link.tell("publish", self.topic, data=self.pair.to_ros2(data))
+        except MappingError as error:
+            self._pairs.once(f"{self.topic}: a message of {header.get('callerid')} is not bridged: {error}")
+
+
+def packed(kind: Any) -> Any:
+    """A class that rospy publishes and receives as ``kind``, whose messages are their bytes."""
+
+    class Packed(rospy.AnyMsg):
+        _md5sum, _type, _has_header, _full_text = kind._md5sum, kind._type, False, kind._full_text
+        _slot_types: list = []
+
+        def serialize(self, buff: Any) -> None:
+            buff.write(self._buff)
+
+    return Packed
+
+
+class ToRos1(rospy.SubscribeListener):
+    """A topic of ROS 2, published in ROS 1."""
+
+    def __init__(
+        self,
+        topic: str,
+        pair: Pair,
+        link: Link,
+        pairs: Pairs,
+        seen: Dict[str, Any],
+        words: Optional[Dict[str, Any]] = None,
+        queue: int = 100,
+    ):
+        super().__init__()
+        self.topic, self.pair, self._link, self._pairs = topic, pair, link, pairs
+        self._given = words
+        self.words = words or self.wanted(seen)
+        latched = self.words.get("durability") == "transient_local"
+        self._old: deque = deque(maxlen=100 if topic == "/tf_static" else 1)
+        self._listening, self._lock = False, threading.Lock()
+        self._class = packed(message_class(pair.ros1))
+        self.publisher = rospy.Publisher(topic, self._class, self, queue_size=queue, latch=latched)
+        self._latched = latched
+        if latched:
+            self._listen()
+
+    def wanted(self, seen: Dict[str, Any]) -> Dict[str, Any]:
+        """What all publishers in ROS 2 can give."""
+        words = {"depth": 100 if self.topic in ("/tf", "/tf_static") else 10}
+        return {
+            **words,
+            **({"reliability": "best_effort"} if seen.get("best_effort") else {}),
+            **({"durability": "transient_local"} if seen.get("latched") else {}),
+        }
+
+    def look(self, seen: Dict[str, Any]) -> None:
+        """Publishers have come or gone."""
+        words = self._given or self.wanted(seen)
+        if words != self.words:
+            self.words = words
+            if self._listening:
+                self._link.tell("subscribe", self.topic, self.pair.ros2, words)
+
+    def unequal(self, policy: str) -> None:
+        self._pairs.once(f"{self.topic}: a publisher of ROS 2 gives less {policy.lower()} than this topic's, and is not heard")
+
+    def peer_subscribe(self, topic_name: str, topic_publish: Any, peer_publish: Any) -> None:
+        self._listen()
+        for message in list(self._old)[:-1] if self._latched else []:  # rospy itself gives the last
+            peer_publish(message)
+
+    def peer_unsubscribe(self, topic_name: str, num_peers: int) -> None:
+        if not num_peers and not self._latched:
+            with self._lock:
+                self._listening = False
+            self._link.tell("forget", "subscriber", self.topic)
+
+    def message(self, data: Any) -> None:
+        try:
+            message = self._class()
+            message._buff = bytes(self.pair.to_ros1(data))
+        except MappingError as error:
+            self._pairs.once(f"{self.topic}: a message from ROS 2 is not bridged: {error}")
+            return
+        if self._latched:
+            self._old.append(message)
+        self.publisher.publish(message)
+
+    def close(self) -> None:
+        self._link.tell("forget", "subscriber", self.topic)
+        self.publisher.unregister()
+
+    def _listen(self) -> None:
+        with self._lock:
+            if self._listening:
+                return
+            self._listening = True
+        self._link.tell("subscribe", self.topic, self.pair.ros2, self.words)

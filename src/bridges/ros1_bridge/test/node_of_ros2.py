@@ -1,0 +1,111 @@
+"""A node of ROS 2, run by ROS 2's own Python: orders come as lines of JSON, and so go the answers."""
+
+import json
+import sys
+import threading
+import time
+
+import rclpy
+from builtin_interfaces.msg import Duration
+from control_msgs.action import FollowJointTrajectory
+from rclpy.action import ActionClient, ActionServer
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
+from rclpy.serialization import serialize_message
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import Image, JointState
+from std_msgs.msg import Float64, Int32, String
+from std_srvs.srv import SetBool
+from tf2_msgs.msg import TFMessage
+from trajectory_msgs.msg import JointTrajectoryPoint
+
+KINDS = {kind.__name__: kind for kind in (Clock, Float64, Image, Int32, JointState, String, TFMessage)}
+LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+PROFILES = {"": QoSProfile(depth=100), "latched": LATCHED, "sensor": qos_profile_sensor_data}
+
+
+def say(**words):
+    print(json.dumps(words), flush=True)
+
+
+class Node:
+    def __init__(self):
+        rclpy.init()
+        self.node = rclpy.create_node("tester")
+        self.executor = MultiThreadedExecutor(4)
+        self.executor.add_node(self.node)
+        threading.Thread(target=self.executor.spin, daemon=True).start()
+        self.publishers, self.kept = {}, []
+
+    def hear(self, topic, kind, profile=""):
+        def take(message):
+            say(heard=topic, data=bytes(serialize_message(message)).hex())
+
+        self.kept.append(self.node.create_subscription(KINDS[kind], topic, take, PROFILES[profile]))
+
+    def advertise(self, topic, kind, profile=""):
+        self.publishers[topic] = self.node.create_publisher(KINDS[kind], topic, PROFILES[profile])
+
+    def publish(self, topic, data):
+        self.publishers[topic].publish(bytes.fromhex(data))
+
+    def echo(self, topic, back):
+        publisher = self.node.create_publisher(Float64, back, 10)
+        self.kept.append(self.node.create_subscription(Float64, topic, publisher.publish, 10))
+
+    def serve(self, name):
+        def answer(request, response):
+            response.success, response.message = not request.data, "of ROS 2"
+            return response
+
+        self.kept.append(self.node.create_service(SetBool, name, answer))
+
+    def call(self, name, value):
+        client = self.node.create_client(SetBool, name)
+        client.wait_for_service(20.0)
+        answer = client.call(SetBool.Request(data=value))
+        say(called=name, success=answer.success, message=answer.message)
+
+    def goal(self, name, positions, joints, seconds, cancel=False):
+        client = ActionClient(self.node, FollowJointTrajectory, name)
+        goal = FollowJointTrajectory.Goal()
+        goal.trajectory.joint_names = joints
+        goal.trajectory.points = [JointTrajectoryPoint(positions=positions, time_from_start=Duration(sec=seconds))]
+        client.wait_for_server(20.0)
+        feedback = []
+        done = threading.Event()
+        sent = client.send_goal_async(goal, feedback_callback=feedback.append)
+        sent.add_done_callback(lambda _: done.set())
+        done.wait(20.0)
+        if cancel:
+            time.sleep(0.5)
+            sent.result().cancel_goal_async()
+        ended = threading.Event()
+        result = sent.result().get_result_async()
+        result.add_done_callback(lambda _: ended.set())
+        ended.wait(60.0)
+        answer = result.result()
+        say(ended=name, status=answer.status, code=answer.result.error_code, text=answer.result.error_string, feedback=len(feedback))
+
+    def serve_action(self, name):
+        def execute(handle):
+            feedback = FollowJointTrajectory.Feedback(joint_names=handle.request.trajectory.joint_names)
+            handle.publish_feedback(feedback)
+            time.sleep(0.5)
+            handle.succeed()
+            return FollowJointTrajectory.Result(error_code=-3, error_string="of ROS 2")
+
+        self.kept.append(ActionServer(self.node, FollowJointTrajectory, name, execute))
+
+
+def main():
+    node = Node()
+    say(ready=True)
+    for line in sys.stdin:
+        words = json.loads(line)
+        run = getattr(node, words.pop("do"))
+        threading.Thread(target=run, kwargs=words, daemon=True).start() if run.__name__ in ("call", "goal") else run(**words)
+
+
+if __name__ == "__main__":
+    main()
