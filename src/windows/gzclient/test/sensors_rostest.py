@@ -76,7 +76,6 @@ class Sensors(Session):
         page.check("Grid")  # off: its lines are as thick as the page finds time for
         page.fill("Arrow for 1 N (m)", 0.1)  # out of the bodies on which the forces act
         page.click("Sensors")
-        page.put_away("Software WebGL")
         until = sim_time() + 2.0
         wait(lambda: sim_time() > until, "bodies at rest")
         for kind, (topic, colour) in KINDS.items():

@@ -7,11 +7,13 @@ answers the first request for the page, then leaves the door: what knocks next w
 from __future__ import annotations
 
 import contextlib
+import functools
 import gzip
 import html
 import http
 import importlib.util
 import os
+import pathlib
 import select
 import socket
 import threading
@@ -50,7 +52,9 @@ _SPARING = b"""<script>(() => {
     const gl = canvas?.getContext("webgl2");
     const told = gl && gl.getExtension("WEBGL_debug_renderer_info");
     const name = told ? gl.getParameter(told.UNMASKED_RENDERER_WEBGL) : "";
-    loading = false, gap = /swiftshader|llvmpipe|softpipe|software/i.test(name) ? 66 : 0;
+    const software = /swiftshader|llvmpipe|softpipe|software/i.test(name);
+    loading = false, gap = software ? 66 : 0;
+    if (software) document.documentElement.dataset.drawn = "drawn by the processor";
     if (waiting.size) arm(0);
   }, 100);
 })();</script>"""
@@ -80,13 +84,11 @@ _UNPACKED = b"const code=td.decode(heap.subarray(up+ss,up+sz))"
 #: Until the server has told otherwise that program lights the scene by a picture, which takes the processor 0.4 s to prepare; here the
 #: server always tells otherwise.
 _UNLIT = rb""".replace(/===null\?[\w$]+:([\w$]+\.hdri_data)/,"===null?null:$1")"""
-#: It makes a canvas of its own to find out whether the processor draws, which takes that 0.2 s and more: later is soon enough to say so,
-#: and the canvas of the scene knows it as well.
-_ASKED_LATER = (
+#: It makes a canvas of its own to find out whether the processor draws, which takes that 0.2 s and more, and shows a notice that stays. The
+#: canvas of the scene knows it as well, and the line at the foot says it.
+_NOT_ASKED = (
     rb""".replace(/let ([\w$]+)=([\w$]+)\(\);(console\.log\(`WebGL support[^]*?`webgl-software-rendering`[^]*?`orange`\}\))"""
-    rb"""(?=\},\[\]\))/,"setTimeout(()=>{let $1=$2();$3},5e3)")"""
-    rb""".replace(/=document\.createElement\(`canvas`\)(?=,[\w$]+=!1,[\w$]+=`unknown`)/,"""
-    rb""""=document.querySelector('canvas[data-engine]')??document.createElement('canvas')")"""
+    rb"""(?=\},\[\]\))/,"")"""
 )
 #: What is typed and pressed goes to the server at most every 50 ms, the last of it only: a button pressed right after a field was filled
 #: took the place of the field's value, which was lost. What concerns something else is sent first, and so is a
@@ -112,10 +114,17 @@ _COLOUR_AS_TYPED = (
 )
 
 
+@functools.lru_cache(maxsize=1)
+def _frame() -> bytes:
+    """The tools above the page, the state below it, and what is shown while it loads."""
+    folder = pathlib.Path(__file__).parent / "frame"
+    return b"<style>%s</style><script>%s</script>" % tuple((folder / f"frame.{ending}").read_bytes() for ending in ("css", "js"))
+
+
 def entitled(page: bytes, title: str) -> bytes:
-    """viser's page under another name than its own, sparing where it draws."""
-    head = f"<title>{html.escape(title)}</title>".encode() + _SPARING
-    changes = _UNLIT + _ASKED_LATER + _NOTHING_LOST + _ON_TOP + _COLOUR_AS_TYPED
+    """viser's page under another name than its own, sparing where it draws, with a frame round it."""
+    head = f"<title>{html.escape(title)}</title>".encode() + _SPARING + _frame()
+    changes = _UNLIT + _NOT_ASKED + _NOTHING_LOST + _ON_TOP + _COLOUR_AS_TYPED
     return page.replace(_UNPACKED, _UNPACKED + changes, 1).replace(b"<title>Viser</title>", head, 1)
 
 
