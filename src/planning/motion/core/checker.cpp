@@ -233,7 +233,7 @@ CollisionResult CollisionChecker::check(const RobotState& state, const Collision
   if (!done && request.self)
     searchSelf(scratch, search);
   if (request.distance)
-    result.distance = distance(state, std::numeric_limits<double>::infinity()).distance;
+    result.distance = distance(state, std::numeric_limits<double>::infinity(), request.self, request.world).distance;
   return result;
 }
 
@@ -253,7 +253,7 @@ std::vector<CostSource> CollisionChecker::costs(const RobotState& state, const C
   return found;
 }
 
-DistanceResult CollisionChecker::distance(const RobotState& state, double max_distance) const
+DistanceResult CollisionChecker::distance(const RobotState& state, double max_distance, bool self, bool world) const
 {
   struct Candidate
   {
@@ -264,9 +264,12 @@ DistanceResult CollisionChecker::distance(const RobotState& state, double max_di
   Scratch scratch;
   place(state, scratch);
   std::vector<Candidate> candidates;
-  for (const auto& [i, j] : self_pairs_)
+  for (std::size_t pair = 0; self && pair < self_pairs_.size(); ++pair)
+  {
+    const auto& [i, j] = self_pairs_[pair];
     candidates.push_back({scratch.bare[i].distance(scratch.bare[j]), i, j, false});
-  for (std::size_t i = 0; i < parts_.size(); ++i)
+  }
+  for (std::size_t i = 0; world && i < parts_.size(); ++i)
     for (std::size_t k = 0; parts_[i].meets_world && k < world_parts_.size(); ++k)
       if (!world_allowed_[parts_[i].body * world_bodies_ + world_parts_[k].body - robot_bodies_])
         candidates.push_back(

@@ -68,7 +68,7 @@ public:
   CollisionResult check(const RobotState& state, const CollisionRequest& request) const;
   // At most `most` of each pair of shapes.
   std::vector<CostSource> costs(const RobotState& state, const CollisionRequest& request, std::size_t most) const;
-  DistanceResult distance(const RobotState& state, double max_distance) const;
+  DistanceResult distance(const RobotState& state, double max_distance, bool self = true, bool world = true) const;
   std::size_t selfPairs() const { return self_pairs_.size(); }
 
 private:

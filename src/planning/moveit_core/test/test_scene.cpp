@@ -42,6 +42,29 @@ PlanningScenePtr readyScene()
 }
 }  // namespace
 
+// The arm stands upright: the fingers' lower edges are at 1.32 m, upper's end at 0.85 m; the box's face is at 1.95 m, lower's at 0.02 m.
+// FCL's distance of two boxes whose faces are parallel is some millimetres off.
+TEST(Scene, distancesAreOfWhatWasAskedFor)
+{
+  const auto scene = std::make_shared<PlanningScene>(makeArm());
+  scene->getCurrentStateNonConst().setToDefaultValues();
+  ASSERT_TRUE(scene->processCollisionObjectMsg(box("far", 2.0, 0.0, 1.1, 0.1)));
+  const auto env = scene->getCollisionEnv();
+  const moveit::core::RobotState& state = scene->getCurrentState();
+  const auto& allowed = scene->getAllowedCollisionMatrix();
+  collision_detection::CollisionRequest request;
+  request.distance = true;
+  collision_detection::CollisionResult self, world, both;
+  env->checkSelfCollision(request, self, state, allowed);
+  env->checkRobotCollision(request, world, state, allowed);
+  scene->checkCollision(request, both);
+  EXPECT_NEAR(self.distance, 0.47, 0.005);
+  EXPECT_NEAR(world.distance, 1.93, 1e-6);
+  EXPECT_NEAR(both.distance, 0.47, 0.005);
+  EXPECT_NEAR(env->distanceSelf(state, allowed), 0.47, 0.005);
+  EXPECT_NEAR(env->distanceRobot(state, allowed), 1.93, 1e-6);
+}
+
 TEST(Scene, objectsCollideUntilTheyAreAllowedToOrGone)
 {
   const PlanningScenePtr scene = readyScene();
