@@ -115,6 +115,16 @@
     put("bar_drawn", document.documentElement.dataset.drawn ?? "");
     for (const [button, tool] of buttons) draw(button, tool);
     tree()?.classList.add("tree");
+    name();
+  }
+  // For who hears the page: a field is named by the label before it, where viser ties none to it.
+  function name() {
+    const labels = [...document.querySelectorAll("#root label")];
+    for (const field of document.querySelectorAll("#root input:not([aria-label]):not([type=hidden])")) {
+      if (field.labels.length) continue;
+      const before = labels.filter(label => label.compareDocumentPosition(field) & Node.DOCUMENT_POSITION_FOLLOWING).pop();
+      if (before) field.setAttribute("aria-label", before.textContent.trim());
+    }
   }
   const tree = () => [...document.querySelectorAll(".mantine-Paper-root")].find(e => e.firstElementChild?.textContent.trim() === "Models and lights");
 
