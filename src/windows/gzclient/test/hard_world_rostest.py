@@ -85,11 +85,11 @@ class HardWorld(Session):
         page.click("World")
         self.not_owned()
 
-    def test_3_ten_reconnects(self):
+    def test_3_reconnects(self):
         page = self.page
         page.click("Play")
         wait(lambda: not paused(), "play")
-        for _ in range(10):
+        for _ in range(4):  # scripts/bench page does more of them, and measures
             page.driver.refresh()
             page.see("real-time factor", "b9")
             page.click("Pause")
