@@ -156,7 +156,7 @@ class Peer:
 
     def do_known(self, number: int, _: Any) -> None:
         """All interfaces that are installed: package/msg/Name"""
-        from ament_index_python import get_resource, get_resources
+        from ament_index_python.resources import get_resource, get_resources
 
         names = []
         for package in get_resources("rosidl_interfaces"):
