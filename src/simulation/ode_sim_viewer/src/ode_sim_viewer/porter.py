@@ -121,9 +121,12 @@ def _frame() -> bytes:
     return b"<style>%s</style><script>%s</script>" % tuple((folder / f"frame.{ending}").read_bytes() for ending in ("css", "js"))
 
 
-def entitled(page: bytes, title: str) -> bytes:
-    """viser's page under another name than its own, sparing where it draws, with a frame round it."""
-    head = f"<title>{html.escape(title)}</title>".encode() + _SPARING + _frame()
+def entitled(page: bytes, title: str, framed: bool = True) -> bytes:
+    """viser's page under another name than its own, sparing where it draws.
+
+    :param framed: with tools and state round it; a recorded page has no controls for them
+    """
+    head = f"<title>{html.escape(title)}</title>".encode() + _SPARING + (_frame() if framed else b"")
     changes = _UNLIT + _NOT_ASKED + _NOTHING_LOST + _ON_TOP + _COLOUR_AS_TYPED
     return page.replace(_UNPACKED, _UNPACKED + changes, 1).replace(b"<title>Viser</title>", head, 1)
 

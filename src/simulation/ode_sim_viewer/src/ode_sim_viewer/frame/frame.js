@@ -1,5 +1,5 @@
 // What stands round viser's page. A tool presses the control of the panel that has that label, so that there is one way to do each thing;
-// the state is what the panel shows. A recorded page has no controls, and no frame.
+// the state is what the panel shows.
 (() => {
   const ICONS = {
     play: "M7 4l13 8-13 8z", pause: "M8 5v14M16 5v14", step: "M5 5l9 7-9 7zM18 5v14", reset: "M4 12a8 8 0 1 0 3-6.2M4 4v5h5",
@@ -146,7 +146,6 @@
 
   document.documentElement.append(splash);  // before there is a body: unpacking the page takes the time
   document.addEventListener("DOMContentLoaded", () => {
-    if (window.__VISER_EMBED_DATA__) { document.documentElement.dataset.frame = "none"; splash.remove(); return; }
     document.body.append(bar, state, splash);
     const begun = performance.now();
     const look = setInterval(() => {

@@ -77,7 +77,7 @@ class RecordPanel(Panel):
             return
         recording, self._recording = self._recording, None
         self._replay.label = "Record"
-        keep(client, "replay.html", entitled(recording.as_html().encode(), f"Replay of {self.page.world.name or 'a world'}"))
+        keep(client, "replay.html", entitled(recording.as_html().encode(), f"Replay of {self.page.world.name or 'a world'}", framed=False))
 
 
 def keep(client: Any, name: str, content: bytes) -> None:
