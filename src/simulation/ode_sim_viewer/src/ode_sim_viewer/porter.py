@@ -84,11 +84,13 @@ _UNPACKED = b"const code=td.decode(heap.subarray(up+ss,up+sz))"
 #: Until the server has told otherwise that program lights the scene by a picture, which takes the processor 0.4 s to prepare; here the
 #: server always tells otherwise.
 _UNLIT = rb""".replace(/===null\?[\w$]+:([\w$]+\.hdri_data)/,"===null?null:$1")"""
-#: It makes a canvas of its own to find out whether the processor draws, which takes that 0.2 s and more, and shows a notice that stays. The
-#: canvas of the scene knows it as well, and the line at the foot says it.
-_NOT_ASKED = (
+#: It makes a canvas of its own to find out whether the processor draws, which takes that 0.2 s and more: later is soon enough to say so,
+#: and the canvas of the scene knows it as well.
+_ASKED_LATER = (
     rb""".replace(/let ([\w$]+)=([\w$]+)\(\);(console\.log\(`WebGL support[^]*?`webgl-software-rendering`[^]*?`orange`\}\))"""
-    rb"""(?=\},\[\]\))/,"")"""
+    rb"""(?=\},\[\]\))/,"setTimeout(()=>{let $1=$2();$3},5e3)")"""
+    rb""".replace(/=document\.createElement\(`canvas`\)(?=,[\w$]+=!1,[\w$]+=`unknown`)/,"""
+    rb""""=document.querySelector('canvas[data-engine]')??document.createElement('canvas')")"""
 )
 #: What is typed and pressed goes to the server at most every 50 ms, the last of it only: a button pressed right after a field was filled
 #: took the place of the field's value, which was lost. What concerns something else is sent first, and so is a
@@ -127,7 +129,7 @@ def entitled(page: bytes, title: str, framed: bool = True) -> bytes:
     :param framed: with tools and state round it; a recorded page has no controls for them
     """
     head = f"<title>{html.escape(title)}</title>".encode() + _SPARING + (_frame() if framed else b"")
-    changes = _UNLIT + _NOT_ASKED + _NOTHING_LOST + _ON_TOP + _COLOUR_AS_TYPED
+    changes = _UNLIT + _ASKED_LATER + _NOTHING_LOST + _ON_TOP + _COLOUR_AS_TYPED
     return page.replace(_UNPACKED, _UNPACKED + changes, 1).replace(b"<title>Viser</title>", head, 1)
 
 

@@ -116,6 +116,8 @@
     for (const [button, tool] of buttons) draw(button, tool);
     tree()?.classList.add("tree");
     name();
+    for (const notice of document.querySelectorAll(".mantine-Notification-root"))  // the foot says it
+      if (notice.textContent.includes("Software WebGL")) notice.querySelector("button")?.click();
   }
   // For who hears the page: a field is named by the label before it, where viser ties none to it.
   function name() {
