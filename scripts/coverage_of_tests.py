@@ -10,8 +10,8 @@ import os
 import subprocess
 import sys
 from collections import defaultdict
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Dict, Iterator, List, Tuple
 
 ROOT = Path(__file__).resolve().parent.parent
 TOOL = ROOT / ".python-coverage"
@@ -58,7 +58,7 @@ def install() -> None:
     noted.write_bytes(REQUIREMENTS.read_bytes())
 
 
-def environment(folder: Path, source: Path = ROOT / "src") -> Dict[str, str]:
+def environment(folder: Path, source: Path = ROOT / "src") -> dict[str, str]:
     """What a process needs, and hands on to those it starts, so that all of them write into ``folder``."""
     (folder / "hook").mkdir(parents=True, exist_ok=True)
     (folder / "settings").write_text(_SETTINGS.format(folder=folder, source=source))
@@ -75,9 +75,9 @@ def package_of(path: Path, root: Path = ROOT) -> str:
     return path.parts[0]
 
 
-def table(files: Dict[str, dict], packages: List[str]) -> Iterator[Tuple[str, int, int]]:
+def table(files: dict[str, dict], packages: list[str]) -> Iterator[tuple[str, int, int]]:
     """(package, lines that were run, lines that can be) in the order of names; of ``packages`` alone if any are named."""
-    counts: Dict[str, List[int]] = defaultdict(lambda: [0, 0])
+    counts: dict[str, list[int]] = defaultdict(lambda: [0, 0])
     for name, entry in files.items():
         package = package_of(Path(name))
         if not packages or package in packages:
@@ -87,7 +87,7 @@ def table(files: Dict[str, dict], packages: List[str]) -> Iterator[Tuple[str, in
         yield package, run, lines
 
 
-def report(folder: Path, out: Path, packages: List[str]) -> List[str]:
+def report(folder: Path, out: Path, packages: list[str]) -> list[str]:
     """Pages with every line in ``out``, and what to print: a line for each package."""
     command = [sys.executable, "-m", "coverage"]
     options = [f"--rcfile={folder / 'settings'}"]

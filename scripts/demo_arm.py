@@ -119,7 +119,7 @@ def wait_for_build() -> None:
         raise DemoError("the arm's node was not compiled; see build/demo/build.log")
 
 
-def drive(recorder: "Recorder", launch, target) -> tuple:
+def drive(recorder: Recorder, launch, target) -> tuple:
     """Tell how the arm moves until it is there. :return: rows of its start and of its arrival"""
     start = recorder.rows[0]
     reported = start[0]

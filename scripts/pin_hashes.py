@@ -11,7 +11,6 @@ import re
 import subprocess
 import sys
 from pathlib import Path
-from typing import List, Optional, Set
 
 SCRIPTS = Path(__file__).resolve().parent
 PYTHONS = ("3.11", "3.13")
@@ -34,30 +33,30 @@ _PIP = [
 ]
 
 
-def wheel(requirement: str, python: str, machine: str) -> Optional[str]:
+def wheel(requirement: str, python: str, machine: str) -> str | None:
     """sha256 of the wheel that pip takes there; None where there is none."""
     platforms = [f"manylinux_2_{minor}_{machine}" for minor in GLIBC] + [f"{name}_{machine}" for name in LEGACY]
     words = [word for name in (*platforms, f"linux_{machine}") for word in ("--platform", name)]
     return _asked([*words, "--python-version", python, "--only-binary", ":all:", "--target", "nowhere", requirement])
 
 
-def source(requirement: str) -> Optional[str]:
+def source(requirement: str) -> str | None:
     """sha256 of the source archive; None where there is none."""
     return _asked(["--no-binary", requirement.partition("==")[0], requirement])
 
 
-def _asked(words: List[str]) -> Optional[str]:
+def _asked(words: list[str]) -> str | None:
     done = subprocess.run([*_PIP, *words], capture_output=True, text=True)
     if done.returncode:
         return None
     return json.loads(done.stdout)["install"][0]["download_info"]["archive_info"]["hashes"]["sha256"]
 
 
-def hashes(requirement: str) -> Set[str]:
+def hashes(requirement: str) -> set[str]:
     """
     :raises SystemExit: neither a wheel nor a source archive is to be had for one of the machines
     """
-    found: Set[str] = set()
+    found: set[str] = set()
     for python in PYTHONS:
         for machine in MACHINES:
             one = wheel(requirement, python, machine) or source(requirement)

@@ -31,9 +31,9 @@ import threading
 import time
 import xml.etree.ElementTree as ET
 from collections import Counter
+from collections.abc import Container, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Container, Dict, Iterator, List, Optional, Set, Tuple
 
 import changed_packages
 import coverage_of_tests
@@ -83,14 +83,14 @@ class Result:
     skipped: int
     seconds: float
     output: str
-    reasons: List[str] = field(default_factory=list)
+    reasons: list[str] = field(default_factory=list)
     left_out: int = 0
-    left_behind: List[str] = field(default_factory=list)  # processes that did not end with it
+    left_behind: list[str] = field(default_factory=list)  # processes that did not end with it
 
 
-def find_jobs(packages: Container[str], kind: str, scripts: bool, slow: bool) -> List[Job]:
+def find_jobs(packages: Container[str], kind: str, scripts: bool, slow: bool) -> list[Job]:
     """All test files of these packages, and those of scripts/ if asked for; with or without what is slow."""
-    jobs: List[Job] = []
+    jobs: list[Job] = []
     for manifest in sorted([*(ROOT / "src").rglob("package.xml"), *(ROOT / "docs").rglob("package.xml")]):
         package = manifest.parent
         if package.name not in packages:
@@ -113,7 +113,7 @@ class UnknownPackage(Exception):
     """A package is named that the workspace does not have."""
 
 
-def chosen(named: List[str], since: Optional[str]) -> Set[str]:
+def chosen(named: list[str], since: str | None) -> set[str]:
     """
     The packages that are tested: those named, or all; of these what a change since the commit ``since``, if given, can break.
 
@@ -136,14 +136,14 @@ class Queue:
     only one rostest is at work: those of windows each have a browser, for two of which two cores are too slow.
     """
 
-    def __init__(self, jobs: List[Job]) -> None:
+    def __init__(self, jobs: list[Job]) -> None:
         self._changed = threading.Condition()
-        self._at_work: Set[Path] = set()  # packages
-        self._kinds: Dict[str, List[Job]] = {"rostest": [], "pytest": []}
+        self._at_work: set[Path] = set()  # packages
+        self._kinds: dict[str, list[Job]] = {"rostest": [], "pytest": []}
         for job in jobs:
             self._kinds[job.kind].append(job)
 
-    def take(self, worker: int) -> Optional[Job]:
+    def take(self, worker: int) -> Job | None:
         """The next job of worker number ``worker``, None when all are taken."""
         order = ("pytest", "rostest") if worker % 2 else ("rostest", "pytest")
         with self._changed:
@@ -166,7 +166,7 @@ class Queue:
             self._changed.notify_all()
 
 
-def run_all(jobs: List[Job], workers: int, scratch: Path) -> Iterator[Result]:
+def run_all(jobs: list[Job], workers: int, scratch: Path) -> Iterator[Result]:
     """Results of all jobs as they come."""
     waiting, results = Queue(jobs), queue.Queue()
 
@@ -184,7 +184,7 @@ def run_all(jobs: List[Job], workers: int, scratch: Path) -> Iterator[Result]:
         yield results.get()
 
 
-def count(report: Path) -> Tuple[int, int, int]:
+def count(report: Path) -> tuple[int, int, int]:
     """(passed, failed, skipped) from a JUnit file; a missing one counts as one failure."""
     try:
         root = ET.parse(report).getroot()
@@ -199,7 +199,7 @@ def count(report: Path) -> Tuple[int, int, int]:
     return total - failed - skipped, failed, skipped
 
 
-def counts(job: Job, home: Path) -> Tuple[int, int, int]:
+def counts(job: Job, home: Path) -> tuple[int, int, int]:
     """(passed, failed, skipped) from the reports that a job has left in its folder."""
     if job.kind == "pytest":
         return count(home / "report.xml")
@@ -254,7 +254,7 @@ def run(job: Job, scratch: Path) -> Result:
         return _run_in(job, scratch, temporary)
 
 
-def _environment(job: Job, home: Path, temporary: str) -> Dict[str, str]:
+def _environment(job: Job, home: Path, temporary: str) -> dict[str, str]:
     environment = dict(
         os.environ,
         ROS_HOME=str(home),
@@ -269,7 +269,7 @@ def _environment(job: Job, home: Path, temporary: str) -> Dict[str, str]:
     return environment
 
 
-def _command(job: Job, scratch: Path, home: Path) -> List[str]:
+def _command(job: Job, scratch: Path, home: Path) -> list[str]:
     if job.kind != "pytest":
         return ["rostest", str(job.path)]
     chosen = ([] if job.slow else ["-m", "not slow"]) + (["--last-failed"] if job.failed_only else [])
@@ -285,7 +285,7 @@ def _ends(process: subprocess.Popen, seconds: float) -> bool:
         return False
 
 
-def _started_with(temporary: str) -> Dict[int, str]:
+def _started_with(temporary: str) -> dict[int, str]:
     """Process ids, and names, of all that were started with this TMPDIR, whatever session or group they are in now."""
     found = {}
     for place in Path("/proc").glob("[0-9]*"):
@@ -297,7 +297,7 @@ def _started_with(temporary: str) -> Dict[int, str]:
     return found
 
 
-def end_what_is_left(temporary: str) -> List[str]:
+def end_what_is_left(temporary: str) -> list[str]:
     """Kills the processes of a file that has ended which do not end by themselves in a moment; their names."""
     until = time.monotonic() + GRACE
     while (left := _started_with(temporary)) and time.monotonic() < until:
@@ -353,7 +353,7 @@ def _run_in(job: Job, scratch: Path, temporary: str) -> Result:
     return Result(job, passed, failed, skipped, seconds, output, list(reasons(home)) if failed else [], aside, left)
 
 
-def faults(result: Result) -> List[str]:
+def faults(result: Result) -> list[str]:
     """One line for each case of this file that failed."""
     return [f"{result.job.name}: {reason}" for reason in result.reasons or ["see its output"]]
 
@@ -370,9 +370,9 @@ def tell(result: Result, quiet: bool) -> None:
         print("\n".join(f"     {reason}" for reason in result.reasons), result.output, sep="\n", flush=True)
 
 
-def second_tries(results: Dict[Path, Result], scratch: Path, quiet: bool) -> List[str]:
+def second_tries(results: dict[Path, Result], scratch: Path, quiet: bool) -> list[str]:
     """Runs the few files that failed again and puts what comes of it into ``results``; one line for each case that was unsteady."""
-    unsteady: List[str] = []
+    unsteady: list[str] = []
     broken = [result for result in results.values() if result.failed]
     for first in broken if len(broken) <= SECOND_TRIES else []:
         last = first
@@ -425,7 +425,7 @@ def main() -> int:
         coverage_of_tests.install()
         os.environ.update(coverage_of_tests.environment(scratch / "coverage"))
     start = time.monotonic()
-    results: Dict[Path, Result] = {}
+    results: dict[Path, Result] = {}
     for result in run_all(jobs, options.jobs, scratch):
         results[result.job.path] = result
         tell(result, options.quiet)

@@ -48,20 +48,20 @@ def sections():
     return found
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def known():
     """Every name that apt knows."""
     return frozenset(subprocess.run(["apt-cache", "pkgnames"], capture_output=True, text=True, check=True, timeout=120).stdout.split())
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def owner(pattern):
     """The Debian package that has a file of this name here, None where none is installed."""
     said = subprocess.run(["dpkg", "-S", pattern], capture_output=True, text=True, timeout=120).stdout
     return said.partition(":")[0] or None
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def brought(*names):
     """What apt installs for the sections ``names``, without recommendations: names, virtual ones among them."""
     wanted = [package for name in names for package in sections()[name]]
@@ -71,7 +71,7 @@ def brought(*names):
     return frozenset(word.strip("<>") for word in re.findall(r"^\s*\|?(?:Depends: |PreDepends: |)(\S+)$", said, re.M))
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def rules():
     """rosdep key -> Debian packages."""
     found = {}
@@ -82,7 +82,7 @@ def rules():
     return found
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def workspace():
     packages = pytest.importorskip("catkin_pkg.packages")
     return {package.name: (package, ROOT / "src" / path) for path, package in packages.find_packages(str(ROOT / "src")).items()}

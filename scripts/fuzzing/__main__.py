@@ -10,7 +10,6 @@ import sys
 import tempfile
 import zlib
 from pathlib import Path
-from typing import Dict, List, Optional, Tuple
 
 from fuzzing.findings import ROOT, Finding
 from fuzzing.kinds import Kind, all_kinds, kind_of_file
@@ -44,7 +43,7 @@ def main() -> int:
         shutil.rmtree(scratch, ignore_errors=True)
 
 
-def _options(kinds: List[str]) -> argparse.Namespace:
+def _options(kinds: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="scripts/fuzz",
         epilog="What a kind is and what counts as found: docs/fuzzing.md",
@@ -75,14 +74,14 @@ class Run:
 
     def __init__(self, options: argparse.Namespace, scratch: Path, here: str):
         self._options, self._scratch, self._here = options, scratch, here
-        self._found: Dict[Tuple[str, str], Tuple[Finding, int]] = {}
+        self._found: dict[tuple[str, str], tuple[Finding, int]] = {}
 
     def kind(self, kind: Kind) -> None:
         print(f"{kind.name}: {self._options.cases} cases, seed {self._options.seed} ...", flush=True)
         kind.prepare()
         clock, new = Clock(), []  # type: Clock, List[Tuple[Job, Finding]]
 
-        def report(job: Job, finding: Optional[Finding]) -> bool:
+        def report(job: Job, finding: Finding | None) -> bool:
             clock.cases += 1
             if finding is not None:
                 known, count = self._found.get(finding.key, (finding, 0))
@@ -126,7 +125,7 @@ class Run:
         return 1 if self._found else 0
 
 
-def _replay(kinds: Dict[str, Kind], options: argparse.Namespace, scratch: Path) -> int:
+def _replay(kinds: dict[str, Kind], options: argparse.Namespace, scratch: Path) -> int:
     worst = 0
     prepared = set()
     for path in options.files:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 import traceback
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Callable, Optional, Tuple, Type
 
 ROOT = Path(__file__).resolve().parents[2]
 _LONGEST_MESSAGE = 1500  # characters: the reason, a path, and at most one shortened line of the input
@@ -21,7 +21,7 @@ class Finding:
     detail: str = ""
 
     @property
-    def key(self) -> Tuple[str, str]:
+    def key(self) -> tuple[str, str]:
         """Without line numbers, so that the same fault keeps its name while the file around it is edited."""
         return self.what, re.sub(r":\d+", "", self.place)
 
@@ -42,7 +42,7 @@ class Found(Exception):
         self.finding = Finding(what, place, shortened(detail))
 
     @classmethod
-    def of(cls, finding: Finding) -> "Found":
+    def of(cls, finding: Finding) -> Found:
         return cls(finding.what, finding.place, finding.detail)
 
 
@@ -85,7 +85,7 @@ def of_output(output: str) -> Finding:
     return Finding("output on the terminal", first, shortened(" | ".join(lines)))
 
 
-def refused(call: Callable, *declared: Type[BaseException]) -> Tuple[object, Optional[BaseException]]:
+def refused(call: Callable, *declared: type[BaseException]) -> tuple[object, BaseException | None]:
     """``call()``'s value, or the declared error that it refused with, whose message must be one short line."""
     try:
         return call(), None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from typing import Optional
 
 from fuzzing.findings import Finding
 from fuzzing.kinds import Kind
@@ -32,5 +31,5 @@ def minimised(kind: Kind, pool: Pool, case: bytes, finding: Finding, seconds: fl
     return case
 
 
-def _same(found: Optional[Finding], wanted: Finding) -> bool:
+def _same(found: Finding | None, wanted: Finding) -> bool:
     return found is not None and found.key == wanted.key

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import subprocess
 from pathlib import Path
-from typing import Optional
 
 from fuzzing import seeds
 from fuzzing.findings import Found
@@ -37,7 +36,7 @@ class MoveGroup(Server):
         rospy.set_param("/move_group/capabilities", "move_group/TfPublisher move_group/MoveGroupExecuteService")
         rospy.set_param("/joint_state_publisher/source_list", ["move_group/fake_controller_joint_states"])
         rospy.init_node("fuzz", disable_signals=True, anonymous=True)
-        self._states: Optional[subprocess.Popen] = None
+        self._states: subprocess.Popen | None = None
         self.restart()
 
     def restart(self) -> None:

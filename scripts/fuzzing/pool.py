@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import multiprocessing.connection
 import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Callable, Dict, Iterator, List, Optional
 
 from fuzzing.findings import Finding
 from fuzzing.kinds import Kind
@@ -20,10 +20,10 @@ class Pool:
 
     def __init__(self, kind: Kind, seed: int, folder: Path, jobs: int):
         self._kind, self._seed, self._folder = kind, seed, folder
-        self._workers: List[Optional[Worker]] = [None] * jobs
+        self._workers: list[Worker | None] = [None] * jobs
         self._failed_starts = 0
 
-    def __enter__(self) -> "Pool":
+    def __enter__(self) -> Pool:
         return self
 
     def __exit__(self, *_) -> None:
@@ -34,9 +34,9 @@ class Pool:
                 else:
                     worker.end()
 
-    def run(self, jobs: Iterator[Job], report: Callable[[Job, Optional[Finding]], bool]) -> None:
+    def run(self, jobs: Iterator[Job], report: Callable[[Job, Finding | None], bool]) -> None:
         """All ``jobs``; ``report`` is told of each, None where nothing is wrong, and says whether to go on."""
-        pending: Optional[Job] = next(jobs, None)
+        pending: Job | None = next(jobs, None)
         going = True
         while True:
             for slot, worker in enumerate(self._workers):
@@ -49,7 +49,7 @@ class Pool:
                 if worker.ready and worker.job is None:
                     worker.give(pending)
                     pending = next(jobs, None)
-            busy: Dict[object, Worker] = {w.connection: w for w in self._workers if w and (w.job is not None or not w.ready)}
+            busy: dict[object, Worker] = {w.connection: w for w in self._workers if w and (w.job is not None or not w.ready)}
             if not any(w.job is not None for w in busy.values()) and (pending is None or not going):
                 return
             for connection in multiprocessing.connection.wait(list(busy), timeout=_POLL):
@@ -58,9 +58,9 @@ class Pool:
                 if not worker.connection.closed and worker.over_time() and not worker.connection.poll():
                     going &= self._ended(worker, worker.hung(), report)
 
-    def one(self, case: bytes) -> Optional[Finding]:
+    def one(self, case: bytes) -> Finding | None:
         """What is found in one case."""
-        answer: List[Optional[Finding]] = []
+        answer: list[Finding | None] = []
         self.run(iter([case]), lambda job, finding: answer.append(finding) or True)
         return answer[0]
 

@@ -10,7 +10,7 @@ import signal
 import sys
 import time
 from pathlib import Path
-from typing import Dict, List, NamedTuple, Tuple
+from typing import NamedTuple
 
 from fuzzing import ros
 from fuzzing.worker import end_with_parent
@@ -41,7 +41,7 @@ class Ended(NamedTuple):
     hung: bool
 
 
-def run(script: Path, arguments: List[str], master: str) -> Ended:
+def run(script: Path, arguments: list[str], master: str) -> Ended:
     """:param master: URI of the ROS master that the program is to use, if it uses one."""
     sys.stdout.flush()
     pid = os.fork()
@@ -51,7 +51,7 @@ def run(script: Path, arguments: List[str], master: str) -> Ended:
     return Ended(code, Path("out.txt").read_text(errors="replace"), Path("err.txt").read_text(errors="replace"), interrupted, hung)
 
 
-def _become(script: Path, arguments: List[str], master: str) -> None:
+def _become(script: Path, arguments: list[str], master: str) -> None:
     code = 1
     try:
         end_with_parent()
@@ -81,7 +81,7 @@ def _become(script: Path, arguments: List[str], master: str) -> None:
         os._exit(code)
 
 
-def _awaited(pid: int) -> Tuple[int, bool, bool]:
+def _awaited(pid: int) -> tuple[int, bool, bool]:
     """(exit code, interrupted, hung)."""
     for patience, number in ((_RUNS, signal.SIGINT), (_ENDS, signal.SIGUSR1), (0.5, signal.SIGKILL), (60.0, signal.SIGKILL)):
         end = time.monotonic() + patience
@@ -97,7 +97,7 @@ def _awaited(pid: int) -> Tuple[int, bool, bool]:
 # ---------------------------------------------------------------------------------------------- what they talk to
 
 
-def start_masters(folder: Path, number: int) -> Tuple[str, str]:
+def start_masters(folder: Path, number: int) -> tuple[str, str]:
     """Two ROS masters in a process of their own: one alone, one with a double of the simulator and of a controller manager.
 
     :return: their URIs.
@@ -124,7 +124,7 @@ def start_masters(folder: Path, number: int) -> Tuple[str, str]:
     return uris
 
 
-def _serve(ports: Tuple[int, int]) -> None:
+def _serve(ports: tuple[int, int]) -> None:
     import gazebo_msgs.srv
     import rospy
     from controller_manager_tests import ControllerManagerDummy
@@ -154,7 +154,7 @@ def _answer(service: type) -> object:
     return answer
 
 
-def script_of(package: str, name: str, packages: Dict[str, str]) -> Path:
+def script_of(package: str, name: str, packages: dict[str, str]) -> Path:
     """A node script in its package's folder."""
     folder = Path(packages[package])
     return next(path for path in (folder / "scripts" / name, folder / name) if path.is_file())

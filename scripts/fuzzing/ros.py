@@ -7,7 +7,6 @@ import os
 import re
 import socket
 from pathlib import Path
-from typing import List
 
 from fuzzing.findings import Found, check_message
 
@@ -41,7 +40,7 @@ def start_master(folder: Path, number: int) -> None:
     master_of_this_process.append(master)
 
 
-master_of_this_process: List[object] = []  # its threads end with it
+master_of_this_process: list[object] = []  # its threads end with it
 
 
 class Log(logging.Handler):
@@ -49,7 +48,7 @@ class Log(logging.Handler):
 
     def __init__(self):
         super().__init__(logging.WARNING)
-        self.lines: List[str] = []
+        self.lines: list[str] = []
         logging.getLogger("rosout").addHandler(self)
 
     def emit(self, record: logging.LogRecord) -> None:

@@ -7,27 +7,26 @@ import functools
 import io
 import os
 from pathlib import Path
-from typing import Dict, List, Optional
 
 from fuzzing.findings import ROOT
 
 _NOT_SEEDS = ("/test_launches/", "/.venv/")
 
 
-@functools.lru_cache(maxsize=None)
-def files(*suffixes: str) -> List[Path]:
+@functools.cache
+def files(*suffixes: str) -> list[Path]:
     """Below src/, by name."""
     found = [path for path in sorted((ROOT / "src").rglob("*")) if path.suffix.lower() in suffixes and path.is_file()]
     return [path for path in found if not any(part in str(path) for part in _NOT_SEEDS)]
 
 
-@functools.lru_cache(maxsize=None)
-def packages() -> Dict[str, str]:
+@functools.cache
+def packages() -> dict[str, str]:
     """Folder of each package of the workspace."""
     return {manifest.parent.name: str(manifest.parent) for manifest in sorted((ROOT / "src").rglob("package.xml"))}
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def finder():
     from ode_sim.description import ResourceFinder
 
@@ -35,10 +34,10 @@ def finder():
     return ResourceFinder([f"{stock}/models"], [stock], lambda name: packages().get(name))
 
 
-@functools.lru_cache(maxsize=None)
-def robots() -> Dict[str, bytes]:
+@functools.cache
+def robots() -> dict[str, bytes]:
     """URDF by file name: plain files, and xacro files expanded where they expand without arguments."""
-    texts: Dict[str, bytes] = {}
+    texts: dict[str, bytes] = {}
     for path in sorted(files(".urdf"), key=lambda path: "/labs/" not in str(path)):  # the labs' keep their plain names
         _add(texts, path, path.name, path.read_bytes())
     for path in files(".xacro"):
@@ -48,12 +47,12 @@ def robots() -> Dict[str, bytes]:
     return texts
 
 
-def _add(texts: Dict[str, bytes], path: Path, name: str, text: bytes) -> None:
+def _add(texts: dict[str, bytes], path: Path, name: str, text: bytes) -> None:
     """By its name, or by one that says where it is when there are two."""
     texts[name if name not in texts else f"{path.parents[1].name}_{name}"] = text
 
 
-def expanded(path: Path) -> Optional[bytes]:
+def expanded(path: Path) -> bytes | None:
     """A xacro file as URDF, None if it is only a part of one."""
     import xacro
 
@@ -64,18 +63,18 @@ def expanded(path: Path) -> Optional[bytes]:
             return None
 
 
-@functools.lru_cache(maxsize=None)
-def models() -> Dict[str, bytes]:
+@functools.cache
+def models() -> dict[str, bytes]:
     """SDF by file name; a model directory's by the directory's."""
-    texts: Dict[str, bytes] = {}
+    texts: dict[str, bytes] = {}
     for path in files(".sdf"):
         _add(texts, path, path.parent.name + ".sdf" if path.name == "model.sdf" else path.name, path.read_bytes())
     return texts
 
 
-@functools.lru_cache(maxsize=None)
-def worlds() -> Dict[str, bytes]:
-    texts: Dict[str, bytes] = {}
+@functools.cache
+def worlds() -> dict[str, bytes]:
+    texts: dict[str, bytes] = {}
     for path in files(".world"):
         _add(texts, path, path.name, path.read_bytes())
     return texts

@@ -12,13 +12,13 @@ import tempfile
 import threading
 import time
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any
 
 from fuzzing import ros, seeds
 from fuzzing.findings import Found
 from fuzzing.worker import end_with_parent
 
-Target = Tuple[str, str, str]  # "service" or "topic", name, type
+Target = tuple[str, str, str]  # "service" or "topic", name, type
 _CONTROLLERS = {
     "/arm": ["joint_state_controller", *(f"joint{i}_position_controller" for i in range(4))],
     "": ["joint_state_controller", "arm_controller"],
@@ -35,7 +35,7 @@ _PARAMETERS = {
 _SOLVER = dict(sor_pgs_iters=50, sor_pgs_w=1.3, contact_surface_layer=0.001, contact_max_correcting_vel=100.0, erp=0.2, max_contacts=20)
 
 
-def robot_texts() -> Dict[str, str]:
+def robot_texts() -> dict[str, str]:
     """URDF of the robots, by model name."""
     found = {name: seeds.expanded(Path(seeds.ROOT) / "src/labs" / file) for name, (file, _, _) in _ROBOTS.items()}
     return {name: text.decode() for name, text in found.items() if text is not None}
@@ -54,9 +54,9 @@ class Server:
         import rospy
 
         self._rospy = rospy
-        self._proxies: Dict[str, Any] = {}
-        self._publishers: Dict[str, Any] = {}
-        self._process: Optional[subprocess.Popen] = None
+        self._proxies: dict[str, Any] = {}
+        self._publishers: dict[str, Any] = {}
+        self._process: subprocess.Popen | None = None
 
     def start(self, *words: str) -> None:
         """In the place of the one that runs."""
@@ -93,7 +93,7 @@ class Server:
         """A service's answer. :raises Found: there is none in time"""
         proxy = self._proxy(name)
         request = proxy.request_class(**fields) if request is None else request
-        answer: List[Any] = []
+        answer: list[Any] = []
 
         def ask() -> None:
             try:
@@ -156,7 +156,7 @@ class Server:
             if re.match(r"\[(ERROR|FATAL|WARN)\]", line):
                 ros.check_line(re.sub(r"^\[\w+\] \[[\d., -]+\]: ", "", line))
 
-    def targets(self) -> List[Target]:
+    def targets(self) -> list[Target]:
         """Services of the server and topics that it listens to."""
         import rosservice
         import rostopic
@@ -325,7 +325,7 @@ def rospy_closed() -> type:
     return TransportException
 
 
-def listed(module: str = "fuzzing.simulation") -> List[Target]:
+def listed(module: str = "fuzzing.simulation") -> list[Target]:
     """The targets of a server that is started for this, in a process of its own."""
     out = subprocess.run([sys.executable, "-m", module], capture_output=True, text=True, timeout=180, start_new_session=True)
     if out.returncode:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Callable, Iterator
 from random import Random
-from typing import Any, Callable, Iterator, List, Tuple
+from typing import Any
 
 from fuzzing import values
 
-Path_ = Tuple[Any, ...]
+Path_ = tuple[Any, ...]
 
 
 def places(tree: Any, path: Path_ = ()) -> Iterator[Path_]:
@@ -103,7 +104,7 @@ def smaller(tree: Any) -> Iterator[Any]:
                 yield copied
 
 
-def runs(items: List[Any]) -> Iterator[List[Any]]:
+def runs(items: list[Any]) -> Iterator[list[Any]]:
     """The list without runs of its items, the long runs first."""
     size = len(items) // 2
     while size >= 1:

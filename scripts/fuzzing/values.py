@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from random import Random
-from typing import List, Sequence
 
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
@@ -33,7 +33,7 @@ URIS = [
 model://table_marble/meshes/table_lightmap.dae file:///etc/passwd file:///dev/zero package://arm_description/meshes/base_link.stl
 package://../x /dev/null /proc/self/mem http://example.org/x.dae . / \u00e4.stl""".split(),
 ]
-NUMBERS: List[float] = [float(text) for text in EXTREMES if len(text) < 100]
+NUMBERS: list[float] = [float(text) for text in EXTREMES if len(text) < 100]
 
 
 def number_text(random: Random) -> str:
@@ -104,7 +104,7 @@ def damaged(random: Random, data: bytes, times: int = 1) -> bytes:
     return bytes(result)
 
 
-def chosen(random: Random, items: Sequence, most: int) -> List:
+def chosen(random: Random, items: Sequence, most: int) -> list:
     """At most ``most`` of the items, in their order."""
     if len(items) <= most:
         return list(items)

@@ -16,13 +16,12 @@ import warnings
 from multiprocessing import Pipe
 from pathlib import Path
 from random import Random
-from typing import Optional, Union
 
 from fuzzing import findings
 from fuzzing.findings import Finding, Found
 from fuzzing.kinds import Kind
 
-Job = Union[int, bytes]  # the number of a case to make, or a case
+Job = int | bytes  # the number of a case to make, or a case
 _START_LIMIT = 120.0  # s until a new worker is ready
 _LIBC = ctypes.CDLL(None)
 _TICKS = os.sysconf("SC_CLK_TCK")
@@ -39,7 +38,7 @@ class Worker:
     def __init__(self, kind: Kind, seed: int, folder: Path, number: int):
         self.kind, self.folder = kind, folder
         self.done = 0
-        self.job: Optional[Job] = None
+        self.job: Job | None = None
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         self._output = folder.parent / f"{folder.name}.out"
@@ -158,7 +157,7 @@ def _serve(
         connection.send(finding)
 
 
-def examine(kind: Kind, case: bytes, said) -> Optional[Finding]:
+def examine(kind: Kind, case: bytes, said) -> Finding | None:
     """What is wrong with how ``case`` is taken, None if nothing."""
     try:
         kind.run(case)

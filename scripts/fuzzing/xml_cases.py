@@ -5,8 +5,8 @@ from __future__ import annotations
 import copy
 import re
 import xml.etree.ElementTree as ET
+from collections.abc import Callable, Iterator, Sequence
 from random import Random
-from typing import Callable, Dict, Iterator, List, Optional, Sequence, Tuple
 
 from fuzzing import values
 
@@ -42,16 +42,16 @@ class XmlMutator:
 
     def __init__(self, seeds: Sequence[bytes], snippets: bytes = b"<snippets/>"):
         self._roots = [ET.fromstring(seed) for seed in seeds]
-        self._snippets: Dict[str, List[ET.Element]] = {}
+        self._snippets: dict[str, list[ET.Element]] = {}
         for holder in ET.fromstring(snippets):
             self._snippets.setdefault(holder.get("tag", ""), []).extend(holder)
-        self._pool: Dict[str, List[ET.Element]] = {}
+        self._pool: dict[str, list[ET.Element]] = {}
         for root in self._roots:
             for element in root.iter():
                 if isinstance(element.tag, str) and sum(1 for _ in element.iter()) < 40:
                     self._pool.setdefault(element.tag, []).append(element)
         self._tags = sorted(self._pool)
-        self._changes: List[Tuple[int, Callable[[Random, ET.Element], None]]] = [
+        self._changes: list[tuple[int, Callable[[Random, ET.Element], None]]] = [
             (10, self._number),
             (3, self._tokens),
             (2, self._text),
@@ -116,7 +116,7 @@ class XmlMutator:
         return random.choice(list(root.iter()))
 
     @staticmethod
-    def _child(random: Random, root: ET.Element) -> Optional[Tuple[ET.Element, int]]:
+    def _child(random: Random, root: ET.Element) -> tuple[ET.Element, int] | None:
         parents = [element for element in root.iter() if len(element)]
         if not parents:
             return None

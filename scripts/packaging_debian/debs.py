@@ -11,7 +11,6 @@ import tempfile
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import List, Tuple
 
 from .names import sections
 from .tree import PackagingError
@@ -46,7 +45,7 @@ class Release:
     time: int
 
     @classmethod
-    def of(cls, root: Path) -> "Release":
+    def of(cls, root: Path) -> Release:
         """Version from noetic_environment's, the commit's time and the Debian release it is built on: later ones upgrade."""
         number = re.search(r"<version>(.*?)</version>", (root / "src/tools/noetic_environment/package.xml").read_text())[1]
         seconds = int(time.time())
@@ -57,7 +56,7 @@ class Release:
         return cls(f"{number}+{stamp}~{'deb' + suite[1] if suite else 'sid'}", _output(["dpkg", "--print-architecture"]), seconds)
 
 
-def _output(command: List[str], **options) -> str:
+def _output(command: list[str], **options) -> str:
     try:
         return subprocess.run(command, capture_output=True, text=True, check=True, **options).stdout.strip()
     except subprocess.CalledProcessError as error:
@@ -66,7 +65,7 @@ def _output(command: List[str], **options) -> str:
         raise PackagingError(f"{command[0]}: {error.strerror} (package dpkg-dev?)") from None
 
 
-def _library_depends(tree: Path) -> List[str]:
+def _library_depends(tree: Path) -> list[str]:
     """Debian packages of the shared libraries that the tree's own libraries need, with versions."""
     libraries = [str(path) for path in tree.rglob("*.so*") if path.is_file() and not path.is_symlink()]
     programs = [
@@ -79,7 +78,7 @@ def _library_depends(tree: Path) -> List[str]:
     return [entry.strip() for entry in found.partition("shlibs:Depends=")[2].split(",") if entry.strip()]
 
 
-def _python_range() -> List[str]:
+def _python_range() -> list[str]:
     """The extension modules fit one minor version of Python."""
     major, minor = _output(["/usr/bin/python3", "-c", "import sys; print(*sys.version_info[:2])"]).split()
     return [f"python3 (>= {major}.{minor})", f"python3 (<< {major}.{int(minor) + 1}~)"]
@@ -94,12 +93,12 @@ def _build(
     name: str,
     release: Release,
     architecture: str,
-    depends: List[str],
+    depends: list[str],
     summary: str,
     text: str,
     copyright_text: str,
-    recommends: Tuple[str, ...] = (),
-    suggests: Tuple[str, ...] = (),
+    recommends: tuple[str, ...] = (),
+    suggests: tuple[str, ...] = (),
 ) -> Path:
     """dpkg-deb of ``folder``, which holds the package's files already."""
     (folder / "DEBIAN").mkdir(exist_ok=True)
@@ -213,7 +212,7 @@ def sign(index: Path, key: str) -> None:
     _output(["gpg", "--batch", "--yes", "--output", str(index / KEYRING), "--export", key])
 
 
-def name_only(name: str, depends: List[str], stands_for: str, release: Release) -> Path:
+def name_only(name: str, depends: list[str], stands_for: str, release: Release) -> Path:
     """A package without files that brings what an upstream name stands for."""
     folder = Path(tempfile.mkdtemp()) / name
     folder.mkdir()
@@ -229,7 +228,7 @@ def name_only(name: str, depends: List[str], stands_for: str, release: Release) 
     )
 
 
-def repository(made: List[Path], out: Path) -> Path:
+def repository(made: list[Path], out: Path) -> Path:
     """Move the packages into ``out`` and write the index there; older ones of ours in it go.
 
     :return: ``out``

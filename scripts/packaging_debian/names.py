@@ -6,7 +6,6 @@ import functools
 import re
 import subprocess
 from pathlib import Path
-from typing import Dict, List, Tuple
 
 import yaml
 
@@ -20,7 +19,7 @@ FOREIGN = re.compile(
     r"|shared_queues|domain_coordinator|mk$|test_interface_files|pybind11|ompl$|spdlog|google"
 )
 #: Metapackages: the sections of scripts/debian-packages.txt that they bring beside Debian's metapackage of that name.
-META: Dict[str, Tuple[str, ...]] = {
+META: dict[str, tuple[str, ...]] = {
     "desktop_full": ("build", "headers", "desktop", "planning", "windows"),
     "desktop": ("build", "headers", "windows"),
     "viz": ("windows",),
@@ -39,7 +38,7 @@ def debian_name(name: str) -> str:
     return "ros-noetic-" + name.lower().replace("_", "-")
 
 
-def sections(root: Path, *wanted: str) -> List[str]:
+def sections(root: Path, *wanted: str) -> list[str]:
     """Debian packages of these sections of scripts/debian-packages.txt, in its order; those with ? if this release has them."""
     packages, section, known = [], "", known_to_apt()
     for line in (root / "scripts/debian-packages.txt").read_text().splitlines():
@@ -52,16 +51,16 @@ def sections(root: Path, *wanted: str) -> List[str]:
     return packages
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def known_to_apt() -> frozenset:
     """All package names in this machine's package lists."""
     return frozenset(subprocess.run(["apt-cache", "pkgnames"], capture_output=True, text=True, check=True).stdout.split())
 
 
-def covered(root: Path) -> Dict[str, Tuple[List[str], str]]:
+def covered(root: Path) -> dict[str, tuple[list[str], str]]:
     """Debian package to make -> (what it depends on beside noetic-labs, what it stands for)."""
     known = known_to_apt()
-    made: Dict[str, Tuple[List[str], str]] = {}
+    made: dict[str, tuple[list[str], str]] = {}
     rules = yaml.safe_load(DEBIAN_RULES.read_text())
     windows = sections(root, "windows")
     for name, rule in rules.items():

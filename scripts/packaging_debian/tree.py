@@ -9,7 +9,6 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
-from typing import Dict, List
 
 #: Stands in an installed prefix that scripts/package made.
 MARK = "share/noetic_environment/package.xml"
@@ -19,7 +18,7 @@ class PackagingError(RuntimeError):
     """Packaging cannot go on; one line, what came before is on the terminal."""
 
 
-def run(command: List[str], what: str, environment: Dict[str, str] = os.environ, cwd: Path = None) -> None:
+def run(command: list[str], what: str, environment: dict[str, str] = os.environ, cwd: Path = None) -> None:
     """
     :param what: of the error message, "... failed"
     :raises PackagingError: the command ended with an error; its own output is on the terminal
@@ -62,7 +61,7 @@ def replace(prefix: Path, staged: Path) -> None:
         Path(name, "new").rename(prefix)
 
 
-def platform_packages(root: Path) -> List[Path]:
+def platform_packages(root: Path) -> list[Path]:
     """Folders of the catkin packages that are installed: all rooms but the labs."""
     return sorted(path.parent for path in (root / "src").glob("*/*/package.xml") if path.parts[-3] != "labs")
 
@@ -198,7 +197,7 @@ _NOT_INSTALLED = {"test", "core", "bindings", "stand_in", "osmesa", "env-hooks",
 _COMPILED = {".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".proto"}
 
 
-def not_installed(sources: Path, tree: Path) -> List[str]:
+def not_installed(sources: Path, tree: Path) -> list[str]:
     """Files that a package's install rules forgot: modules, programs, messages and whatever is read at run time."""
     missing = []
     for package in platform_packages(sources):

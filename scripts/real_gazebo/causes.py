@@ -6,7 +6,6 @@ The tests expect exactly these to fail (strictly), so that whoever mends one has
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Tuple
 
 
 @dataclass(frozen=True)
@@ -16,10 +15,10 @@ class Cause:
     solver: str
     scene: str
     why: str
-    quantities: Tuple[str, ...] = ()
+    quantities: tuple[str, ...] = ()
 
 
-def of(solver: str, why: str, *rows) -> Tuple[Cause, ...]:
+def of(solver: str, why: str, *rows) -> tuple[Cause, ...]:
     """:param rows: names of scenes, or (scene, quantity, ...)."""
     return tuple(Cause(solver, row, why) if isinstance(row, str) else Cause(solver, row[0], why, tuple(row[1:])) for row in rows)
 
@@ -67,7 +66,7 @@ BOTH = (
     (WORLD_AXIS, *((scene, *AXIS_ROWS) for scene in ("sdf_13", "sdf_14", "sdf_16_parent_model_frame"))),
     (STATE, ("state", *STATE_ROWS)),
 )
-CAUSES: Tuple[Cause, ...] = (
+CAUSES: tuple[Cause, ...] = (
     *(cause for solver in ("gazebo", "default") for why, *rows in BOTH for cause in of(solver, why, *rows)),
     *of(
         "gazebo",
@@ -89,7 +88,7 @@ CAUSES: Tuple[Cause, ...] = (
 )
 
 # Not yet run beside real Gazebo: neither the tests nor a cause say anything of them.
-NOT_COMPARED: Tuple[str, ...] = ("car_turns",)
+NOT_COMPARED: tuple[str, ...] = ("car_turns",)
 
 
 def cause_of(solver: str, scene: str, quantity: str) -> str:

@@ -8,7 +8,7 @@ import shutil
 import socket
 import subprocess
 import tempfile
-from typing import Iterable, List
+from collections.abc import Iterable
 
 from real_gazebo.records import path_of
 from real_gazebo.scene import Scene
@@ -67,7 +67,7 @@ def build_recorder(folder: str) -> None:
     _run(["chroot", folder, "sh", "/truth/build_recorder.sh", "/truth", "/truth"])
 
 
-def _run(command: List[str]) -> None:
+def _run(command: list[str]) -> None:
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode:
         raise ChrootError(f"{' '.join(command[:4])} ...: {done.stdout.strip().splitlines()[-1] if done.stdout.strip() else 'failed'}")
@@ -150,7 +150,7 @@ def save(scene: Scene, rows: str) -> None:
         file.write(f"# {scene.digest()} {scene.name}: real Gazebo Classic 11.1.0, Debian 11\n{rows}".encode())
 
 
-def record_all(scenes: Iterable[Scene], folder: str, tell=print) -> List[str]:
+def record_all(scenes: Iterable[Scene], folder: str, tell=print) -> list[str]:
     """Record scenes one after the other; gives the names of those that failed."""
     failed = []
     for scene in scenes:

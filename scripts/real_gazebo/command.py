@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from typing import List
 
 from real_gazebo import chroot
 from real_gazebo.records import Record, path_of
@@ -11,7 +10,7 @@ from real_gazebo.scene import Scene
 from real_gazebo.scenes import SCENES
 
 
-def chosen(names: List[str]) -> List[Scene]:
+def chosen(names: list[str]) -> list[Scene]:
     """Scenes of these names, families or beginnings of names; all where there are none."""
     if not names:
         return list(SCENES)
@@ -25,7 +24,7 @@ def has_record(scene: Scene) -> bool:
     return os.path.exists(path_of(scene.name)) and Record.read(path_of(scene.name)).digest == scene.digest()
 
 
-def main(words: List[str], usage: str) -> int:
+def main(words: list[str], usage: str) -> int:
     word, names = (words or ["--help"])[0], words[1:]
     try:
         if word == "list":

@@ -6,8 +6,8 @@ import glob
 import gzip
 import math
 import os
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Dict, Iterator, List, Optional, Tuple
 
 from real_gazebo.causes import cause_of
 from real_gazebo.chroot import ChrootError
@@ -22,7 +22,7 @@ class Result:
     scene: Scene
     row: Row
     real: float
-    ours: Dict[str, float]  # by solver; NaN: it could not be measured
+    ours: dict[str, float]  # by solver; NaN: it could not be measured
 
     def within(self, solver: str) -> bool:
         near, wanted = self.row.gazebo if solver == "gazebo" else self.row.default, self.wanted(solver)
@@ -36,13 +36,13 @@ class Result:
         return cause_of(solver, self.scene.name, self.row.quantity)
 
 
-def close(value: float, wanted: float, near: Tuple[float, float]) -> bool:
+def close(value: float, wanted: float, near: tuple[float, float]) -> bool:
     if math.isinf(value) or math.isinf(wanted):
         return value == wanted
     return abs(value - wanted) <= near[0] * abs(wanted) + near[1]
 
 
-def measured(row: Row, record: Optional[Record]) -> float:
+def measured(row: Row, record: Record | None) -> float:
     if record is None:
         return math.nan
     try:
@@ -59,13 +59,13 @@ def run_ours(scene: Scene, solver: str) -> Record:
     return run(scene, solver)
 
 
-def core_files() -> List[str]:
+def core_files() -> list[str]:
     import ode_sim
 
     return [ode_sim._core.__file__, *glob.glob(os.path.join(os.path.dirname(ode_sim.__file__), "**", "*.py"), recursive=True)]
 
 
-def kept_run(scene: Scene, solver: str) -> Optional[Record]:
+def kept_run(scene: Scene, solver: str) -> Record | None:
     """A run of this scene, maybe one that was kept since ode_sim was last changed; None, with a line, where none can be had."""
     path = os.path.join(KEPT, solver, f"{scene.name}-{scene.digest()}.csv.gz")
     if os.path.exists(path) and os.path.getmtime(path) > max(map(os.path.getmtime, core_files())):
@@ -88,7 +88,7 @@ def compare(scene: Scene) -> Iterator[Result]:
         yield Result(scene, row, measured(row, real), {solver: measured(row, record) for solver, record in runs.items()})
 
 
-def number(value: Optional[float]) -> str:
+def number(value: float | None) -> str:
     if value is None:
         return ""
     if math.isinf(value):

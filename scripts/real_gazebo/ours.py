@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import tempfile
-from typing import List
 
 import numpy as np
 import ode_sim
@@ -69,7 +68,7 @@ class Run:
             if deed.start - 1e-9 <= t < deed.end - 1e-9:
                 self._lasting_deed(deed, [float(v) for v in deed.value.split()])
 
-    def _lasting_deed(self, deed: Deed, v: List[float]) -> None:
+    def _lasting_deed(self, deed: Deed, v: list[float]) -> None:
         if deed.kind == "push":
             self.world.find_link(deed.on).add_force(tuple(v))
         elif deed.kind == "torque":

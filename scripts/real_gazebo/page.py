@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import multiprocessing
 import os
-from typing import Dict, List, Tuple
 
 from real_gazebo.compare import Result, compare, measured, number, told
 from real_gazebo.records import Record, path_of
@@ -63,7 +62,7 @@ def error(result: Result) -> str:
     return f"{number(result.real - law)}; {number(default - law)}"
 
 
-def section(scene: Scene, results: List[Result]) -> List[str]:
+def section(scene: Scene, results: list[Result]) -> list[str]:
     lines = [
         f"### {scene.name}",
         "",
@@ -83,23 +82,23 @@ def section(scene: Scene, results: List[Result]) -> List[str]:
     return lines + [""] + [f"* {cause}" for cause in causes] + ([""] if causes else [])
 
 
-def real_section(scene: Scene) -> List[str]:
+def real_section(scene: Scene) -> list[str]:
     record = Record.read(path_of(scene.name))
     values = "; ".join(f"{row.quantity} {number(measured(row, record))}" for row in scene.rows)
     return [f"* `{scene.name}`: {scene.what}. {values}."]
 
 
-def values_of(name: str) -> List[Tuple[float, Dict[str, float]]]:
+def values_of(name: str) -> list[tuple[float, dict[str, float]]]:
     """Of each row of a scene: real Gazebo's and ours."""
     return [(result.real, result.ours) for result in compare(next(scene for scene in SCENES if scene.name == name))]
 
 
 def write(tell=print) -> str:
     """Run all scenes that have a record, on all processors; gives one line of what was written."""
-    families: Dict[str, List[str]] = {}
+    families: dict[str, list[str]] = {}
     counts = {solver: [0, 0] for solver in ("gazebo", "default")}
     scenes = [scene for scene in SCENES if os.path.exists(path_of(scene.name))]
-    alone: List[Scene] = []
+    alone: list[Scene] = []
     with multiprocessing.Pool() as pool:
         for scene, values in zip(scenes, pool.imap(values_of, [scene.name for scene in scenes])):
             results = [Result(scene, row, *of_row) for row, of_row in zip(scene.rows, values)]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import gzip
 import math
 import os
-from typing import Dict, List
 
 import numpy as np
 
@@ -17,7 +16,7 @@ def path_of(scene: str) -> str:
     return os.path.join(FOLDER, scene + ".csv.gz")
 
 
-def _upright(words: List[str], start: int) -> List[str]:
+def _upright(words: list[str], start: int) -> list[str]:
     """The quaternion x y z w that begins there with w not negative: q and -q are the same turn."""
     if float(words[start + 3]) >= 0:
         return words
@@ -28,10 +27,10 @@ class Record:
     """Rows as `recorder.cc` writes them: KIND:NAME,TIME,VALUES...; time is that since the start, resets or not."""
 
     def __init__(self, lines) -> None:
-        self.series: Dict[str, np.ndarray] = {}
-        self.words: Dict[str, List[List[str]]] = {}  # is_model, is_link, is_collision, is_joint
+        self.series: dict[str, np.ndarray] = {}
+        self.words: dict[str, list[list[str]]] = {}  # is_model, is_link, is_collision, is_joint
         self.digest = ""
-        rows: Dict[str, List[List[float]]] = {}
+        rows: dict[str, list[list[float]]] = {}
         self.lines = list(lines)
         for line in self.lines:
             name, *values = line.strip().split(",")
@@ -50,7 +49,7 @@ class Record:
                 self.words[name] = [[f"{x:.9g}" for x in v] for v in values]
 
     @classmethod
-    def read(cls, path: str) -> "Record":
+    def read(cls, path: str) -> Record:
         with gzip.open(path, "rt") if path.endswith(".gz") else open(path, encoding="utf-8") as file:
             return cls(file)
 
@@ -134,7 +133,7 @@ class Record:
             return float(rows[-1, 1 + component])
         return float(np.interp(time, rows[:, 1], rows[:, 1 + component]))
 
-    def last(self, beginning: str) -> List[float]:
+    def last(self, beginning: str) -> list[float]:
         """The last row of the first name that begins so, time first; also where rows are of different lengths."""
         rows = next(rows for named in (self.series, self.words) for name, rows in named.items() if name.startswith(beginning))
         return [float(value) for value in rows[-1]]
@@ -151,7 +150,7 @@ class Record:
 
     # ------------------------------------------------------------------------------------------------ what was made of the file
 
-    def names(self, kind: str) -> List[str]:
+    def names(self, kind: str) -> list[str]:
         """Names of all models, links, collisions or joints at the start, sorted."""
         return sorted(n.split(":", 1)[1] for n in self.words if n.startswith(f"is_{kind}:"))
 

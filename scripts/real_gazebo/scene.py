@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Callable, Dict, List, Optional, Tuple
 
 REST = "0 0 0 0 0 0"
 
@@ -22,9 +22,9 @@ class Row:
 
     quantity: str
     measure: Callable
-    law: Optional[float] = None
-    gazebo: Tuple[float, float] = (1e-4, 1e-5)
-    default: Tuple[float, float] = (1e-3, 1e-4)
+    law: float | None = None
+    gazebo: tuple[float, float] = (1e-4, 1e-5)
+    default: tuple[float, float] = (1e-3, 1e-4)
 
 
 @dataclass(frozen=True)
@@ -50,11 +50,11 @@ class Scene:
     what: str
     law: str
     world: str
-    rows: Tuple[Row, ...]
+    rows: tuple[Row, ...]
     seconds: float = 1.0
     every: float = 0.01
-    deeds: Tuple[Deed, ...] = ()
-    files: Dict[str, object] = field(default_factory=dict)
+    deeds: tuple[Deed, ...] = ()
+    files: dict[str, object] = field(default_factory=dict)
     contacts: bool = False
     wrenches: bool = False
     links: bool = False
@@ -79,7 +79,7 @@ class Scene:
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
-SCENES: List[Scene] = []
+SCENES: list[Scene] = []
 
 
 def add(scene: Scene) -> Scene:

@@ -9,7 +9,7 @@ import signal
 import subprocess
 import tempfile
 import time
-from typing import Dict, Iterator
+from collections.abc import Iterator
 
 from real_gazebo.chroot import HERE, ChrootError, free_port, write_scene
 from real_gazebo.records import Record
@@ -27,7 +27,7 @@ target_link_libraries(recorder ${GAZEBO_LIBRARIES})
 """
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def _built() -> tempfile.TemporaryDirectory:
     folder = tempfile.TemporaryDirectory(prefix="recorder")
     with open(os.path.join(folder.name, "CMakeLists.txt"), "w", encoding="utf-8") as file:
@@ -46,7 +46,7 @@ def recorder() -> str:
 
 
 @contextlib.contextmanager
-def master(home: str) -> Iterator[Dict[str, str]]:
+def master(home: str) -> Iterator[dict[str, str]]:
     """A ROS master of its own; gives the environment of a server that finds it and the recorder."""
     ros = free_port()
     environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{ros}", ROS_HOME=home, GAZEBO_PLUGIN_PATH=recorder())

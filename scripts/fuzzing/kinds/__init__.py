@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import abc
+from collections.abc import Iterator
 from pathlib import Path
 from random import Random
-from typing import Dict, Iterator, List, Optional
+from typing import Optional
 
 
 class Kind(abc.ABC):
@@ -49,7 +50,7 @@ class Kind(abc.ABC):
         """Simpler cases, the boldest first."""
 
 
-def all_kinds() -> Dict[str, Kind]:
+def all_kinds() -> dict[str, Kind]:
     """By name, in the order of a run."""
     from fuzzing.kinds.api_calls import ApiKind
     from fuzzing.kinds.controllers import ControllerKind
@@ -60,7 +61,7 @@ def all_kinds() -> Dict[str, Kind]:
     from fuzzing.kinds.plans import PlanKind
     from fuzzing.kinds.xacros import XacroKind
 
-    kinds: List[Kind] = [
+    kinds: list[Kind] = [
         UrdfKind(),
         XacroKind(),
         SdfKind(),
@@ -76,7 +77,7 @@ def all_kinds() -> Dict[str, Kind]:
     return {kind.name: kind for kind in kinds}
 
 
-def kind_of_file(path: Path) -> Optional[str]:
+def kind_of_file(path: Path) -> str | None:
     """What a file to replay is, by its name and, where that does not tell, by what is in it."""
     known = {".urdf": "urdf", ".xacro": "xacro", ".sdf": "sdf", ".world": "world", ".mesh": "mesh", ".launchargs": "launch"}
     if path.suffix in known:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Iterator
 from random import Random
-from typing import Callable, Dict, Iterator, List
 
 from fuzzing import seeds, tree_cases, values, worlds
 from fuzzing.findings import refused
@@ -57,12 +57,12 @@ class Scene:
         self.world = ode_sim.World.load(GROUND, finder=seeds.finder())
         self.spawn("robot", ode_sim.Pose((0.0, 0.0, 0.3)))
         self.spawned, self.snapshots, self.held, self.views = 0, [], [], []
-        self.gone: List[object] = []
+        self.gone: list[object] = []
 
     def spawn(self, name: str, pose) -> None:
         getattr(self.world, self.spawn_call)(self.text, name=name, pose=pose)
 
-    def models(self, i: int) -> List[object]:
+    def models(self, i: int) -> list[object]:
         """What a call chooses from: seldom the ground."""
         return [model for name, model in self.world.models.items() if name != "ground" or i % 7 == 0]
 
@@ -87,25 +87,25 @@ def _chosen(items: list, i: int):
     return items[i % len(items)] if items else None
 
 
-def _respawn(s: Scene, a: int, v: List[float], b: int) -> None:
+def _respawn(s: Scene, a: int, v: list[float], b: int) -> None:
     if "robot" in s.world.models:
         s.world.remove("robot")
     s.spawn("robot", s.pose(v))
 
 
-def _spawn(s: Scene, a: int, v: List[float], b: int) -> None:
+def _spawn(s: Scene, a: int, v: list[float], b: int) -> None:
     if len(s.world.models) < 8:
         s.spawned += 1
         s.spawn(f"robot_{s.spawned}" if a % 9 else "robot", s.pose(v))
 
 
-def _remove(s: Scene, a: int, v: List[float], b: int) -> None:
+def _remove(s: Scene, a: int, v: list[float], b: int) -> None:
     model = s.model(b)
     model.remove()
     s.gone.append(model)
 
 
-def _inertial(s: Scene, a: int, v: List[float], b: int) -> None:
+def _inertial(s: Scene, a: int, v: list[float], b: int) -> None:
     from ode_sim.description.model import Inertial
 
     tensor = tuple(v[4:10]) if any(v[4:10]) else (0.1, 0.1, 0.1, 0.0, 0.0, 0.0)
@@ -113,51 +113,51 @@ def _inertial(s: Scene, a: int, v: List[float], b: int) -> None:
     s.link(b).set_inertial(Inertial(mass=v[0], pose=s.sim.Pose(tuple(v[1:4])), **fields))
 
 
-def _physics(s: Scene, a: int, v: List[float], b: int) -> None:
+def _physics(s: Scene, a: int, v: list[float], b: int) -> None:
     name = _PHYSICS[a % len(_PHYSICS)]
     setattr(s.world.physics, name, v[0])
 
 
-def _surface(s: Scene, a: int, v: List[float], b: int) -> None:
+def _surface(s: Scene, a: int, v: list[float], b: int) -> None:
     surface, name = s.collision(b).surface, _SURFACE[a % len(_SURFACE)]
     setattr(surface, name, v[0])
     if b % 5 == 0:
         surface.fdir1 = tuple(v[:3])
 
 
-def _attach(s: Scene, a: int, v: List[float], b: int) -> None:
+def _attach(s: Scene, a: int, v: list[float], b: int) -> None:
     s.held.append(s.world.attach(None if a % 4 == 0 else s.link(a), s.link(b)))
 
 
-def _hold(s: Scene, a: int, v: List[float], b: int) -> None:
+def _hold(s: Scene, a: int, v: list[float], b: int) -> None:
     if s.held:  # RuntimeError: what has let go cannot be held elsewhere
         refused(lambda: setattr(s.held[a % len(s.held)], "pose", s.pose(v)), RuntimeError, *_DECLARED)
 
 
-def _restore(s: Scene, a: int, v: List[float], b: int) -> None:
+def _restore(s: Scene, a: int, v: list[float], b: int) -> None:
     if s.snapshots:
         s.world.restore(s.snapshots[a % len(s.snapshots)])
 
 
-def _rays(s: Scene, a: int, v: List[float], b: int) -> None:
+def _rays(s: Scene, a: int, v: list[float], b: int) -> None:
     s.world.cast_rays([v[:3]] * 4, [v[3:6], v[6:9], (1.0, 0.0, 0.0), (0.0, 0.0, -1.0)], v[9] if a % 2 else 10.0, [s.collision(b)])
 
 
-def _feedback(s: Scene, a: int, v: List[float], b: int) -> None:
+def _feedback(s: Scene, a: int, v: list[float], b: int) -> None:
     s.joint(b).feedback()
 
 
-def _views(s: Scene, a: int, v: List[float], b: int) -> None:
+def _views(s: Scene, a: int, v: list[float], b: int) -> None:
     s.views.append((s.world.link_poses, s.world.joint_positions))
     for poses, positions in s.views:  # memory of before the last spawn must still be memory
         float(poses.sum() + positions.sum())
 
 
-def _gone(s: Scene, a: int, v: List[float], b: int) -> None:
+def _gone(s: Scene, a: int, v: list[float], b: int) -> None:
     """A handle of a removed model raises RuntimeError where it would act, and nothing worse."""
     if s.gone:
         model = s.gone[a % len(s.gone)]
-        actions: List[Callable[[], object]] = [
+        actions: list[Callable[[], object]] = [
             lambda: model.pose,
             lambda: setattr(model, "pose", s.pose(v)),
             lambda: model.set_twist(v[:3], v[3:6]),
@@ -171,7 +171,7 @@ def _axis(joint, a: int) -> int:
     return a % joint.axis_count
 
 
-CALLS: Dict[str, Callable[[Scene, int, List[float], int], object]] = {
+CALLS: dict[str, Callable[[Scene, int, list[float], int], object]] = {
     "respawn": _respawn,
     "spawn": _spawn,
     "remove": _remove,

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import threading
+from collections.abc import Iterator
 from pathlib import Path
 from random import Random
-from typing import Any, Dict, Iterator, List
+from typing import Any
 
 import yaml
 
@@ -57,7 +58,7 @@ class ControllerKind(Kind):
         import gazebo_ros_control.plugin  # noqa: F401
         import rosmaster.master  # noqa: F401
 
-        self._controllers: List[Dict[str, Any]] = []
+        self._controllers: list[dict[str, Any]] = []
         for path in seeds.files(".yaml"):
             self._controllers += _controllers_in(readable(path.read_bytes()))
         self._plugin = yaml.safe_load(_PLUGIN)
@@ -122,7 +123,7 @@ class ControllerKind(Kind):
             self._control(tree)
         self._log.check()
 
-    def _control(self, tree: Dict[str, Any]) -> None:
+    def _control(self, tree: dict[str, Any]) -> None:
         import rospy
 
         rospy.set_param("/robot_description", self._texts.get(str(tree.get("robot_description")), ""))
@@ -137,7 +138,7 @@ class ControllerKind(Kind):
         if left:
             raise Found("left behind", "topics of a controller that is not there", " ".join(left))
 
-    def _switch(self, start: List[str], stop: List[str]) -> None:
+    def _switch(self, start: list[str], stop: list[str]) -> None:
         request = threading.Thread(target=lambda: self._manager.switch_controller(start, stop), daemon=True)
         request.start()
         while request.is_alive():
@@ -164,7 +165,7 @@ class ControllerKind(Kind):
                     handle.command_position = 0.0
                 raise Found("silent NaN", f"command of a {joint.mode} joint", f"{name}: {told}")
 
-    def _simulate(self, told: Dict[str, Any]) -> None:
+    def _simulate(self, told: dict[str, Any]) -> None:
         import xml.etree.ElementTree as ET
 
         import ode_sim
@@ -227,11 +228,11 @@ class _Server:
         """There is no second plugin to be warned of."""
 
 
-def _mapping(value: Any) -> Dict[str, Any]:
+def _mapping(value: Any) -> dict[str, Any]:
     return value if isinstance(value, dict) else {}
 
 
-def _robot_text(told: Dict[str, Any]) -> str:
+def _robot_text(told: dict[str, Any]) -> str:
     from xml.sax.saxutils import escape, quoteattr
 
     joints = transmissions = ""
@@ -248,7 +249,7 @@ def _robot_text(told: Dict[str, Any]) -> str:
     return _ROBOT.format(joints=joints, transmissions=transmissions)
 
 
-def _controllers_in(tree: Any) -> List[Dict[str, Any]]:
+def _controllers_in(tree: Any) -> list[dict[str, Any]]:
     """Maps that describe a controller, at any depth."""
     if not isinstance(tree, dict):
         return []
@@ -258,7 +259,7 @@ def _controllers_in(tree: Any) -> List[Dict[str, Any]]:
     return [entry for value in tree.values() for entry in _controllers_in(value)]
 
 
-def _names_in(parameters: Any) -> List[str]:
+def _names_in(parameters: Any) -> list[str]:
     """Joints that a controller's parameters name."""
     if isinstance(parameters, str):
         return [parameters]

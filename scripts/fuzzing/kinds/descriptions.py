@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from pathlib import Path
 from random import Random
-from typing import Iterator, List
 
 from fuzzing import seeds, worlds, xml_cases
 from fuzzing.findings import Found, refused
@@ -20,7 +20,7 @@ GROUND = (
 class _XmlKind(Kind):
     snippets = "snippets_sdf.xml"
 
-    def seeds(self) -> List[bytes]:
+    def seeds(self) -> list[bytes]:
         raise NotImplementedError
 
     def load(self, text: bytes):
@@ -60,7 +60,7 @@ class WorldKind(_XmlKind):
 
     name, suffix = "world", ".world"
 
-    def seeds(self) -> List[bytes]:
+    def seeds(self) -> list[bytes]:
         return [
             *seeds.worlds().values(),
             *(b"<sdf version='1.6'><world name='w'>" + _body(text) + b"</world></sdf>" for text in seeds.models().values()),
@@ -81,7 +81,7 @@ class SdfKind(_XmlKind):
     name, suffix = "sdf", ".sdf"
     call = "spawn_sdf"
 
-    def seeds(self) -> List[bytes]:
+    def seeds(self) -> list[bytes]:
         return list(seeds.models().values())
 
     def load(self, text: bytes):
@@ -107,7 +107,7 @@ class UrdfKind(SdfKind):
     name, suffix, call = "urdf", ".urdf", "spawn_urdf"
     snippets = "snippets_urdf.xml"
 
-    def seeds(self) -> List[bytes]:
+    def seeds(self) -> list[bytes]:
         return list(seeds.robots().values())
 
 

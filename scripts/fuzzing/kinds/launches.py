@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 import re
 import shlex
+from collections.abc import Iterator
 from pathlib import Path
 from random import Random
-from typing import Any, Dict, Iterator, List
+from typing import Any
 
 import yaml
 
@@ -74,7 +75,7 @@ class LaunchKind(Kind):
             self._change(random, program, arguments)
         return _written({"program": program, "arguments": arguments})
 
-    def _change(self, random: Random, program: str, arguments: List[str]) -> None:
+    def _change(self, random: Random, program: str, arguments: list[str]) -> None:
         i = random.randint(0, len(arguments))
         change = random.randrange(6)
         if change == 0 or not arguments:
@@ -108,7 +109,7 @@ class LaunchKind(Kind):
         else:
             self._run(told["program"], told["arguments"])
 
-    def _launch(self, arguments: List[str]) -> None:
+    def _launch(self, arguments: list[str]) -> None:
         """What roslaunch makes of the arguments; then the server as it would be started."""
         import roslaunch
         import roslaunch.config
@@ -129,7 +130,7 @@ class LaunchKind(Kind):
                     return  # roslaunch itself says so
                 self._run("gzserver", line)
 
-    def _run(self, program: str, arguments: List[str]) -> None:
+    def _run(self, program: str, arguments: list[str]) -> None:
         if program == "gzserver":
             arguments = [*arguments, "--iters", "5"]
         ended = programs.run(self._scripts[program], arguments, self._alone if program == "gzserver" else self._with_doubles)
@@ -153,5 +154,5 @@ class LaunchKind(Kind):
                 ros.check_line(re.sub(r"^\[\w+\] \[[\d., -]+\]: ", "", line))
 
 
-def _written(told: Dict[str, Any]) -> bytes:
+def _written(told: dict[str, Any]) -> bytes:
     return json.dumps(told).encode()

@@ -5,9 +5,9 @@ from __future__ import annotations
 import base64
 import io
 import json
+from collections.abc import Iterator
 from pathlib import Path
 from random import Random
-from typing import Dict, Iterator, List
 
 from fuzzing import seeds, values, worlds, xml_cases
 from fuzzing.findings import check_message, refused
@@ -52,7 +52,7 @@ class MeshKind(Kind):
         import ode_sim_rendering.assets  # noqa: F401
         from PIL import Image
 
-        self._files: Dict[str, List[bytes]] = {
+        self._files: dict[str, list[bytes]] = {
             kind: [path.read_bytes() for path in seeds.files(kind) if path.stat().st_size < _LARGEST] for kind in (".stl", ".dae", ".png")
         }
         self._files[".obj"], self._files[".mtl"] = [_OBJ], [_MTL]
@@ -189,7 +189,7 @@ class MeshKind(Kind):
                 yield _with(told, {**told["files"], name: base64.b64encode(candidate).decode()})
 
 
-def _with(told: dict, files: Dict[str, str]) -> bytes:
+def _with(told: dict, files: dict[str, str]) -> bytes:
     return json.dumps({**told, "files": files}).encode()
 
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 import re
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from random import Random
-from typing import Any, Dict, Iterator, List
+from typing import Any
 
 from fuzzing import move_group, ros, seeds, simulation, tree_cases, values, xml_cases
 from fuzzing.findings import check_message
@@ -40,7 +41,7 @@ class MessageKind(Kind):
             for tag in ("link", "joint")
         }
         plain = [name.split("::")[1] for name in names["joint"]]
-        self._strings: Dict[str, List[str]] = {
+        self._strings: dict[str, list[str]] = {
             "model_name": list(texts),
             "link_name": names["link"],
             "body_name": names["link"],
@@ -75,7 +76,7 @@ class MessageKind(Kind):
             messages.append([what, name, kind, self._fields(random, _message_class(what, kind), extreme)])
         return json.dumps({"messages": messages}).encode()
 
-    def _fields(self, random: Random, kind: type, extreme: float) -> Dict[str, Any]:
+    def _fields(self, random: Random, kind: type, extreme: float) -> dict[str, Any]:
         return {name: self._value(random, name, slot, extreme) for name, slot in zip(kind.__slots__, kind._slot_types)}
 
     def _value(self, random: Random, name: str, slot: str, extreme: float) -> Any:
@@ -123,7 +124,7 @@ class MessageKind(Kind):
             self._broken = True
             raise
 
-    def _send(self, what: str, name: str, kind: str, fields: Dict[str, Any]) -> None:
+    def _send(self, what: str, name: str, kind: str, fields: dict[str, Any]) -> None:
         import genpy
         import rospy
         import rosservice
@@ -225,7 +226,7 @@ def _message_class(what: str, kind: str) -> type:
     return roslib.message.get_message_class(kind)
 
 
-def _filled(kind: type, fields: Dict[str, Any]) -> Any:
+def _filled(kind: type, fields: dict[str, Any]) -> Any:
     """A message of nested maps and lists; what is missing keeps its default."""
     message = kind()
     for name, slot in zip(kind.__slots__, kind._slot_types):

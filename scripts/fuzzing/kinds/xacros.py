@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from random import Random
-from typing import Iterator
 
 from fuzzing import programs, seeds, xml_cases
 from fuzzing.findings import Found, check_message, of_output, of_stack

@@ -4,7 +4,6 @@ hand; where that has NaN for good, what pid_law.h says. Both faces run this tabl
 
 from dataclasses import dataclass
 from math import inf, nan
-from typing import List
 
 from control_toolbox import Gains
 
@@ -15,7 +14,7 @@ class Case:
 
     why: str
     gains: Gains
-    steps: List[tuple]
+    steps: list[tuple]
 
     def __str__(self) -> str:
         return self.why

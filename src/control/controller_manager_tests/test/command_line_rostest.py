@@ -22,7 +22,7 @@ from test_support import wait_until
 INTERFACE = "hardware_interface::EffortJointInterface"
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def program(tool):
     """What rosrun starts; it takes as long to find as to run."""
     return roslib.packages.find_node("controller_manager", tool)[0]

@@ -4,9 +4,9 @@ The numbers are sums of powers of two wherever no sine is in them, so that they 
 """
 
 from math import cos, inf, nan, pi, sin, tan
-from typing import List, NamedTuple, Optional, Tuple
+from typing import NamedTuple, Optional
 
-Bounds = Optional[Tuple[float, float]]
+Bounds = tuple[float, float] | None
 
 
 class Limit(NamedTuple):
@@ -16,7 +16,7 @@ class Limit(NamedTuple):
     velocity: Bounds
     acceleration: Bounds
     jerk: Bounds
-    steps: List[Tuple[float, float, float]]
+    steps: list[tuple[float, float, float]]
 
     def __str__(self) -> str:
         return self.why
@@ -78,9 +78,9 @@ class Drive(NamedTuple):
     """
 
     why: str
-    base: Tuple
-    steps: List[Tuple]
-    expected: Tuple[float, float, float, float, float]
+    base: tuple
+    steps: list[tuple]
+    expected: tuple[float, float, float, float, float]
 
     def __str__(self) -> str:
         return self.why

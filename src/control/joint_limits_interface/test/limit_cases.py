@@ -4,7 +4,7 @@
 
 from dataclasses import dataclass
 from math import inf, nan
-from typing import List, Optional, Tuple
+from typing import Optional
 
 from joint_limits_interface import JointLimits, SoftJointLimits
 
@@ -16,8 +16,8 @@ class Case:
     why: str
     kind: str
     limits: JointLimits
-    steps: List[object]
-    soft: Optional[SoftJointLimits] = None
+    steps: list[object]
+    soft: SoftJointLimits | None = None
     warns: bool = False
 
     def __str__(self) -> str:
@@ -25,10 +25,10 @@ class Case:
 
 
 def hard(
-    position: Optional[Tuple[float, float]] = None,
-    velocity: Optional[float] = None,
-    acceleration: Optional[float] = None,
-    effort: Optional[float] = None,
+    position: tuple[float, float] | None = None,
+    velocity: float | None = None,
+    acceleration: float | None = None,
+    effort: float | None = None,
 ) -> JointLimits:
     low, high = position or (0.0, 0.0)
     return JointLimits(

@@ -4,9 +4,9 @@ joint_trajectory_controller and trajectory_interface (noetic), worked out by han
 
 from dataclasses import dataclass
 from math import inf, nan, pi
-from typing import List, Optional, Tuple
+from typing import Optional
 
-State = Tuple[float, Optional[float], Optional[float]]
+State = tuple[float, float | None, float | None]
 
 
 @dataclass
@@ -18,7 +18,7 @@ class SegmentCase:
     first: State
     end: float
     last: State
-    samples: List[Tuple[float, float, float, float]]
+    samples: list[tuple[float, float, float, float]]
 
 
 SEGMENTS = [

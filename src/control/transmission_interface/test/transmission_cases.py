@@ -1,15 +1,15 @@
 """What upstream's transmissions, parser and loader do (ros_control 0.20), as values on paper; all are sums of powers of two."""
 
 from math import inf, nan
-from typing import List, NamedTuple, Tuple
+from typing import NamedTuple
 
 
 class Gear(NamedTuple):
     """``made``: (kind, n, m, offset, crosswise). ``ways``: (way, values in, values out), or empty: it is refused."""
 
     why: str
-    made: Tuple
-    ways: List[Tuple]
+    made: tuple
+    ways: list[tuple]
 
     def __str__(self) -> str:
         return self.why

@@ -333,7 +333,7 @@ def test_a_wrong_projection_is_told_and_left_out(scene, model, projection, said)
     names = model.group("arm").variables
     result = motion.plan(scene, request(model, projection=projection.format(*names), planner="KPIECE"))
     assert result and any(said in line for line in result.warnings), (result.message, result.warnings)
-    assert not motion.plan(scene, request(model, projection="joints({0}, {1})".format(*names), planner="KPIECE")).warnings
+    assert not motion.plan(scene, request(model, projection="joints({}, {})".format(*names), planner="KPIECE")).warnings
 
 
 @pytest.mark.parametrize(

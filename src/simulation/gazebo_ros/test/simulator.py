@@ -51,7 +51,7 @@ class Simulator:
         self.namespace = namespace
         rospy.wait_for_message(namespace + "/ready", Bool)
 
-    @functools.lru_cache(maxsize=None)  # noqa: B019 there is one object of this class
+    @functools.cache  # noqa: B019 there is one object of this class
     def proxy(self, name, service):
         rospy.wait_for_service(f"{self.namespace}/{name}", 60)
         return rospy.ServiceProxy(f"{self.namespace}/{name}", service, persistent=True)

@@ -185,7 +185,7 @@ class TransportTest(test_support.TestCase):
         wire.socket.settimeout(0.1)
         try:
             return wire.socket.recv(1, socket.MSG_PEEK)
-        except socket.timeout:
+        except TimeoutError:
             return False
         finally:
             wire.socket.settimeout(60)

@@ -4,8 +4,6 @@ Their extents are those of the Gazebo model database, so that worlds that place 
 are composed of is our own. Cars stand along x with the front at +x, ambulances, buses and fire trucks along y with the front at -y.
 """
 
-from typing import Dict, Tuple
-
 from pieces import Model, Shape, box, colour
 from town_shapes import (
     BLUE,
@@ -45,11 +43,11 @@ from town_shapes import (
 )
 
 
-def static(title: str, description: str, shapes: Tuple[Shape, ...], name: str = "", **more) -> Model:
+def static(title: str, description: str, shapes: tuple[Shape, ...], name: str = "", **more) -> Model:
     return Model(title, description, shapes, static=True, name=name, **more)
 
 
-TOWN: Dict[str, Model] = {
+TOWN: dict[str, Model] = {
     "pine_tree": static(
         "Pine tree", "A conifer, 5 m high.", pine(), scripts={"PineTree/Branch": (0.1, 0.3, 0.14), "PineTree/Bark": (0.32, 0.22, 0.13)}
     ),

@@ -6,7 +6,7 @@ Run after a change: ``python3 make_town_meshes.py``.
 
 import math
 from pathlib import Path
-from typing import Dict, List, NamedTuple, Tuple
+from typing import NamedTuple
 from xml.etree import ElementTree
 
 import numpy as np
@@ -20,13 +20,13 @@ class File(NamedTuple):
     """:param scale: by which worlds multiply the mesh. :param yaw, at: where they put it in the link"""
 
     name: str
-    scale: Tuple[float, float, float] = (1.0, 1.0, 1.0)
+    scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
     yaw: float = 0.0
-    at: Tuple[float, float, float] = (0.0, 0.0, 0.0)
+    at: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 QUARTER = math.pi / 2
-FILES: Dict[str, File] = {
+FILES: dict[str, File] = {
     "ambulance": File("ambulance.obj", (0.0254,) * 3),
     "bus": File("bus.obj", (0.01,) * 3),
     "drc_practice_truss": File("truss.dae"),
@@ -52,7 +52,7 @@ FILES: Dict[str, File] = {
 PARTS = {"pine_tree": ("Bark", "Branch"), "oak_tree": ("Bark", "Branch")}
 
 
-def solids(name: str) -> List[Solid]:
+def solids(name: str) -> list[Solid]:
     """The shapes that are seen, in the frame of the mesh but for its scale."""
     file = FILES.get(name, File(""))
     found = []
@@ -75,7 +75,7 @@ def solid(shape) -> Solid:
     return turned([(radius * math.cos(a), radius * math.sin(a)) for a in np.linspace(-QUARTER, QUARTER, 9)[1:-1]], colour, 16)
 
 
-def obj(pieces: List[Solid], scale, materials: str) -> Tuple[str, str]:
+def obj(pieces: list[Solid], scale, materials: str) -> tuple[str, str]:
     """An OBJ file and its materials, which it names ``materials``."""
     lines, colours, offset = [f"mtllib {materials}"], {}, 1
     for piece in pieces:
@@ -90,7 +90,7 @@ def obj(pieces: List[Solid], scale, materials: str) -> Tuple[str, str]:
     return "\n".join([*lines, ""]), "\n".join([*described, ""])
 
 
-def files() -> Dict[str, str]:
+def files() -> dict[str, str]:
     """Name of each file below this directory -> its text."""
     texts = {}
     for name in TOWN:

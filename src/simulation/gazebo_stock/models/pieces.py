@@ -1,7 +1,6 @@
 """What the stock models are made of: elements of SDF, shapes, a model of one link, and its files."""
 
 from dataclasses import dataclass, field
-from typing import Dict, Optional, Tuple
 from xml.sax.saxutils import escape
 
 from make_meshes import SCALES
@@ -66,7 +65,7 @@ class Shape:
 
     name: str
     geometry: str
-    pose: Tuple[float, ...] = ()
+    pose: tuple[float, ...] = ()
     material: str = ""
     surface: str = ""
     collides: bool = True
@@ -79,19 +78,19 @@ class Model:
 
     title: str
     description: str
-    shapes: Tuple[Shape, ...]
+    shapes: tuple[Shape, ...]
     static: bool = False
-    mass: Optional[float] = None  # kg; None: what SDF takes when nothing is said, 1 kg and unit inertia
-    inertia: Tuple[float, float, float] = (1.0, 1.0, 1.0)  # kg m^2, the principal ones
-    com: Tuple[float, float, float] = (0.0, 0.0, 0.0)
+    mass: float | None = None  # kg; None: what SDF takes when nothing is said, 1 kg and unit inertia
+    inertia: tuple[float, float, float] = (1.0, 1.0, 1.0)  # kg m^2, the principal ones
+    com: tuple[float, float, float] = (0.0, 0.0, 0.0)
     name: str = ""  # of the model in the world; '': as the directory
     link: str = "link"
-    pose: Tuple[float, ...] = ()
-    link_pose: Tuple[float, ...] = ()
+    pose: tuple[float, ...] = ()
+    link_pose: tuple[float, ...] = ()
     mesh: str = ""  # file below meshes/ that is seen
-    mesh_pose: Tuple[float, ...] = ()
+    mesh_pose: tuple[float, ...] = ()
     extra: str = ""  # sensors
-    scripts: Dict[str, Tuple[float, float, float]] = field(default_factory=dict)  # OGRE materials that worlds name
+    scripts: dict[str, tuple[float, float, float]] = field(default_factory=dict)  # OGRE materials that worlds name
 
 
 def pose(values):

@@ -1,11 +1,11 @@
 """Shapes of the town's models, by kind: trees and posts, cars, buildings, small things."""
 
+from collections.abc import Iterable
 from math import atan2, hypot, pi
-from typing import Iterable, Tuple
 
 from pieces import Shape, box, colour, cylinder, sphere
 
-Point = Tuple[float, float, float]
+Point = tuple[float, float, float]
 
 BARK, LEAVES, NEEDLES = colour(0.32, 0.22, 0.13), colour(0.2, 0.4, 0.14), colour(0.1, 0.3, 0.14)
 WHITE, GREY, DARK, STEEL = colour(0.9, 0.9, 0.88), colour(0.55, 0.55, 0.55), colour(0.12, 0.12, 0.13), colour(0.5, 0.52, 0.55)
@@ -27,21 +27,21 @@ def upright(name: str, radius: float, low: float, high: float, material: str, x:
 # ---------------------------------------------------------------------------------------------- trees and posts
 
 
-def pine() -> Tuple[Shape, ...]:
+def pine() -> tuple[Shape, ...]:
     tiers = ((1.59, 1.0, 2.0), (1.3, 2.0, 2.9), (0.95, 2.9, 3.7), (0.6, 3.7, 4.4), (0.28, 4.4, 5.08))
     return (upright("bark", 0.15, 0.0, 1.0, BARK),) + tuple(
         upright(f"branch_{i}", radius, low, high, NEEDLES) for i, (radius, low, high) in enumerate(tiers)
     )
 
 
-def oak() -> Tuple[Shape, ...]:
+def oak() -> tuple[Shape, ...]:
     crown = ((2.3, 0, 0, 4.2), (1.7, -3.2, -0.4, 3.6), (1.6, 2.6, 0.6, 3.7), (1.6, 0.4, 2.3, 3.9), (1.6, -0.6, -2.4, 3.8))
     return (upright("bark", 0.35, 0.0, 3.0, BARK),) + tuple(
         Shape(f"branch_{i}", sphere(radius), (x, y, z), LEAVES) for i, (radius, x, y, z) in enumerate(crown)
     )
 
 
-def lamp() -> Tuple[Shape, ...]:
+def lamp() -> tuple[Shape, ...]:
     return (
         upright("foot", 0.24, 0.0, 0.3, STEEL),
         upright("pole", 0.09, 0.3, 9.1, STEEL),
@@ -50,14 +50,14 @@ def lamp() -> Tuple[Shape, ...]:
     )
 
 
-def telephone_pole() -> Tuple[Shape, ...]:
+def telephone_pole() -> tuple[Shape, ...]:
     return (
         Shape("pole", cylinder(0.0779, 9.144), (0, 0, 4.572), BARK),
         Shape("cross", box(2.116, 0.0418, 0.1778), (0, -0.0988, 8.0484), BARK),
     )
 
 
-def stop_light_post() -> Tuple[Shape, ...]:
+def stop_light_post() -> tuple[Shape, ...]:
     lights = tuple(
         Shape(f"light_{colour_name}", sphere(0.09), (-4.6, -0.13, z), material, collides=False)
         for colour_name, z, material in (("red", 5.75, RED), ("yellow", 5.5, YELLOW), ("green", 5.25, LEAVES))
@@ -69,7 +69,7 @@ def stop_light_post() -> Tuple[Shape, ...]:
     ) + lights
 
 
-def stop_light() -> Tuple[Shape, ...]:
+def stop_light() -> tuple[Shape, ...]:
     lights = tuple(
         Shape(name, sphere(0.1012), (-0.001, -0.0823, z), material, collides=False)
         for name, z, material in (("red", -0.1475, RED), ("yellow", -0.402, YELLOW), ("green", -0.655, LEAVES))
@@ -78,7 +78,7 @@ def stop_light() -> Tuple[Shape, ...]:
     return (block("frame", (-0.13, -0.1, -0.78), (0.13, 0.04, -0.02), DARK), *hoods, *lights)
 
 
-def speed_limit() -> Tuple[Shape, ...]:
+def speed_limit() -> tuple[Shape, ...]:
     return (
         upright("pole", 0.03, 0.0, 2.3, STEEL, y=-0.02),
         block("sign", (-0.39, -0.05, 1.4), (0.39, -0.035, 2.36), WHITE),
@@ -89,7 +89,7 @@ def speed_limit() -> Tuple[Shape, ...]:
 # ---------------------------------------------------------------------------------------------- cars
 
 
-def wheels(places: Iterable[Tuple[float, float]], radius: float, width: float, along_x: bool = True) -> Tuple[Shape, ...]:
+def wheels(places: Iterable[tuple[float, float]], radius: float, width: float, along_x: bool = True) -> tuple[Shape, ...]:
     turned = (pi / 2, 0, 0) if along_x else (0, pi / 2, 0)
     return tuple(
         Shape(f"wheel_{i}", cylinder(radius, width), (x, y, radius, *(round(angle, 6) for angle in turned)), DARK)
@@ -97,7 +97,7 @@ def wheels(places: Iterable[Tuple[float, float]], radius: float, width: float, a
     )
 
 
-def car(low: Point, high: Point, hood: float, cabin: Tuple[float, float], material: str) -> Tuple[Shape, ...]:
+def car(low: Point, high: Point, hood: float, cabin: tuple[float, float], material: str) -> tuple[Shape, ...]:
     """:param hood: z of the body's upper side. :param cabin: x of its back and front"""
     (x0, y0, _), (x1, y1, top) = low, high
     radius, half = 0.2 * top, (y1 - y0) / 2
@@ -110,17 +110,17 @@ def car(low: Point, high: Point, hood: float, cabin: Tuple[float, float], materi
     ) + wheels(places, radius, 0.3)
 
 
-def hatchback(material: str) -> Tuple[Shape, ...]:
+def hatchback(material: str) -> tuple[Shape, ...]:
     return car((-1.66, -1.07, 0), (2.34, 1.07, 1.56), 0.95, (-1.55, 1.1), material)
 
 
-def pickup() -> Tuple[Shape, ...]:
+def pickup() -> tuple[Shape, ...]:
     cab = car((-2.95, -1.24, 0), (2.71, 1.24, 1.86), 1.1, (-1.3, 1.0), BLUE)
     rails = tuple(block(f"rail_{side}", (-2.95, y, 1.1), (-1.3, y + 0.1, 1.35), BLUE) for side, y in (("right", -1.14), ("left", 1.04)))
     return cab + rails + (block("tailgate", (-2.95, -1.14, 1.1), (-2.85, 1.14, 1.35), BLUE),)
 
 
-def coach(low: Point, high: Point, material: str, stripe: str, cab: float = 0.0) -> Tuple[Shape, ...]:
+def coach(low: Point, high: Point, material: str, stripe: str, cab: float = 0.0) -> tuple[Shape, ...]:
     """Along y. :param cab: m of a lower part at the front, with the windscreen"""
     (x0, y0, _), (x1, y1, top) = low, high
     front, axle = y0 + cab, 0.18 * (y1 - y0)
@@ -142,7 +142,7 @@ def coach(low: Point, high: Point, material: str, stripe: str, cab: float = 0.0)
 # ---------------------------------------------------------------------------------------------- buildings
 
 
-def gable(name: str, low: Point, high: Point, overhang: float = 0.3) -> Tuple[Shape, ...]:
+def gable(name: str, low: Point, high: Point, overhang: float = 0.3) -> tuple[Shape, ...]:
     """Two slopes over a rectangle, the ridge along x, from the eaves at ``low`` to the ridge's height at ``high``."""
     (x0, y0, z0), (x1, y1, z1) = low, high
     half, rise, thick = (y1 - y0) / 2 + overhang, z1 - z0, 0.15
@@ -166,7 +166,7 @@ def gable(name: str, low: Point, high: Point, overhang: float = 0.3) -> Tuple[Sh
     )
 
 
-def openings(x0: float, x1: float, y: float, storeys: int, height: float, side: str = "front") -> Tuple[Shape, ...]:
+def openings(x0: float, x1: float, y: float, storeys: int, height: float, side: str = "front") -> tuple[Shape, ...]:
     """Windows, in front a door too, that are seen on a wall along x at ``y``; none of them collides."""
     count = max(2, int((x1 - x0) / 2.5))
     step = (x1 - x0) / count
@@ -185,7 +185,7 @@ def openings(x0: float, x1: float, y: float, storeys: int, height: float, side: 
     return tuple(found)
 
 
-def house(low: Point, high: Point, walls: float, material: str, porch: float = 0.0) -> Tuple[Shape, ...]:
+def house(low: Point, high: Point, walls: float, material: str, porch: float = 0.0) -> tuple[Shape, ...]:
     """:param walls: height of the eaves. :param porch: depth of a lower part along the front, at -y"""
     (x0, y0, _), (x1, y1, top) = low, high
     front, storeys = y0 + porch, max(1, round(walls / 2.8))
@@ -209,7 +209,7 @@ def house(low: Point, high: Point, walls: float, material: str, porch: float = 0
     return parts
 
 
-def flat(low: Point, high: Point, material: str, storeys: int, sign: str = "") -> Tuple[Shape, ...]:
+def flat(low: Point, high: Point, material: str, storeys: int, sign: str = "") -> tuple[Shape, ...]:
     """A building with a flat roof; its front is at -y. :param sign: material of a board over the door"""
     (x0, y0, _), (x1, y1, top) = low, high
     parts = (block("walls", (x0, y0, 0), (x1, y1, top - 0.2), material), block("roof", (x0, y0, top - 0.2), (x1, y1, top), GREY))
@@ -220,7 +220,7 @@ def flat(low: Point, high: Point, material: str, storeys: int, sign: str = "") -
     return parts
 
 
-def gas_station() -> Tuple[Shape, ...]:
+def gas_station() -> tuple[Shape, ...]:
     pumps = tuple(
         block(f"pump_{i}_{j}", (x - 0.4, y - 0.3, 0), (x + 0.4, y + 0.3, 1.9), RED)
         for i, x in enumerate((-3.5, 3.5))
@@ -240,7 +240,7 @@ def gas_station() -> Tuple[Shape, ...]:
     )
 
 
-def fast_food() -> Tuple[Shape, ...]:
+def fast_food() -> tuple[Shape, ...]:
     """Its link is 3.16 m above its origin, as in the database."""
     return (
         block("walls", (-14.13, -8.29, -3.1), (6.5, 8.29, 1.6), RED),
@@ -250,7 +250,7 @@ def fast_food() -> Tuple[Shape, ...]:
     )
 
 
-def cafe() -> Tuple[Shape, ...]:
+def cafe() -> tuple[Shape, ...]:
     """A room that is open above, so that what is in it can be seen; walls and floor where the database's collide."""
     walls = (
         ("wall_1", (-5.03, 0.53), (0.12, 23.16), 2.83),
@@ -269,7 +269,7 @@ def cafe() -> Tuple[Shape, ...]:
     )
 
 
-def fire_station() -> Tuple[Shape, ...]:
+def fire_station() -> tuple[Shape, ...]:
     columns = tuple(
         Shape(f"column_{i}", box(width, 0.515, 4), (x, 4.957, 2), BRICK)
         for i, (x, width) in enumerate(((9.333, 1.315), (3.33, 2.63), (-3.33, 2.63), (-9.333, 1.315)))
@@ -284,7 +284,7 @@ def fire_station() -> Tuple[Shape, ...]:
     )
 
 
-def tower(half: float, top: float) -> Tuple[Shape, ...]:
+def tower(half: float, top: float) -> tuple[Shape, ...]:
     """A lattice on four legs that lean together."""
     lean, length = atan2(half - 0.4, top), hypot(half - 0.4, top)
     legs = tuple(
@@ -312,12 +312,12 @@ def tower(half: float, top: float) -> Tuple[Shape, ...]:
     return (*legs, *rungs)
 
 
-def water_tower() -> Tuple[Shape, ...]:
+def water_tower() -> tuple[Shape, ...]:
     legs = tuple(upright(f"leg_{i}", 0.2, 0, 16.0, STEEL, x, y) for i, (x, y) in enumerate(((2, 2), (2, -2), (-2, -2), (-2, 2))))
     return (*legs, upright("tank", 3.12, 16.0, 21.5, STEEL), upright("lid", 1.6, 21.5, 23.22, STEEL))
 
 
-def fountain() -> Tuple[Shape, ...]:
+def fountain() -> tuple[Shape, ...]:
     return (
         upright("basin", 0.9, 0, 0.4, GREY),
         upright("water", 0.8, 0.4, 0.42, GLASS),
@@ -327,7 +327,7 @@ def fountain() -> Tuple[Shape, ...]:
     )
 
 
-def tote() -> Tuple[Shape, ...]:
+def tote() -> tuple[Shape, ...]:
     sides = (
         ("side_wall_1", (0.58404, 0.02602, 0.2831), (0, -0.18, 0.14155, 0.06115, 0, 0)),
         ("side_wall_2", (0.58404, 0.02602, 0.2831), (0, 0.18, 0.14155, -0.06115, 0, 0)),
@@ -341,11 +341,11 @@ def tote() -> Tuple[Shape, ...]:
     )
 
 
-def maze_wall(height: float) -> Tuple[Shape, ...]:
+def maze_wall(height: float) -> tuple[Shape, ...]:
     return (block("wall", (-0.6, 0.595, 0), (0.6, 0.61, height), CREAM),)
 
 
-def truss() -> Tuple[Shape, ...]:
+def truss() -> tuple[Shape, ...]:
     """Four tubes along y, joined by square frames."""
     tubes = tuple(
         Shape(f"tube_{i}", cylinder(0.025, 1.53), (x, 0, z, round(pi / 2, 6), 0, 0), STEEL)
@@ -359,7 +359,7 @@ def truss() -> Tuple[Shape, ...]:
     return (*tubes, *frames)
 
 
-def pallet() -> Tuple[Shape, ...]:
+def pallet() -> tuple[Shape, ...]:
     """Five boards on three rows of blocks, on three boards."""
     wood = colour(0.66, 0.46, 0.27)
     top = tuple(
@@ -388,7 +388,7 @@ _BARS = {
 _DIGITS = ("", "bc", "abged", "abgcd", "fgbc", "afgcd", "afgedc", "abc", "abcdefg", "abcdfg")
 
 
-def number(digit: int) -> Tuple[Shape, ...]:
+def number(digit: int) -> tuple[Shape, ...]:
     """A white cube of 80 cm with the digit on its four sides; nothing of it collides, as in the database."""
     found = [Shape("cube", box(0.8, 0.8, 0.8), (), WHITE, collides=False)]
     for side, turn in enumerate((0.0, pi / 2, pi, -pi / 2)):

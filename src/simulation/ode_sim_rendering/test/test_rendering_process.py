@@ -373,11 +373,11 @@ def test_a_receiver_that_fails_disturbs_nobody(studio_of):
 @pytest.mark.slow
 def test_no_orphan_after_kill_9():
     code = (
-        "import sys, time; sys.path[:0] = {path!r}\n"
+        f"import sys, time; sys.path[:0] = {[os.path.dirname(__file__), *sys.path]!r}\n"
         "from test_rendering_process import World, CAMERA, take\nfrom ode_sim_rendering import RenderProcess\n"
         "studio = RenderProcess(World(), print)\ntake(studio, studio.add_camera(CAMERA))\n"
         "print(studio.pid, flush=True)\ntime.sleep(60)\n"
-    ).format(path=[os.path.dirname(__file__), *sys.path])
+    )
     parent = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
     child = int(parent.stdout.readline())
     os.kill(child, 0)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Optional, Tuple
 from urllib.parse import unquote
 
 import rospkg
@@ -13,7 +12,7 @@ from foxglove_bridge.settings import allowed
 MOST = 256 * 1024 * 1024  # bytes
 
 
-def fetch(uri: str, patterns: Tuple[str, ...]) -> Optional[bytes]:
+def fetch(uri: str, patterns: tuple[str, ...]) -> bytes | None:
     """The file that ``package://NAME/PATH`` names; None if there is none, it is not allowed, or lies outside of its package."""
     if not allowed(uri, patterns) or not uri.startswith("package://"):
         return None

@@ -6,7 +6,7 @@ import logging
 import signal
 import socket
 import threading
-from typing import Any, Dict, List, Optional, Set
+from typing import Any
 
 import foxglove
 import rosgraph
@@ -45,7 +45,7 @@ class Bridge(ServerListener):
         self._published = Published(lambda name: allowed(name, settings.client_topic_whitelist), self._complain)
         self._parameters = Parameters(lambda name: allowed(name, settings.param_whitelist), self._parameters_changed, self._complain)
         self._graph_wanted = False
-        self._clock: Optional[rospy.Subscriber] = None
+        self._clock: rospy.Subscriber | None = None
         has = settings.capabilities
         simulated = bool(rospy.get_param("/use_sim_time", False))
         capabilities = [_KNOWN[name] for name in has if name in _KNOWN] + ([Capability.Time] if simulated else [])
@@ -83,13 +83,13 @@ class Bridge(ServerListener):
             pause = FIRST_LOOK if state != before else min(pause * SLOWER, self.settings.max_update_ms / 1000)
             before = state
 
-    def _look(self, state: List[Any], types: Dict[str, str]) -> None:
+    def _look(self, state: list[Any], types: dict[str, str]) -> None:
         published, subscribed, services = ({name: nodes for name, nodes in part} for part in state)
         names = {name: types[name] for name in published if name in types and allowed(name, self.settings.topic_whitelist)}
         self._topics.are({name: type_name for name, type_name in names.items() if type_name != "*"})
         if self._services is not None:
             own = rospy.get_name() + "/"
-            wanted: Set[str] = {name for name in services if allowed(name, self.settings.service_whitelist) and not name.startswith(own)}
+            wanted: set[str] = {name for name in services if allowed(name, self.settings.service_whitelist) and not name.startswith(own)}
             self._services.are(wanted)
         if self._graph_wanted:
             graph = ConnectionGraph()
@@ -122,16 +122,16 @@ class Bridge(ServerListener):
     def on_message_data(self, client: Any, client_channel_id: int, data: bytes) -> None:
         self._published.message(client.id, client_channel_id, data)
 
-    def on_get_parameters(self, client: Any, param_names: List[str], request_id: Optional[str] = None) -> List[Parameter]:
+    def on_get_parameters(self, client: Any, param_names: list[str], request_id: str | None = None) -> list[Parameter]:
         return self._parameters.get(param_names)
 
-    def on_set_parameters(self, client: Any, parameters: List[Parameter], request_id: Optional[str] = None) -> List[Parameter]:
+    def on_set_parameters(self, client: Any, parameters: list[Parameter], request_id: str | None = None) -> list[Parameter]:
         return self._parameters.set(parameters)
 
-    def on_parameters_subscribe(self, param_names: List[str]) -> None:
+    def on_parameters_subscribe(self, param_names: list[str]) -> None:
         self._parameters.follow(param_names)
 
-    def on_parameters_unsubscribe(self, param_names: List[str]) -> None:
+    def on_parameters_unsubscribe(self, param_names: list[str]) -> None:
         self._parameters.unfollow(param_names)
 
     def on_connection_graph_subscribe(self) -> None:
@@ -142,7 +142,7 @@ class Bridge(ServerListener):
 
     # ------------------------------------------------------------------------------------------ what is told
 
-    def _parameters_changed(self, parameters: List[Parameter]) -> None:
+    def _parameters_changed(self, parameters: list[Parameter]) -> None:
         self.server.publish_parameter_values(parameters)
 
     def _complain(self, line: str) -> None:

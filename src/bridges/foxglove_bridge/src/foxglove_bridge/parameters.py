@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import threading
-from typing import Any, Callable, Dict, List, Set, Tuple
+from collections.abc import Callable
+from typing import Any
 
 import rospy
 from foxglove.websocket import Parameter
@@ -15,17 +16,17 @@ class Parameters:
     :param changed: is told those that a client follows and that have another value now
     """
 
-    def __init__(self, allowed: Callable[[str], bool], changed: Callable[[List[Parameter]], None], complain: Callable[[str], None]) -> None:
+    def __init__(self, allowed: Callable[[str], bool], changed: Callable[[list[Parameter]], None], complain: Callable[[str], None]) -> None:
         self._allowed, self._changed, self._complain = allowed, changed, complain
         self._lock = threading.Lock()
-        self._followed: Dict[str, Any] = {}  # name -> value that was told last
+        self._followed: dict[str, Any] = {}  # name -> value that was told last
 
-    def get(self, names: List[str]) -> List[Parameter]:
+    def get(self, names: list[str]) -> list[Parameter]:
         """All of them, where no name is given."""
         wanted = names or sorted(rospy.get_param_names())
         return [made for name in wanted if self._allowed(name) for made in _made(name, rospy.get_param(name, None))]
 
-    def set(self, parameters: List[Parameter]) -> List[Parameter]:
+    def set(self, parameters: list[Parameter]) -> list[Parameter]:
         for parameter in parameters:
             if not self._allowed(parameter.name):
                 self._complain(f"{parameter.name}: ~param_whitelist does not allow to set it")
@@ -36,19 +37,19 @@ class Parameters:
                 rospy.set_param(parameter.name, parameter.get_value())
         return self.get([parameter.name for parameter in parameters])
 
-    def follow(self, names: List[str]) -> None:
+    def follow(self, names: list[str]) -> None:
         with self._lock:
             self._followed.update({name: rospy.get_param(name, None) for name in names if self._allowed(name)})
 
-    def unfollow(self, names: List[str]) -> None:
+    def unfollow(self, names: list[str]) -> None:
         with self._lock:
             for name in names:
                 self._followed.pop(name, None)
 
     def look(self) -> None:
         with self._lock:
-            names: Set[str] = set(self._followed)
-        new: List[Tuple[str, Any]] = [(name, rospy.get_param(name, None)) for name in sorted(names)]
+            names: set[str] = set(self._followed)
+        new: list[tuple[str, Any]] = [(name, rospy.get_param(name, None)) for name in sorted(names)]
         told = []
         with self._lock:
             for name, value in new:
@@ -59,7 +60,7 @@ class Parameters:
             self._changed(told)
 
 
-def _made(name: str, value: Any) -> List[Parameter]:
+def _made(name: str, value: Any) -> list[Parameter]:
     """Dates and whatever else the protocol has no word for go as text."""
     if value is None:
         return []

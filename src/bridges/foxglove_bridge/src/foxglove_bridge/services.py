@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from typing import Any, Dict, Optional, Set
+from typing import Any
 
 import roslib.message
 import rospy
@@ -18,7 +18,7 @@ class CallError(BridgeError):
     """A service that failed; the client is told this line."""
 
 
-def type_of(name: str) -> Optional[str]:
+def type_of(name: str) -> str | None:
     """Asked from its server; None where that does not answer."""
     try:
         return rosservice.get_service_type(name)
@@ -26,7 +26,7 @@ def type_of(name: str) -> Optional[str]:
         return None
 
 
-def offered(name: str, type_name: str) -> Optional[Service]:
+def offered(name: str, type_name: str) -> Service | None:
     """None where no package defines the type."""
     try:
         kind: Any = roslib.message.get_service_class(type_name)
@@ -61,10 +61,10 @@ class Services:
 
     def __init__(self, server: Any) -> None:
         self._server = server
-        self._there: Dict[str, bool] = {}  # whether it is offered
-        self._told: Set[str] = set()
+        self._there: dict[str, bool] = {}  # whether it is offered
+        self._told: set[str] = set()
 
-    def are(self, names: Set[str]) -> None:
+    def are(self, names: set[str]) -> None:
         gone = [name for name in self._there if name not in names]
         self._server.remove_services([name for name in gone if self._there.pop(name)])
         for name in sorted(names - set(self._there)):

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, fields
-from typing import Any, Callable, List, Tuple
+from typing import Any
 
 CAPABILITIES = ("clientPublish", "parameters", "parametersSubscribe", "services", "connectionGraph", "assets")
 MESHES = r"package://[-\w]+(/[-\w. %]+)+\.(dae|fbx|glb|gltf|jpe?g|mtl|obj|png|stl|tiff?|urdf|webp|xacro)"
@@ -23,12 +24,12 @@ class SettingError(BridgeError):
 class Settings:
     port: int = 8765
     address: str = "127.0.0.1"  # upstream: 0.0.0.0
-    topic_whitelist: Tuple[str, ...] = (".*",)  # regular expressions of whole names
-    service_whitelist: Tuple[str, ...] = (".*",)
-    param_whitelist: Tuple[str, ...] = (".*",)
-    client_topic_whitelist: Tuple[str, ...] = (".*",)
-    asset_uri_allowlist: Tuple[str, ...] = (MESHES,)
-    capabilities: Tuple[str, ...] = CAPABILITIES
+    topic_whitelist: tuple[str, ...] = (".*",)  # regular expressions of whole names
+    service_whitelist: tuple[str, ...] = (".*",)
+    param_whitelist: tuple[str, ...] = (".*",)
+    client_topic_whitelist: tuple[str, ...] = (".*",)
+    asset_uri_allowlist: tuple[str, ...] = (MESHES,)
+    capabilities: tuple[str, ...] = CAPABILITIES
     max_update_ms: int = 5000  # ms of wall time, at most, until a new topic is seen
     service_type_retrieval_timeout_ms: int = 250
 
@@ -61,9 +62,9 @@ def _checked(name: str, value: Any, default: Any) -> Any:
     return value
 
 
-def allowed(name: str, patterns: Tuple[str, ...]) -> bool:
+def allowed(name: str, patterns: tuple[str, ...]) -> bool:
     return any(re.fullmatch(pattern, name, re.IGNORECASE) for pattern in patterns)
 
 
-def unknown(capabilities: Tuple[str, ...]) -> List[str]:
+def unknown(capabilities: tuple[str, ...]) -> list[str]:
     return [name for name in capabilities if name not in CAPABILITIES]

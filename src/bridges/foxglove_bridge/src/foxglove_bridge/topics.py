@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import threading
 import time
-from typing import Any, Callable, Dict, Optional, Set, Tuple
+from collections.abc import Callable
+from typing import Any
 
 import foxglove
 import roslib.message
@@ -29,8 +30,8 @@ class Topic:
         self.name, self.type = name, type_name
         self.channel = foxglove.Channel(name, message_encoding="ros1", schema=schema(kind, type_name), context=context)
         self._lock = threading.Lock()
-        self._readers: Set[int] = set()  # clients
-        self._subscriber: Optional[rospy.Subscriber] = None
+        self._readers: set[int] = set()  # clients
+        self._subscriber: rospy.Subscriber | None = None
         self._latched = False
 
     def read_by(self, client: int) -> None:
@@ -71,11 +72,11 @@ class Topics:
     def __init__(self, context: foxglove.Context) -> None:
         self._context = context
         self._lock = threading.Lock()
-        self._topics: Dict[str, Topic] = {}
-        self._by_channel: Dict[int, Topic] = {}
-        self._told: Set[str] = set()  # types that are not here
+        self._topics: dict[str, Topic] = {}
+        self._by_channel: dict[int, Topic] = {}
+        self._told: set[str] = set()  # types that are not here
 
-    def are(self, types: Dict[str, str]) -> None:
+    def are(self, types: dict[str, str]) -> None:
         """Topics come and go. ``types``: name -> package/Type"""
         with self._lock:
             gone = [topic for name, topic in self._topics.items() if types.get(name) != topic.type]
@@ -92,7 +93,7 @@ class Topics:
                 topic = self._topics[name] = Topic(name, type_name, kind, self._context)
                 self._by_channel[topic.channel.id()] = topic
 
-    def by_channel(self, channel: int) -> Optional[Topic]:
+    def by_channel(self, channel: int) -> Topic | None:
         with self._lock:
             return self._by_channel.get(channel)
 
@@ -117,7 +118,7 @@ class Published:
 
     def __init__(self, allowed: Callable[[str], bool], complain: Callable[[str], None]) -> None:
         self._allowed, self._complain = allowed, complain
-        self._publishers: Dict[Tuple[int, int], rospy.Publisher] = {}  # by client and its number of the channel
+        self._publishers: dict[tuple[int, int], rospy.Publisher] = {}  # by client and its number of the channel
 
     def advertise(self, client: int, channel: Any) -> None:
         kind = message_class(channel.schema_name)

@@ -7,9 +7,10 @@ import os
 import socket
 import subprocess
 import threading
+from collections.abc import Callable
 from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any, Callable, Dict, List, Optional
+from typing import Any
 
 from ros1_bridge.errors import Ros2Missing
 
@@ -18,14 +19,14 @@ BULK = 65536  # bytes, as in peer.py
 HINT = "ROS 2 is not installed: run scripts/setup --ros2"
 
 
-def prefix() -> Optional[Path]:
+def prefix() -> Path | None:
     """The folder into which ``scripts/setup --ros2`` installed, or ``ROS1_BRIDGE_ROS2``; None where there is none."""
     named = os.environ.get("ROS1_BRIDGE_ROS2")
     here = [Path(named)] if named else [folder / ".python-ros2" for folder in Path(__file__).resolve().parents]
     return next((folder for folder in here if (folder / "bin" / "python").exists() and (folder / "share" / "rclpy").exists()), None)
 
 
-def environment(folder: Path) -> Dict[str, str]:
+def environment(folder: Path) -> dict[str, str]:
     """That of a process of ROS 2: nothing of ROS 1's modules and libraries, of which many have the same names."""
     kept = {
         name: value
@@ -63,11 +64,11 @@ class Link:
         theirs.close()
         self._connection, self._sending = Connection(ours.detach()), threading.Lock()
         self._numbers = itertools.count(1)
-        self._replies: Dict[int, List[Any]] = {}
+        self._replies: dict[int, list[Any]] = {}
         self._came = threading.Condition()
         self._heard, self._lost = heard, lost
         self._ready, self._closing = threading.Event(), False
-        self._described: Dict[Any, Dict[str, Dict[str, str]]] = {}
+        self._described: dict[Any, dict[str, dict[str, str]]] = {}
         threading.Thread(target=self._listen, daemon=True).start()
         if not self._ready.wait(PATIENCE) or self._process.poll() is not None:
             self.close()
@@ -95,7 +96,7 @@ class Link:
                 raise Ros2Missing(f"the process of ROS 2 does not answer ({word})")
             return self._replies.pop(number)[0]
 
-    def describe(self, name: str, form: str) -> Dict[str, Dict[str, str]]:
+    def describe(self, name: str, form: str) -> dict[str, dict[str, str]]:
         """Fields of ``package/Name``, a msg, srv or action, and of all it consists of; {} where ROS 2 has no such type here."""
         if (name, form) not in self._described:
             self._described[name, form] = self.ask("describe", name, form)

@@ -15,7 +15,6 @@ import sysconfig
 import tempfile
 from multiprocessing.pool import ThreadPool
 from pathlib import Path
-from typing import Dict, List
 
 KINDS = ("msg", "srv", "action")
 DEBIAN = "/usr/lib/python3/dist-packages"  # the generators need empy and catkin_pkg, of which PyPI has no wheels
@@ -44,7 +43,7 @@ class Package:
             shutil.copy(header, out / "include" / self.name / header.relative_to(out / "raw" / INTROSPECTION))
         return out / "include"
 
-    def _rosidl(self, out: Path, files: List[Path], *words: str) -> None:
+    def _rosidl(self, out: Path, files: list[Path], *words: str) -> None:
         script = "import sys; from rosidl_cli.cli import main; sys.exit(main())"
         lib = f"{self.prefix}/lib"
         subprocess.run(
@@ -76,7 +75,7 @@ class Package:
         sources = [path for path in here.rglob("*.c*") if path.suffix in (".c", ".cpp") and ".ep." not in path.name]
         fast = [path for path in sources if path.name.endswith("__type_support_c.cpp")]
         entry = here / f"_{self.name}_s.ep.rosidl_typesupport_c.c"
-        kinds: Dict[str, List[str]] = {
+        kinds: dict[str, list[str]] = {
             end: [f"{name}__{end}" for name in self.needs] for end in ("rosidl_generator_c", "rosidl_generator_py")
         }
         first, second = f"lib{self.name}__rosidl_typesupport_c.so", f"lib{self.name}__rosidl_typesupport_fastrtps_c.so"
@@ -93,7 +92,7 @@ class Package:
         self._link(third, inner, includes, [own, *needed, "rosidl_typesupport_introspection_c", *base])
         self._link(here / f"{self.name}_s__rosidl_typesupport_c.so", [entry], includes, [own, *base])
 
-    def _link(self, target: Path, sources: List[Path], includes: List[object], libraries: List[str]) -> None:
+    def _link(self, target: Path, sources: list[Path], includes: list[object], libraries: list[str]) -> None:
         paths = [f"-I{folder}" for folder in includes]
 
         def compiled(source: Path) -> Path:

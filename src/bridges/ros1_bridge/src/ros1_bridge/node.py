@@ -5,8 +5,9 @@ from __future__ import annotations
 import signal
 import sys
 import threading
+from collections.abc import Callable
 from functools import partial
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from typing import Any
 
 import rosgraph
 import rosmsg
@@ -33,13 +34,13 @@ class Bridge:
 
     def __init__(self) -> None:
         self._own = rospy.get_name()
-        self.to_ros2: Dict[str, ToRos2] = {}
-        self.to_ros1: Dict[str, ToRos1] = {}
-        self.of_ros1: Dict[str, Any] = {}  # services
-        self.of_ros2: Dict[str, Any] = {}
-        self.actions_of_ros1: Dict[str, ActionOfRos1] = {}
-        self.actions_of_ros2: Dict[str, ActionOfRos2] = {}
-        self.graph: Dict[str, Any] = {"topics": {}, "services": {}, "actions": {}}
+        self.to_ros2: dict[str, ToRos2] = {}
+        self.to_ros1: dict[str, ToRos1] = {}
+        self.of_ros1: dict[str, Any] = {}  # services
+        self.of_ros2: dict[str, Any] = {}
+        self.actions_of_ros1: dict[str, ActionOfRos1] = {}
+        self.actions_of_ros2: dict[str, ActionOfRos2] = {}
+        self.graph: dict[str, Any] = {"topics": {}, "services": {}, "actions": {}}
         self.changed, self.failed = threading.Event(), False
         self.link = Link(self._heard, self._lost)
         self.pairs = Pairs(self.link.describe, lambda line: rospy.logwarn("%s", line))
@@ -59,7 +60,7 @@ class Bridge:
             rospy.logfatal("the process of ROS 2 has ended; its own words are above")
             rospy.signal_shutdown("ROS 2 has ended")
 
-    def on_graph(self, graph: Dict[str, Any], _: Any) -> None:
+    def on_graph(self, graph: dict[str, Any], _: Any) -> None:
         self.graph = graph
         self.changed.set()
 
@@ -73,13 +74,13 @@ class Bridge:
         if found is not None:
             found.matched(count)
 
-    def on_unequal(self, topic: str, policy: str, words: Optional[Dict[str, Any]], _: Any) -> None:
+    def on_unequal(self, topic: str, policy: str, words: dict[str, Any] | None, _: Any) -> None:
         if words is not None and topic in self.to_ros2:
             self.to_ros2[topic].unequal(policy, words)
         elif words is None and topic in self.to_ros1:
             self.to_ros1[topic].unequal(policy)
 
-    def on_failed(self, words: List[Any], line: str, trace: str, _: Any) -> None:
+    def on_failed(self, words: list[Any], line: str, trace: str, _: Any) -> None:
         rospy.logdebug("%s", trace)
         self.pairs.once(f"{' '.join(map(str, words))} in ROS 2: {line}")
 
@@ -88,7 +89,7 @@ class Bridge:
         if found is not None:
             found.call(number, data)
 
-    def on_done(self, number: int, error: Optional[str], data: Any) -> None:
+    def on_done(self, number: int, error: str | None, data: Any) -> None:
         self.calls.done(number, error, data)
 
     def on_goal(self, number: int, name: str, data: Any) -> None:
@@ -130,14 +131,14 @@ class Bridge:
             self.changed.wait(PAUSE)
             self.changed.clear()
 
-    def _show(self, published: Dict[str, Any], subscribed: Dict[str, Any], types: Dict[str, str]) -> None:
+    def _show(self, published: dict[str, Any], subscribed: dict[str, Any], types: dict[str, str]) -> None:
         for what, part in (("publishers", published), ("subscribers", subscribed)):
             print(f"> Current ROS 1 {what}:", *(f"  - '{types.get(name, '*')}' for '{name}'" for name in sorted(part)), sep="\n")
         for what in ("publishers", "subscribers"):
             lines = (f"  - '{', '.join(seen['types'])}' for '{name}'" for name, seen in sorted(self.graph["topics"].items()) if seen[what])
             print(f"> Current ROS 2 {what}:", *lines, sep="\n", flush=True)
 
-    def _topics(self, chosen: Options, published: Dict[str, Any], subscribed: Dict[str, Any], types: Dict[str, str]) -> None:
+    def _topics(self, chosen: Options, published: dict[str, Any], subscribed: dict[str, Any], types: dict[str, str]) -> None:
         there = self.graph["topics"]
         for name in sorted({*published, *subscribed, *there}):
             if name in NOT_BRIDGED or not allowed(name, chosen.topic_whitelist) or of_an_action(name, types.get(name, "")):
@@ -160,7 +161,7 @@ class Bridge:
             for name in set(kept) - {*published, *subscribed, *there}:
                 kept.pop(name).close()
 
-    def _services(self, chosen: Options, services: Dict[str, Any]) -> None:
+    def _services(self, chosen: Options, services: dict[str, Any]) -> None:
         there = {name: kind for name, kind in self.graph["services"].items() if not kind.startswith(OF_EVERY_NODE)}
         for name in set(self.of_ros1) - set(services):
             self.of_ros1.pop(name).close()
@@ -180,7 +181,7 @@ class Bridge:
                 if found:
                     self.of_ros2[name] = ServiceOfRos2(name, str(one), found, self.calls)
 
-    def _actions(self, chosen: Options, published: Dict[str, Any], types: Dict[str, str]) -> None:
+    def _actions(self, chosen: Options, published: dict[str, Any], types: dict[str, str]) -> None:
         ours = actions_of_ros1(published, types, self._own)
         theirs = self.graph["actions"]
         for name in set(self.actions_of_ros1) - set(ours):
@@ -199,7 +200,7 @@ class Bridge:
 
     # ------------------------------------------------------------------------------------------ what parameters name
 
-    def named(self, topics: Any, services_1_to_2: Any, services_2_to_1: Any, names: Tuple[str, str, str]) -> None:
+    def named(self, topics: Any, services_1_to_2: Any, services_2_to_1: Any, names: tuple[str, str, str]) -> None:
         """``parameter_bridge``: each topic in both directions."""
 
         def warn(line: str, about: str = "") -> None:
@@ -241,7 +242,7 @@ class Bridge:
                         print(f"  - '{two.replace('/', f'/{form}/')}' (ROS 2) <=> '{one}' (ROS 1)", flush=True)
 
 
-def _stale(kept: Dict[str, Any], name: str, pair: Any) -> bool:
+def _stale(kept: dict[str, Any], name: str, pair: Any) -> bool:
     """Whether a bridge for ``pair`` has to be made; one for another is closed."""
     old = kept.get(name)
     if old is not None and (not pair or old.pair is not pair):
@@ -249,7 +250,7 @@ def _stale(kept: Dict[str, Any], name: str, pair: Any) -> bool:
     return bool(pair) and name not in kept
 
 
-def _type_of_service(name: str) -> Optional[str]:
+def _type_of_service(name: str) -> str | None:
     try:
         return rosservice.get_service_type(name)
     except Exception:  # a server that is going, of another language, behind a wall

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import io
 import threading
-from typing import Any, Callable, Dict, List, Optional, Set, Tuple
+from collections.abc import Callable
+from typing import Any
 
 import roslib.message
 
@@ -34,7 +35,7 @@ def service_class(name: str) -> Any:
         return None
 
 
-def types_of_ros1(kind: Any, name: str, found: Optional[Types] = None) -> Types:
+def types_of_ros1(kind: Any, name: str, found: Types | None = None) -> Types:
     """``kind`` and all that it consists of."""
     found = {} if found is None else found
     found[name] = fields_of_ros1(kind.__slots__, kind._slot_types)
@@ -51,25 +52,25 @@ class Pairs:
     :param say: is told in one line what has no counterpart, once each
     """
 
-    def __init__(self, describe: Callable[[str, str], Dict[str, Dict[str, str]]], say: Callable[[str], None]) -> None:
+    def __init__(self, describe: Callable[[str, str], dict[str, dict[str, str]]], say: Callable[[str], None]) -> None:
         self._describe, self._say = describe, say
-        self._found: Dict[Tuple[str, ...], Any] = {}
-        self._told: Set[str] = set()
+        self._found: dict[tuple[str, ...], Any] = {}
+        self._told: set[str] = set()
         self._lock = threading.RLock()
 
-    def message(self, of_ros1: str, of_ros2: Optional[str] = None) -> Optional[Pair]:
+    def message(self, of_ros1: str, of_ros2: str | None = None) -> Pair | None:
         """None where there is none, which has been said."""
         return self._one(("msg", of_ros1, of_ros2 or ""), of_ros1, of_ros2, lambda two: self._message(of_ros1, two))
 
-    def service(self, of_ros1: str, of_ros2: Optional[str] = None) -> Optional[Tuple[str, Pair, Pair]]:
+    def service(self, of_ros1: str, of_ros2: str | None = None) -> tuple[str, Pair, Pair] | None:
         """The type of ROS 2, request and response."""
         return self._one(("srv", of_ros1, of_ros2 or ""), of_ros1, of_ros2, lambda two: self._service(of_ros1, two))
 
-    def action(self, of_ros1: str, of_ros2: Optional[str] = None) -> Optional[Tuple[str, Pair, Pair, Pair]]:
+    def action(self, of_ros1: str, of_ros2: str | None = None) -> tuple[str, Pair, Pair, Pair] | None:
         """The type of ROS 2, goal, result and feedback."""
         return self._one(("action", of_ros1, of_ros2 or ""), of_ros1, of_ros2, lambda two: self._action(of_ros1, two))
 
-    def of_ros2(self, form: str, of_ros2: str) -> Optional[str]:
+    def of_ros2(self, form: str, of_ros2: str) -> str | None:
         """The type of ROS 1 that ``of_ros2`` is."""
         tests = {"msg": message_class, "srv": service_class, "action": lambda name: message_class(name + "Goal")}
         known = [one for one in candidates_of_ros1(of_ros2) if tests[form](one) is not None]
@@ -84,11 +85,11 @@ class Pairs:
             self._told.add(line)
         self._say(line)
 
-    def _one(self, key: Tuple[str, ...], of_ros1: str, of_ros2: Optional[str], make: Callable[[str], Any]) -> Any:
+    def _one(self, key: tuple[str, ...], of_ros1: str, of_ros2: str | None, make: Callable[[str], Any]) -> Any:
         with self._lock:
             if key not in self._found:
                 self._found[key] = None
-                reasons: List[str] = []
+                reasons: list[str] = []
                 allowed = candidates(of_ros1)
                 for two in [of_ros2] if of_ros2 is not None else allowed:
                     try:
@@ -104,18 +105,18 @@ class Pairs:
                     self.once(f"{of_ros1} has no counterpart in ROS 2: what has this type is not bridged{reason}")
             return self._found[key]
 
-    def _message(self, one: str, two: str) -> Optional[Pair]:
+    def _message(self, one: str, two: str) -> Pair | None:
         kind, described = message_class(one), self._describe(two, "msg")
         return _pair(kind, one, described, two) if kind is not None and described else None
 
-    def _service(self, one: str, two: str) -> Optional[Tuple[str, Pair, Pair]]:
+    def _service(self, one: str, two: str) -> tuple[str, Pair, Pair] | None:
         kind, described = service_class(one), self._describe(two, "srv")
         if kind is None or not described:
             return None
         request = _pair(kind._request_class, one + "Request", described, two + "_Request")
         return two, request, _pair(kind._response_class, one + "Response", described, two + "_Response")
 
-    def _action(self, one: str, two: str) -> Optional[Tuple[str, Pair, Pair, Pair]]:
+    def _action(self, one: str, two: str) -> tuple[str, Pair, Pair, Pair] | None:
         described = self._describe(two, "action")
         kinds = [message_class(one + part) for part in ("Goal", "Result", "Feedback")]
         if None in kinds or not described:
@@ -125,5 +126,5 @@ class Pairs:
         return two, goal, result, feedback
 
 
-def _pair(kind: Any, one: str, described: Dict[str, Dict[str, str]], two: str) -> Pair:
+def _pair(kind: Any, one: str, described: dict[str, dict[str, str]], two: str) -> Pair:
     return Pair(one, types_of_ros1(kind, one), two, {name: fields_of_ros2(types) for name, types in described.items()})

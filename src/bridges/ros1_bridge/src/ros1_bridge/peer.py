@@ -11,8 +11,9 @@ import queue
 import sys
 import threading
 import traceback
+from collections.abc import Callable
 from multiprocessing.connection import Connection
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from typing import Any
 
 import rclpy
 from rclpy.action import ActionClient, ActionServer, CancelResponse, GoalResponse
@@ -47,7 +48,7 @@ def short_name(name: str) -> str:
     return f"{package}/{rest.rpartition('/')[2]}"
 
 
-def fields(kind: Any, found: Dict[str, Dict[str, str]], name: str) -> None:
+def fields(kind: Any, found: dict[str, dict[str, str]], name: str) -> None:
     """All types that ``kind`` consists of, into ``found``."""
     found[name] = kind.get_fields_and_field_types()
     for inner in found[name].values():
@@ -58,7 +59,7 @@ def fields(kind: Any, found: Dict[str, Dict[str, str]], name: str) -> None:
                 fields(nested, found, inner)
 
 
-def profile(words: Dict[str, Any]) -> QoSProfile:
+def profile(words: dict[str, Any]) -> QoSProfile:
     made = QoSProfile(
         depth=words.get("depth", 10),
         history=HistoryPolicy.KEEP_ALL if words.get("history") == "keep_all" else HistoryPolicy.KEEP_LAST,
@@ -86,11 +87,11 @@ class Peer:
         self.executor = MultiThreadedExecutor(THREADS)
         self.executor.add_node(self.node)
         self._group = ReentrantCallbackGroup()
-        self._publishers: Dict[str, Tuple[Any, Dict[str, Any], str]] = {}  # with what they promise and their type
-        self._others: Dict[Tuple[str, str], Any] = {}
+        self._publishers: dict[str, tuple[Any, dict[str, Any], str]] = {}  # with what they promise and their type
+        self._others: dict[tuple[str, str], Any] = {}
         self._gids: set = set()  # of our own publishers
-        self._waiting: Dict[int, queue.Queue] = {}  # for answers of ROS 1
-        self._goals: Dict[int, Any] = {}
+        self._waiting: dict[int, queue.Queue] = {}  # for answers of ROS 1
+        self._goals: dict[int, Any] = {}
         self._number = 0
 
     # -------------------------------------------------------------------------------------------- the line
@@ -120,7 +121,7 @@ class Peer:
         except (EOFError, OSError):
             rclpy.try_shutdown()
 
-    def ask(self, word: str, *words: Any, goal: Any = None, data: Any = None) -> Tuple[Any, Any]:
+    def ask(self, word: str, *words: Any, goal: Any = None, data: Any = None) -> tuple[Any, Any]:
         """What ROS 1 answers; waits for it.
 
         :param goal: the handle of a goal of whose end this waits, and its type
@@ -138,7 +139,7 @@ class Peer:
             del self._waiting[number]
             self._goals.pop(number, None)
 
-    def do_answer(self, number: int, error: Optional[str], data: Any) -> None:
+    def do_answer(self, number: int, error: str | None, data: Any) -> None:
         waiting = self._waiting.get(number)
         if waiting is not None:
             waiting.put((error, bytes(data) if data else None))
@@ -147,7 +148,7 @@ class Peer:
 
     def do_describe(self, number: int, name: str, form: str, _: Any) -> None:
         kind = kind_of(name, form)
-        found: Dict[str, Dict[str, str]] = {}
+        found: dict[str, dict[str, str]] = {}
         parts = {"msg": ("",), "srv": ("Request", "Response"), "action": ("Goal", "Result", "Feedback")}[form]
         if kind is not None:
             for part in parts:
@@ -179,9 +180,9 @@ class Peer:
 
     _stop = threading.Event()
 
-    def _graph(self) -> Dict[str, Any]:
+    def _graph(self) -> dict[str, Any]:
         node = self.node
-        topics: Dict[str, Any] = {}
+        topics: dict[str, Any] = {}
         for name, types in node.get_topic_names_and_types():
             if "/_action/" in name or len(types) == 0:
                 continue
@@ -196,8 +197,8 @@ class Peer:
                     "latched": bool(publishers)
                     and all(one.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL for one in publishers),
                 }
-        services: Dict[str, str] = {}
-        actions: Dict[str, str] = {}
+        services: dict[str, str] = {}
+        actions: dict[str, str] = {}
         for other, space in node.get_node_names_and_namespaces():
             if other != node.get_name():
                 found = node.get_service_names_and_types_by_node(other, space)
@@ -208,7 +209,7 @@ class Peer:
 
     # -------------------------------------------------------------------------------------------- topics
 
-    def do_advertise(self, topic: str, type_name: str, words: Dict[str, Any], _: Any) -> None:
+    def do_advertise(self, topic: str, type_name: str, words: dict[str, Any], _: Any) -> None:
         old = self._publishers.pop(topic, None)
         if old is not None:
             self.node.destroy_publisher(old[0])
@@ -229,7 +230,7 @@ class Peer:
         if found is not None:
             found[0].publish(bytes(data))
 
-    def do_subscribe(self, topic: str, type_name: str, words: Dict[str, Any], _: Any) -> None:
+    def do_subscribe(self, topic: str, type_name: str, words: dict[str, Any], _: Any) -> None:
         self.do_forget("subscriber", topic, None)
 
         def take(data: bytes, info: Any) -> None:
@@ -366,7 +367,7 @@ class Peer:
 
 def main() -> None:
     peer = Peer(Connection(int(sys.argv[1])), sys.argv[2])
-    threads: List[threading.Thread] = [threading.Thread(target=run, daemon=True) for run in (peer.listen, peer.watch)]
+    threads: list[threading.Thread] = [threading.Thread(target=run, daemon=True) for run in (peer.listen, peer.watch)]
     for thread in threads:
         thread.start()
     peer.tell("ready")

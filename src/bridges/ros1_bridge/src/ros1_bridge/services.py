@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import threading
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from collections.abc import Callable
+from typing import Any
 
 import actionlib
 import rospy
@@ -32,7 +33,7 @@ class Calls:
     def __init__(self, link: Link) -> None:
         self._link = link
         self._came = threading.Condition()
-        self._answers: Dict[int, Tuple[Optional[str], Any]] = {}
+        self._answers: dict[int, tuple[str | None, Any]] = {}
 
     def call(self, name: str, type_of_ros2: str, data: Any, patience: float) -> Any:
         """:raises CallFailed:"""
@@ -46,7 +47,7 @@ class Calls:
             raise CallFailed(error)
         return answer
 
-    def done(self, number: int, error: Optional[str], data: Any) -> None:
+    def done(self, number: int, error: str | None, data: Any) -> None:
         with self._came:
             self._answers[number] = error, data
             self._came.notify_all()
@@ -55,7 +56,7 @@ class Calls:
 class ServiceOfRos2:
     """Offered in ROS 1."""
 
-    def __init__(self, name: str, of_ros1: str, found: Tuple[str, Pair, Pair], calls: Calls, patience: float = PATIENCE) -> None:
+    def __init__(self, name: str, of_ros1: str, found: tuple[str, Pair, Pair], calls: Calls, patience: float = PATIENCE) -> None:
         self.type = of_ros1
         two, request_pair, response_pair = found
         kind = service_class(of_ros1)
@@ -76,7 +77,7 @@ class ServiceOfRos2:
 class ServiceOfRos1:
     """Offered in ROS 2."""
 
-    def __init__(self, name: str, of_ros1: str, found: Tuple[str, Pair, Pair], link: Link) -> None:
+    def __init__(self, name: str, of_ros1: str, found: tuple[str, Pair, Pair], link: Link) -> None:
         self.name, self.type, self._link = name, of_ros1, link
         self._two, self._request, self._response = found
         self._kind = service_class(of_ros1)
@@ -106,11 +107,11 @@ def action_spec(of_ros1: str) -> Any:
 class ActionOfRos1:
     """An action server of ROS 1, offered in ROS 2."""
 
-    def __init__(self, name: str, of_ros1: str, found: Tuple[str, Pair, Pair, Pair], link: Link) -> None:
+    def __init__(self, name: str, of_ros1: str, found: tuple[str, Pair, Pair, Pair], link: Link) -> None:
         self.name, self.type, self._link = name, of_ros1, link
         two, self._goal, self._result, self._feedback = found
         self._client = actionlib.ActionClient(name, action_spec(of_ros1))
-        self._goals: Dict[int, Any] = {}
+        self._goals: dict[int, Any] = {}
         self._lock = threading.RLock()
         link.tell("serve_action", name, two)
 
@@ -154,10 +155,10 @@ class ActionOfRos1:
 class ActionOfRos2:
     """An action server of ROS 2, offered in ROS 1."""
 
-    def __init__(self, name: str, of_ros1: str, found: Tuple[str, Pair, Pair, Pair], link: Link) -> None:
+    def __init__(self, name: str, of_ros1: str, found: tuple[str, Pair, Pair, Pair], link: Link) -> None:
         self.name, self.type, self._link = name, of_ros1, link
         self._two, self._goal, self._result, self._feedback = found
-        self._goals: Dict[int, Any] = {}
+        self._goals: dict[int, Any] = {}
         self._server = actionlib.ActionServer(name, action_spec(of_ros1), self._accept, self._cancel, auto_start=False)
         self._server.start()
 
@@ -196,7 +197,7 @@ class ActionOfRos2:
                 part.unregister()
 
 
-def actions_of_ros1(published: Dict[str, List[str]], types: Dict[str, str], own: str) -> Dict[str, str]:
+def actions_of_ros1(published: dict[str, list[str]], types: dict[str, str], own: str) -> dict[str, str]:
     """Action servers by name: package/Name, by the topics that they publish. Our own are left out."""
     found = {}
     for topic, nodes in published.items():

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, Tuple
+from typing import Any
 
 from ros1_bridge.errors import BridgeError
 
@@ -25,12 +26,12 @@ class Options:
     print_pairs: bool = False
     introspection: bool = False
     multi_threads: bool = False  # this bridge has threads in any case
-    topic_whitelist: Tuple[str, ...] = (".*",)
-    service_whitelist: Tuple[str, ...] = (".*",)
-    action_whitelist: Tuple[str, ...] = (".*",)
+    topic_whitelist: tuple[str, ...] = (".*",)
+    service_whitelist: tuple[str, ...] = (".*",)
+    action_whitelist: tuple[str, ...] = (".*",)
 
 
-def options(words: List[str], get: Callable[[str, Any], Any]) -> Options:
+def options(words: list[str], get: Callable[[str, Any], Any]) -> Options:
     """:param get: value of a private parameter, or a default
     :raises SettingError:
     """
@@ -53,7 +54,7 @@ def options(words: List[str], get: Callable[[str, Any], Any]) -> Options:
     )
 
 
-def patterns(name: str, value: Any) -> Tuple[str, ...]:
+def patterns(name: str, value: Any) -> tuple[str, ...]:
     words = [value] if isinstance(value, str) else value
     if not isinstance(words, (list, tuple)) or not all(isinstance(word, str) for word in words):
         raise SettingError(f"~{name} should be a list of texts, not {value!r}")
@@ -65,13 +66,13 @@ def patterns(name: str, value: Any) -> Tuple[str, ...]:
     return tuple(words)
 
 
-def allowed(name: str, words: Tuple[str, ...]) -> bool:
+def allowed(name: str, words: tuple[str, ...]) -> bool:
     return any(re.fullmatch(word, name) for word in words)
 
 
-def quality(words: Any, say: Callable[[str], None]) -> Dict[str, Any]:
+def quality(words: Any, say: Callable[[str], None]) -> dict[str, Any]:
     """``qos`` of a topic in upstream's form; what is wrong in it is said and left out."""
-    found: Dict[str, Any] = {"depth": 10}
+    found: dict[str, Any] = {"depth": 10}
     if not isinstance(words, dict):
         say("qos should be a dictionary; it is left out")
         return found
@@ -105,7 +106,7 @@ def quality(words: Any, say: Callable[[str], None]) -> Dict[str, Any]:
     return found
 
 
-def entries(parameter: str, value: Any, key: str, say: Callable[[str], None]) -> List[Dict[str, Any]]:
+def entries(parameter: str, value: Any, key: str, say: Callable[[str], None]) -> list[dict[str, Any]]:
     """Entries of ``topics``, ``services_1_to_2`` and ``services_2_to_1`` that can be used."""
     if not isinstance(value, list):
         say(f"The parameter '{parameter}' either doesn't exist or isn't an array")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from typing import Any, Dict, Optional
+from typing import Any
 
 import rospy
 
@@ -22,7 +22,7 @@ SENSORS = {
 }
 
 
-def promised(topic: str, type_name: str) -> Dict[str, Any]:
+def promised(topic: str, type_name: str) -> dict[str, Any]:
     """The quality of service of a topic that has not been told one."""
     if topic == "/tf_static":
         return {"depth": 100, "durability": "transient_local"}
@@ -36,12 +36,12 @@ def promised(topic: str, type_name: str) -> Dict[str, Any]:
 class ToRos2:
     """A topic of ROS 1, published in ROS 2."""
 
-    def __init__(self, topic: str, pair: Pair, link: Link, pairs: Pairs, words: Optional[Dict[str, Any]] = None, queue: int = 100) -> None:
+    def __init__(self, topic: str, pair: Pair, link: Link, pairs: Pairs, words: dict[str, Any] | None = None, queue: int = 100) -> None:
         self.topic, self.pair = topic, pair
         self._link, self._pairs, self._queue, self._told = link, pairs, queue, words is not None
         self.words = words or promised(topic, pair.ros1)
         self._lock = threading.Lock()
-        self._subscriber: Optional[rospy.Subscriber] = None
+        self._subscriber: rospy.Subscriber | None = None
         link.tell("advertise", topic, pair.ros2, self.words)
 
     def matched(self, count: int) -> None:
@@ -55,7 +55,7 @@ class ToRos2:
                 self._subscriber.unregister()
                 self._subscriber = None
 
-    def unequal(self, policy: str, words: Dict[str, Any]) -> None:
+    def unequal(self, policy: str, words: dict[str, Any]) -> None:
         """A subscriber asks for more than is promised: it is promised, unless a parameter says what is to be."""
         more = {"DURABILITY": ("durability", "transient_local"), "RELIABILITY": ("reliability", "reliable")}.get(policy)
         if self._told or more is None:
@@ -67,7 +67,7 @@ class ToRos2:
         self.matched(0)
         self._link.tell("forget", "publisher", self.topic)
 
-    def _promise(self, words: Dict[str, Any]) -> None:
+    def _promise(self, words: dict[str, Any]) -> None:
         self.words = words
         self._link.tell("advertise", self.topic, self.pair.ros2, words)
         with self._lock:
@@ -112,14 +112,7 @@ class ToRos1(rospy.SubscribeListener):
     """A topic of ROS 2, published in ROS 1."""
 
     def __init__(
-        self,
-        topic: str,
-        pair: Pair,
-        link: Link,
-        pairs: Pairs,
-        seen: Dict[str, Any],
-        words: Optional[Dict[str, Any]] = None,
-        queue: int = 100,
+        self, topic: str, pair: Pair, link: Link, pairs: Pairs, seen: dict[str, Any], words: dict[str, Any] | None = None, queue: int = 100
     ):
         super().__init__()
         self.topic, self.pair, self._link, self._pairs = topic, pair, link, pairs
@@ -134,7 +127,7 @@ class ToRos1(rospy.SubscribeListener):
         if latched:
             self._listen()
 
-    def wanted(self, seen: Dict[str, Any]) -> Dict[str, Any]:
+    def wanted(self, seen: dict[str, Any]) -> dict[str, Any]:
         """What all publishers in ROS 2 can give."""
         words = {"depth": 100 if self.topic in ("/tf", "/tf_static") else 10}
         return {
@@ -143,7 +136,7 @@ class ToRos1(rospy.SubscribeListener):
             **({"durability": "transient_local"} if seen.get("latched") else {}),
         }
 
-    def look(self, seen: Dict[str, Any]) -> None:
+    def look(self, seen: dict[str, Any]) -> None:
         """Publishers have come or gone."""
         words = self._given or self.wanted(seen)
         if words != self.words:

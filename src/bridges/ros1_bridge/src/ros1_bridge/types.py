@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import Dict, List, Optional, Tuple
 
 #: Numbers, with their size in bytes: it is their alignment, too.
 SIZES = {"bool": 1, "int8": 1, "uint8": 1, "byte": 1, "char": 1, "int16": 2, "uint16": 2, "int32": 4, "uint32": 4, "float32": 4}
@@ -15,7 +14,7 @@ _SEQUENCE = re.compile(r"sequence<([^,]+)(?:, *(\d+))?>")
 _FIXED = re.compile(r"(.+)\[(\d*)\]")
 _TEXT = re.compile(r"string<(\d+)>")
 #: Types that upstream maps by a rule of their own: ROS 1 -> ROS 2, with the fields of ROS 2 by those of ROS 1 where names differ.
-RULES: Dict[str, Tuple[str, Dict[str, str]]] = {
+RULES: dict[str, tuple[str, dict[str, str]]] = {
     "rosgraph_msgs/Log": ("rcl_interfaces/Log", {"stamp": "header.stamp"}),
     "std_msgs/Time": ("builtin_interfaces/Time", {}),
     "std_msgs/Duration": ("builtin_interfaces/Duration", {}),
@@ -26,15 +25,15 @@ RULES: Dict[str, Tuple[str, Dict[str, str]]] = {
 class Field:
     name: str
     kind: str  # a number, string, wstring, time, duration, or package/Name
-    many: Optional[int] = None  # None: one; 0: a sequence; n: an array of n
-    bound: Optional[int] = None  # the most elements, or letters of a string
+    many: int | None = None  # None: one; 0: a sequence; n: an array of n
+    bound: int | None = None  # the most elements, or letters of a string
 
 
 #: Fields by type, package/Name.
-Types = Dict[str, Tuple[Field, ...]]
+Types = dict[str, tuple[Field, ...]]
 
 
-def fields_of_ros1(names: List[str], kinds: List[str]) -> Tuple[Field, ...]:
+def fields_of_ros1(names: list[str], kinds: list[str]) -> tuple[Field, ...]:
     """By ``__slots__`` and ``_slot_types`` of a class."""
     found = []
     for name, kind in zip(names, kinds):
@@ -44,12 +43,12 @@ def fields_of_ros1(names: List[str], kinds: List[str]) -> Tuple[Field, ...]:
     return tuple(found)
 
 
-def fields_of_ros2(types: Dict[str, str]) -> Tuple[Field, ...]:
+def fields_of_ros2(types: dict[str, str]) -> tuple[Field, ...]:
     """By ``get_fields_and_field_types()`` of a class."""
     found = []
     for name, kind in types.items():
-        many: Optional[int] = None
-        bound: Optional[int] = None
+        many: int | None = None
+        bound: int | None = None
         sequence, array = _SEQUENCE.fullmatch(kind), _FIXED.fullmatch(kind)
         if sequence:
             kind, many, bound = sequence[1], 0, int(sequence[2]) if sequence[2] else None
@@ -63,12 +62,12 @@ def fields_of_ros2(types: Dict[str, str]) -> Tuple[Field, ...]:
     return tuple(found)
 
 
-def packages_of_ros2(package: str) -> List[str]:
+def packages_of_ros2(package: str) -> list[str]:
     """Where the counterparts of a package of ROS 1 may be: ``x_msgs`` is ``x_msgs`` or ``x_interfaces``."""
     return [package, package[: -len("_msgs")] + "_interfaces"] if package.endswith("_msgs") else [package]
 
 
-def candidates(type_of_ros1: str) -> List[str]:
+def candidates(type_of_ros1: str) -> list[str]:
     """Types of ROS 2 (package/Name) that may be its counterpart, the likeliest first."""
     if type_of_ros1 in RULES:
         return [RULES[type_of_ros1][0]]
@@ -76,7 +75,7 @@ def candidates(type_of_ros1: str) -> List[str]:
     return [f"{one}/{name}" for one in packages_of_ros2(package)]
 
 
-def candidates_of_ros1(type_of_ros2: str) -> List[str]:
+def candidates_of_ros1(type_of_ros2: str) -> list[str]:
     """The other way."""
     ruled = [one for one, (two, _) in RULES.items() if two == type_of_ros2]
     package, _, name = type_of_ros2.partition("/")
@@ -84,7 +83,7 @@ def candidates_of_ros1(type_of_ros2: str) -> List[str]:
     return ruled or [f"{one}/{name}" for one in packages]
 
 
-def shared(type_of_ros1: str, one: Tuple[Field, ...], two: Tuple[Field, ...]) -> Optional[Dict[str, str]]:
+def shared(type_of_ros1: str, one: tuple[Field, ...], two: tuple[Field, ...]) -> dict[str, str] | None:
     """Names of ROS 1's fields by those of ROS 2; None where each side has a field that the other has not (upstream's rule).
 
     Names are compared in small letters, as ROS 2 has no others: ``CameraInfo``'s ``K`` is ``k``. Header's ``seq`` is left out.

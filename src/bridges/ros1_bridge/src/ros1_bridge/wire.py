@@ -7,14 +7,15 @@ zero and gives a message without fields one byte. Needs neither ROS.
 from __future__ import annotations
 
 import struct
-from typing import Any, Callable, Dict, List, Optional, Tuple, Union
+from collections.abc import Callable
+from typing import Any
 
 from ros1_bridge.errors import MappingError
 from ros1_bridge.types import FORMATS, RULES, SIZES, Field, Types, shared
 
 HEADER = b"\x00\x01\x00\x00"
 _LENGTH = struct.Struct("<I")
-Read = Callable[[memoryview, int], Tuple[Any, int]]
+Read = Callable[[memoryview, int], tuple[Any, int]]
 Write = Callable[[bytearray, Any], None]
 TIMES = ("time", "duration")  # two numbers of four bytes, the same in both
 
@@ -22,10 +23,10 @@ TIMES = ("time", "duration")  # two numbers of four bytes, the same in both
 class Codec:
     """How one kind of value is read and written. A value is whatever the two sides of one codec understand."""
 
-    def read1(self, data: memoryview, at: int) -> Tuple[Any, int]:
+    def read1(self, data: memoryview, at: int) -> tuple[Any, int]:
         raise NotImplementedError
 
-    def read2(self, data: memoryview, at: int) -> Tuple[Any, int]:
+    def read2(self, data: memoryview, at: int) -> tuple[Any, int]:
         raise NotImplementedError
 
     def write1(self, out: bytearray, value: Any) -> None:
@@ -43,10 +44,10 @@ class Flat(Codec):
     def __init__(self, width: int, size: int) -> None:
         self.width, self.size, self.zero = width, size, bytes(size)
 
-    def read1(self, data: memoryview, at: int) -> Tuple[Any, int]:
+    def read1(self, data: memoryview, at: int) -> tuple[Any, int]:
         return data[at : at + self.size], at + self.size
 
-    def read2(self, data: memoryview, at: int) -> Tuple[Any, int]:
+    def read2(self, data: memoryview, at: int) -> tuple[Any, int]:
         return self.read1(data, at + -at % self.width)
 
     def write1(self, out: bytearray, value: Any) -> None:
@@ -65,10 +66,10 @@ class Converted(Codec):
     def __init__(self, one: str, two: str) -> None:
         self._one, self._two, self._whole = struct.Struct("<" + FORMATS[one]), struct.Struct("<" + FORMATS[two]), (_whole(one), _whole(two))
 
-    def read1(self, data: memoryview, at: int) -> Tuple[Any, int]:
+    def read1(self, data: memoryview, at: int) -> tuple[Any, int]:
         return self._one.unpack_from(data, at)[0], at + self._one.size
 
-    def read2(self, data: memoryview, at: int) -> Tuple[Any, int]:
+    def read2(self, data: memoryview, at: int) -> tuple[Any, int]:
         at += -at % self._two.size
         return self._two.unpack_from(data, at)[0], at + self._two.size
 
@@ -83,14 +84,14 @@ class Converted(Codec):
 class Text(Codec):
     zero = b""
 
-    def __init__(self, bound: Optional[int]) -> None:
+    def __init__(self, bound: int | None) -> None:
         self._bound = bound
 
-    def read1(self, data: memoryview, at: int) -> Tuple[Any, int]:
+    def read1(self, data: memoryview, at: int) -> tuple[Any, int]:
         (length,) = _LENGTH.unpack_from(data, at)
         return bytes(data[at + 4 : at + 4 + length]), at + 4 + length
 
-    def read2(self, data: memoryview, at: int) -> Tuple[Any, int]:
+    def read2(self, data: memoryview, at: int) -> tuple[Any, int]:
         value, at = self.read1(data, at + -at % 4)
         return value[:-1], at
 
@@ -112,11 +113,11 @@ class Text(Codec):
 class Array(Codec):
     """Sequences, and arrays of a fixed length, of one codec. A value is a list, or the bytes of flat elements."""
 
-    def __init__(self, element: Codec, one: int, two: int, bound: Optional[int]) -> None:
+    def __init__(self, element: Codec, one: int, two: int, bound: int | None) -> None:
         self._element, self._one, self._two, self._bound = element, one, two, bound
         self.zero = element.zero * two if isinstance(element, Flat) else [element.zero] * two
 
-    def _read(self, data: memoryview, at: int, count: int, read: Read) -> Tuple[Any, int]:
+    def _read(self, data: memoryview, at: int, count: int, read: Read) -> tuple[Any, int]:
         if isinstance(self._element, Flat):
             if not count:
                 return b"", at
@@ -132,14 +133,14 @@ class Array(Codec):
             values.append(value)
         return values, at
 
-    def read1(self, data: memoryview, at: int) -> Tuple[Any, int]:
+    def read1(self, data: memoryview, at: int) -> tuple[Any, int]:
         count = self._one
         if not count:
             (count,) = _LENGTH.unpack_from(data, at)
             at += 4
         return self._read(data, at, count, self._element.read1)
 
-    def read2(self, data: memoryview, at: int) -> Tuple[Any, int]:
+    def read2(self, data: memoryview, at: int) -> tuple[Any, int]:
         count = self._two
         if not count:
             at += -at % 4
@@ -181,16 +182,16 @@ class Array(Codec):
 class Struct(Codec):
     """A message. Values are by ROS 1's name of the field; a side's own fields are passed over and written as zero."""
 
-    def __init__(self, one: List[Tuple[Optional[str], Codec]], two: List[Tuple[Optional[str], Codec]]) -> None:
+    def __init__(self, one: list[tuple[str | None, Codec]], two: list[tuple[str | None, Codec]]) -> None:
         self._one, self._two, self.zero = one, two, {}
 
-    def read1(self, data: memoryview, at: int) -> Tuple[Any, int]:
+    def read1(self, data: memoryview, at: int) -> tuple[Any, int]:
         values = {}
         for name, codec in self._one:
             values[name], at = codec.read1(data, at)
         return values, at
 
-    def read2(self, data: memoryview, at: int) -> Tuple[Any, int]:
+    def read2(self, data: memoryview, at: int) -> tuple[Any, int]:
         values = {}
         for name, codec in self._two:
             values[name], at = codec.read2(data, at)
@@ -226,16 +227,16 @@ class Pair:
 
     def __init__(self, type_of_ros1: str, one: Types, type_of_ros2: str, two: Types) -> None:
         self.ros1, self.ros2, self._types = type_of_ros1, type_of_ros2, (one, two)
-        self._made: Dict[Tuple[str, str], Codec] = {}
+        self._made: dict[tuple[str, str], Codec] = {}
         self._codec = self._message(type_of_ros1, type_of_ros2)
 
-    def to_ros2(self, data: Union[bytes, memoryview]) -> bytearray:
+    def to_ros2(self, data: bytes | memoryview) -> bytearray:
         """:raises MappingError: these bytes are no such message"""
         out = bytearray(HEADER)
         self._codec.write2(out, self._read(self._codec.read1, memoryview(data), False))
         return out
 
-    def to_ros1(self, data: Union[bytes, memoryview]) -> bytearray:
+    def to_ros1(self, data: bytes | memoryview) -> bytearray:
         """:raises MappingError:"""
         if bytes(data[:2]) != HEADER[:2]:
             raise MappingError(f"{self.ros2}: bytes of encoding {bytes(data[:2]).hex()}, and only CDR of little endian (0001) is known")
@@ -253,7 +254,7 @@ class Pair:
             raise MappingError(f"{len(data)} bytes are no {self.ros2 if padded else self.ros1}")
         return value
 
-    def _fields(self, side: int, kind: str) -> Tuple[Field, ...]:
+    def _fields(self, side: int, kind: str) -> tuple[Field, ...]:
         if kind not in self._types[side]:
             raise MappingError(f"ROS {side + 1} has no {kind} here")
         return self._types[side][kind]
@@ -268,15 +269,15 @@ class Pair:
                 self._made[key] = flat or self._structure(one, two)
         return self._made[key]
 
-    def _flat(self, one: str, two: str) -> Optional[Flat]:
+    def _flat(self, one: str, two: str) -> Flat | None:
         first, second = self._leaves(0, one), self._leaves(1, two)
         if first and first == second and len({width for _, width in first}) == 1:
             return Flat(first[0][1], sum(width for _, width in first))
         return None
 
-    def _leaves(self, side: int, kind: str) -> List[Tuple[str, int]]:
+    def _leaves(self, side: int, kind: str) -> list[tuple[str, int]]:
         """Numbers of which a message consists, by name and size, [] where it has others."""
-        found: List[Tuple[str, int]] = []
+        found: list[tuple[str, int]] = []
         for field in self._fields(side, kind):
             if field.kind in SIZES:
                 part = [(f"{field.name.lower()} {FORMATS[field.kind].replace('b', 'B')}", SIZES[field.kind])]
@@ -308,7 +309,7 @@ class Pair:
             [(names[f.name], codecs[f.name]) if f.name in names else (None, self._alone(1, f)) for f in second],
         )
 
-    def _ruled(self, first: Tuple[Field, ...], second: Tuple[Field, ...], codecs: Dict[str, Codec]) -> Struct:
+    def _ruled(self, first: tuple[Field, ...], second: tuple[Field, ...], codecs: dict[str, Codec]) -> Struct:
         """rosgraph_msgs/Log: ROS 2 has the header's stamp alone."""
         stamp = Flat(4, 8)
         header = _Stamp(stamp, Text(None))
@@ -341,7 +342,7 @@ class Pair:
         elif field.kind == "string":
             element = Text(None)
         elif "/" in field.kind:
-            parts: List[Tuple[Optional[str], Codec]] = [(None, self._alone(side, inner)) for inner in self._fields(side, field.kind)]
+            parts: list[tuple[str | None, Codec]] = [(None, self._alone(side, inner)) for inner in self._fields(side, field.kind)]
             element = Struct(parts, parts)
         else:
             raise MappingError(f"{field.name} is a {field.kind}, which ROS 1 has not")
@@ -354,7 +355,7 @@ class _Stamp(Codec):
     def __init__(self, stamp: Flat, text: Text) -> None:
         self._stamp, self._text, self.zero = stamp, text, stamp.zero
 
-    def read1(self, data: memoryview, at: int) -> Tuple[Any, int]:
+    def read1(self, data: memoryview, at: int) -> tuple[Any, int]:
         stamp, at = self._stamp.read1(data, at + 4)
         return stamp, self._text.read1(data, at)[1]
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import functools
 import json
 import math
-from typing import Any, Callable, Dict, Iterable, List, Tuple
+from collections.abc import Callable, Iterable
+from typing import Any
 
 import node_signals
 import rosgraph
@@ -37,40 +38,40 @@ class Api:
 
     # ------------------------------------------------------------------------------------------ topics
 
-    def _state(self) -> Tuple[Dict[str, List[str]], ...]:
+    def _state(self) -> tuple[dict[str, list[str]], ...]:
         return tuple({name: nodes for name, nodes in part} for part in _master().getSystemState())
 
-    def _types(self) -> Dict[str, str]:
+    def _types(self) -> dict[str, str]:
         """Of topics that somebody publishes or reads and that clients may see; "" where the master knows none."""
         published, subscribed, _ = self._state()
         known = dict(_master().getTopicTypes())
         return {name: known.get(name, "") for name in sorted({*published, *subscribed}) if allowed(name, self._topics)}
 
-    def topics(self, _: Any) -> Dict[str, Any]:
+    def topics(self, _: Any) -> dict[str, Any]:
         types = self._types()
         return {"topics": list(types), "types": list(types.values())}
 
-    def topics_and_raw_types(self, _: Any) -> Dict[str, Any]:
+    def topics_and_raw_types(self, _: Any) -> dict[str, Any]:
         types = self._types()
         return {"topics": list(types), "types": list(types.values()), "typedefs_full_text": [_full_text(name) for name in types.values()]}
 
-    def topics_for_type(self, request: Any) -> Dict[str, Any]:
+    def topics_for_type(self, request: Any) -> dict[str, Any]:
         return {"topics": [name for name, kind in self._types().items() if kind == request.type]}
 
-    def topic_type(self, request: Any) -> Dict[str, Any]:
+    def topic_type(self, request: Any) -> dict[str, Any]:
         return {"type": self._types().get(request.topic, "")}
 
-    def publishers(self, request: Any) -> Dict[str, Any]:
+    def publishers(self, request: Any) -> dict[str, Any]:
         return {"publishers": self._nodes(PUBLISHED, request.topic)}
 
-    def subscribers(self, request: Any) -> Dict[str, Any]:
+    def subscribers(self, request: Any) -> dict[str, Any]:
         return {"subscribers": self._nodes(SUBSCRIBED, request.topic)}
 
-    def _nodes(self, part: int, topic: str) -> List[str]:
+    def _nodes(self, part: int, topic: str) -> list[str]:
         return self._state()[part].get(topic, []) if allowed(topic, self._topics) else []
 
-    def action_servers(self, _: Any) -> Dict[str, Any]:
-        found: Dict[str, set] = {}
+    def action_servers(self, _: Any) -> dict[str, Any]:
+        found: dict[str, set] = {}
         for name in self._types():
             space, _, last = name.rpartition("/")
             found.setdefault(space, set()).add(last)
@@ -78,54 +79,54 @@ class Api:
 
     # ------------------------------------------------------------------------------------------ services and nodes
 
-    def services(self, _: Any) -> Dict[str, Any]:
+    def services(self, _: Any) -> dict[str, Any]:
         return {"services": self._seen(self._state()[OFFERED])}
 
-    def _seen(self, services: Iterable[str]) -> List[str]:
+    def _seen(self, services: Iterable[str]) -> list[str]:
         return [name for name in sorted(services) if allowed(name, self._services)]
 
-    def services_for_type(self, request: Any) -> Dict[str, Any]:
+    def services_for_type(self, request: Any) -> dict[str, Any]:
         return {"services": [name for name in self._seen(self._state()[OFFERED]) if _type_of(name) == request.type]}
 
-    def service_type(self, request: Any) -> Dict[str, Any]:
+    def service_type(self, request: Any) -> dict[str, Any]:
         return {"type": _type_of(request.service) if allowed(request.service, self._services) else ""}
 
-    def service_providers(self, request: Any) -> Dict[str, Any]:
+    def service_providers(self, request: Any) -> dict[str, Any]:
         """Nodes that have a service of the type that the field ``service`` names, as upstream."""
         state = self._state()[OFFERED]
         return {"providers": [node for name in self._seen(state) if _type_of(name) == request.service for node in state[name]]}
 
-    def service_node(self, request: Any) -> Dict[str, Any]:
+    def service_node(self, request: Any) -> dict[str, Any]:
         return {"node": next(iter(self._state()[OFFERED].get(request.service, [])), "")}
 
-    def service_host(self, request: Any) -> Dict[str, Any]:
+    def service_host(self, request: Any) -> dict[str, Any]:
         uri = rosservice.get_service_uri(request.service) or ""
         return {"host": uri.partition("://")[2].rpartition(":")[0]}
 
-    def nodes(self, _: Any) -> Dict[str, Any]:
+    def nodes(self, _: Any) -> dict[str, Any]:
         return {"nodes": rosnode.get_node_names()}
 
-    def node_details(self, request: Any) -> Dict[str, Any]:
+    def node_details(self, request: Any) -> dict[str, Any]:
         published, subscribed, offered = (sorted(name for name, nodes in part.items() if request.node in nodes) for part in self._state())
         return {"subscribing": subscribed, "publishing": published, "services": offered}
 
     # ------------------------------------------------------------------------------------------ types
 
-    def message_details(self, request: Any) -> Dict[str, Any]:
+    def message_details(self, request: Any) -> dict[str, Any]:
         return {"typedefs": typedefs.of_message(request.type)}
 
-    def service_request_details(self, request: Any) -> Dict[str, Any]:
+    def service_request_details(self, request: Any) -> dict[str, Any]:
         return {"typedefs": typedefs.of_class(ros_loader.get_service_class(request.type)._request_class)}
 
-    def service_response_details(self, request: Any) -> Dict[str, Any]:
+    def service_response_details(self, request: Any) -> dict[str, Any]:
         return {"typedefs": typedefs.of_class(ros_loader.get_service_class(request.type)._response_class)}
 
     # ------------------------------------------------------------------------------------------ parameters and time
 
-    def get_param_names(self, _: Any) -> Dict[str, Any]:
+    def get_param_names(self, _: Any) -> dict[str, Any]:
         return {"names": [name for name in rospy.get_param_names() if allowed(name, self._params)]}
 
-    def get_param(self, request: Any) -> Dict[str, Any]:
+    def get_param(self, request: Any) -> dict[str, Any]:
         """The value as JSON; of one that is not there the default, null where none is given."""
         self._allow(request.name)
         default = None
@@ -136,7 +137,7 @@ class Api:
                 default = request.default
         return {"value": json.dumps(_finite(rospy.get_param(request.name, default)), default=str)}
 
-    def set_param(self, request: Any) -> Dict[str, Any]:
+    def set_param(self, request: Any) -> dict[str, Any]:
         self._allow(request.name)
         try:
             value = json.loads(request.value)
@@ -147,14 +148,14 @@ class Api:
         rospy.set_param(request.name, value)
         return {}
 
-    def has_param(self, request: Any) -> Dict[str, Any]:
+    def has_param(self, request: Any) -> dict[str, Any]:
         return {"exists": allowed(request.name, self._params) and rospy.has_param(request.name)}
 
-    def search_param(self, request: Any) -> Dict[str, Any]:
+    def search_param(self, request: Any) -> dict[str, Any]:
         found = rospy.search_param(request.name) or ""
         return {"global_name": found if allowed(found, self._params) else ""}
 
-    def delete_param(self, request: Any) -> Dict[str, Any]:
+    def delete_param(self, request: Any) -> dict[str, Any]:
         self._allow(request.name)
         if rospy.has_param(request.name):
             rospy.delete_param(request.name)
@@ -164,7 +165,7 @@ class Api:
         if not allowed(name, self._params):
             raise rospy.ServiceException(f"~params_glob does not allow {name}")
 
-    def get_time(self, _: Any) -> Dict[str, Any]:
+    def get_time(self, _: Any) -> dict[str, Any]:
         return {"time": rospy.get_rostime()}
 
 
@@ -226,7 +227,7 @@ SERVICES = {
 }
 
 
-def _answer(work: Callable[[Any], Dict[str, Any]], kind: Any, request: Any) -> Any:
+def _answer(work: Callable[[Any], dict[str, Any]], kind: Any, request: Any) -> Any:
     try:
         return kind._response_class(**work(request))
     except (

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from typing import Any, List, Optional, Set
+from typing import Any
 
 from rosbridge_library.internal import ros_loader
 from rosbridge_library.internal.message_conversion import FLOATS, INTEGERS, TIMES, split_type
@@ -13,7 +13,7 @@ from rosapi.msg import TypeDef
 ATOMIC = {*INTEGERS, *FLOATS, "bool", "string"}
 
 
-def of_message(name: str) -> List[TypeDef]:
+def of_message(name: str) -> list[TypeDef]:
     """The type ``name``, and below it all that its fields have; none for what is no message.
 
     :raises RosbridgeError: nothing here defines it
@@ -21,13 +21,13 @@ def of_message(name: str) -> List[TypeDef]:
     return _with_parts(name, set())
 
 
-def of_class(kind: Any) -> List[TypeDef]:
+def of_class(kind: Any) -> list[TypeDef]:
     """As :func:`of_message`, for the request or response of a service."""
     own = _typedef(kind)
     return [own, *_parts(own, set())]
 
 
-def _with_parts(name: str, seen: Set[str]) -> List[TypeDef]:
+def _with_parts(name: str, seen: set[str]) -> list[TypeDef]:
     if name in seen:
         return []
     seen.add(name)
@@ -35,11 +35,11 @@ def _with_parts(name: str, seen: Set[str]) -> List[TypeDef]:
     return [] if own is None else [own, *_parts(own, seen)]
 
 
-def _parts(own: TypeDef, seen: Set[str]) -> List[TypeDef]:
+def _parts(own: TypeDef, seen: set[str]) -> list[TypeDef]:
     return [part for name in own.fieldtypes for part in _with_parts(name, seen)]
 
 
-def _own(name: str) -> Optional[TypeDef]:
+def _own(name: str) -> TypeDef | None:
     if name in ATOMIC:
         return None
     if name in TIMES:

@@ -8,7 +8,7 @@ import hmac
 import json
 import ssl
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, Dict, Optional
+from typing import Any
 
 import bson
 import node_signals
@@ -38,7 +38,7 @@ class Clients:
     def __init__(self) -> None:
         self._count = rospy.Publisher("client_count", Int32, queue_size=10, latch=True)
         self._list = rospy.Publisher("connected_clients", ConnectedClients, queue_size=10, latch=True)
-        self._there: Dict[int, ConnectedClient] = {}
+        self._there: dict[int, ConnectedClient] = {}
         self._tell()
 
     def come(self, number: int, address: str) -> None:
@@ -63,13 +63,13 @@ class Connection(tornado.websocket.WebSocketHandler):
 
     def initialize(self, shared: Shared, clients: Clients, token: str) -> None:
         self._shared, self._clients, self._token = shared, clients, token
-        self._client: Optional[Client] = None
+        self._client: Client | None = None
         self._known = not shared.settings.authenticate
 
     def check_origin(self, origin: str) -> bool:
         return origin != "null" or self._shared.settings.websocket_null_origin
 
-    def get_compression_options(self) -> Optional[Dict[str, Any]]:
+    def get_compression_options(self) -> dict[str, Any] | None:
         return {} if self._shared.settings.use_compression else None
 
     def open(self, *_: str, **__: str) -> None:
@@ -133,7 +133,7 @@ class Connection(tornado.websocket.WebSocketHandler):
             self._thread.shutdown(wait=False)
 
 
-def _certificate(settings: Settings) -> Optional[ssl.SSLContext]:
+def _certificate(settings: Settings) -> ssl.SSLContext | None:
     if not settings.certfile:
         return None
     context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
@@ -170,7 +170,7 @@ async def _serve(settings: Settings, stop: asyncio.Event) -> None:
             )
         try:
             await asyncio.wait_for(stop.wait(), settings.retry_startup_delay)
-        except asyncio.TimeoutError:
+        except TimeoutError:
             pass
     else:
         return

@@ -5,16 +5,16 @@ from __future__ import annotations
 import asyncio
 import threading
 from collections import deque
-from typing import Awaitable, Callable, Deque, Dict, List, Optional, Union
+from collections.abc import Awaitable, Callable
 
-Frame = Union[str, bytes]  # of text, of bytes
+Frame = str | bytes  # of text, of bytes
 
 ROOM = 16 * 1024 * 1024  # bytes of messages of topics that wait; beyond, the oldest of the same topic goes
 LIMIT = 128 * 1024 * 1024  # bytes of all that waits; a client that lets it grow so far is gone
 
 
 class _Item:
-    def __init__(self, frames: List[Frame], topic: Optional[str]) -> None:
+    def __init__(self, frames: list[Frame], topic: str | None) -> None:
         self.frames, self.topic = frames, topic
         self.size = sum(map(len, frames))
 
@@ -34,14 +34,14 @@ class Outbox:
     ) -> None:
         self._loop, self._write, self._overflow, self.delay = loop, write, overflow, delay
         self._lock = threading.Lock()
-        self._items: Deque[_Item] = deque()
-        self._by_topic: Dict[str, Deque[_Item]] = {}
+        self._items: deque[_Item] = deque()
+        self._by_topic: dict[str, deque[_Item]] = {}
         self._size = 0
         self._running = self.closed = False
         self._empty = threading.Event()
         self._empty.set()
 
-    def put(self, frames: List[Frame], topic: Optional[str] = None) -> int:
+    def put(self, frames: list[Frame], topic: str | None = None) -> int:
         """
         :param topic: whose message it is; None: an answer, which always goes out
         :return: how many older messages of the topic went
@@ -82,7 +82,7 @@ class Outbox:
             self._size = 0
             self._empty.set()
 
-    def _next(self) -> Optional[_Item]:
+    def _next(self) -> _Item | None:
         with self._lock:
             if not self._items:
                 self._running = False

@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 import threading
 import time
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from typing import Any, Callable, Dict, Iterator, List, Optional, Tuple, Type, Union
+from typing import Any
 
 import bson
 import cbor2
@@ -31,7 +32,7 @@ _WORDS = {str: "a text", bool: "true or false", int: "a whole number", float: "a
 @dataclass
 class _Fragments:
     total: int
-    parts: Dict[int, Any] = field(default_factory=dict)
+    parts: dict[int, Any] = field(default_factory=dict)
     last: float = field(default_factory=time.monotonic)
 
 
@@ -57,12 +58,12 @@ class Client:
         self._shared, self._settings, self._outbox = shared, shared.settings, outbox
         self._bson = shared.settings.bson_only_mode
         self._level = "error"
-        self._subscriptions: Dict[str, Subscription] = {}
-        self._advertised: Dict[str, set] = {}  # topic -> ids
+        self._subscriptions: dict[str, Subscription] = {}
+        self._advertised: dict[str, set] = {}  # topic -> ids
         self._published: set = set()
-        self._fragments: Dict[Any, _Fragments] = {}
+        self._fragments: dict[Any, _Fragments] = {}
         self._fragment_number = 0
-        self._operations: Dict[str, Callable[[Dict[str, Any]], None]] = {
+        self._operations: dict[str, Callable[[dict[str, Any]], None]] = {
             "advertise": self._advertise,
             "unadvertise": self._unadvertise,
             "publish": self._publish,
@@ -120,7 +121,7 @@ class Client:
         except Exception as error:  # the connection and the other clients live on
             self.say("error", f"{message.get('op')}: {type(error).__name__}: {' '.join(str(error).split())[:300]}", number)
 
-    def _advertise(self, message: Dict[str, Any]) -> None:
+    def _advertise(self, message: dict[str, Any]) -> None:
         topic, type_name = _get(message, "topic", str), _get(message, "type", str)
         self._allow(topic, "topics_glob")
         self._shared.publications.register(
@@ -128,7 +129,7 @@ class Client:
         )
         self._advertised.setdefault(topic, set()).add(_key(message.get("id")))
 
-    def _unadvertise(self, message: Dict[str, Any]) -> None:
+    def _unadvertise(self, message: dict[str, Any]) -> None:
         topic = _get(message, "topic", str)
         ids = self._advertised.get(topic, set())
         ids.discard(_key(message.get("id")))
@@ -136,7 +137,7 @@ class Client:
             if self._advertised.pop(topic, None) is not None and topic not in self._published:
                 self._shared.publications.unregister(self.number, topic)
 
-    def _publish(self, message: Dict[str, Any]) -> None:
+    def _publish(self, message: dict[str, Any]) -> None:
         topic = _get(message, "topic", str)
         self._allow(topic, "topics_glob")
         publication = self._shared.publications.register(
@@ -146,7 +147,7 @@ class Client:
             self._published.add(topic)
         publication.publish(message.get("msg", {}))
 
-    def _subscribe(self, message: Dict[str, Any]) -> None:
+    def _subscribe(self, message: dict[str, Any]) -> None:
         topic, type_name = _get(message, "topic", str), _get(message, "type", str, None)
         throttle = _get(message, "throttle_rate", float, 0)
         length, fragment = _get(message, "queue_length", int, 0), _get(message, "fragment_size", int, None)
@@ -170,7 +171,7 @@ class Client:
         self._subscriptions[topic] = subscription
         self.say("info", f"subscribed to {topic}", message.get("id"))
 
-    def _unsubscribe(self, message: Dict[str, Any]) -> None:
+    def _unsubscribe(self, message: dict[str, Any]) -> None:
         topic, number = _get(message, "topic", str), message.get("id")
         subscription = self._subscriptions.get(topic)
         if subscription is not None and subscription.drop(None if number is None else _key(number)):
@@ -181,7 +182,7 @@ class Client:
         subscription.close()
         self._shared.feeds.leave(subscription)
 
-    def _call_service(self, message: Dict[str, Any]) -> None:
+    def _call_service(self, message: dict[str, Any]) -> None:
         service = _get(message, "service", str)
         name, _, number = service.partition("#")  # an id as old pages wrote it
         number = message.get("id", number or None)
@@ -202,22 +203,22 @@ class Client:
 
         threading.Thread(target=work, name=f"call of {name}", daemon=True).start()
 
-    def _advertise_service(self, message: Dict[str, Any]) -> None:
+    def _advertise_service(self, message: dict[str, Any]) -> None:
         service, type_name = _get(message, "service", str), _get(message, "type", str)
         self._allow(service, "services_glob")
         fragment = _get(message, "fragment_size", int, None)
         self._shared.services.offer(self.number, service, type_name, lambda request: self.send(request, fragment), self._bson)
         self.say("info", f"advertised service {service}", message.get("id"))
 
-    def _unadvertise_service(self, message: Dict[str, Any]) -> None:
+    def _unadvertise_service(self, message: dict[str, Any]) -> None:
         self._shared.services.withdraw(self.number, _get(message, "service", str))
         self.say("info", f"unadvertised service {message['service']}", message.get("id"))
 
-    def _service_response(self, message: Dict[str, Any]) -> None:
+    def _service_response(self, message: dict[str, Any]) -> None:
         offered = self._shared.services.of(self.number, _get(message, "service", str))
         offered.answer(_get(message, "id", str), message.get("values"), _get(message, "result", bool, None))
 
-    def _fragment(self, message: Dict[str, Any]) -> None:
+    def _fragment(self, message: dict[str, Any]) -> None:
         number, total = _key(_get(message, "id", object)), _get(message, "total", int)
         place, data = _get(message, "num", int), _get(message, "data", bytes if self._bson else str)
         now = time.monotonic()
@@ -243,7 +244,7 @@ class Client:
             del self._fragments[number]
             self.incoming((b"" if self._bson else "").join(whole.parts[index] for index in range(total)))
 
-    def _png(self, message: Dict[str, Any]) -> None:
+    def _png(self, message: dict[str, Any]) -> None:
         data = _get(message, "data", str)
         try:
             text = pngcompression.decode(data)
@@ -251,7 +252,7 @@ class Client:
             raise InvalidArgumentException(f"data is no picture in base64: {error}") from None
         self.incoming(text)
 
-    def _set_level(self, message: Dict[str, Any]) -> None:
+    def _set_level(self, message: dict[str, Any]) -> None:
         level = _get(message, "level", str)
         if level not in LEVELS:
             raise InvalidArgumentException(f"there is no level {level!r}; there are {', '.join(LEVELS)}")
@@ -273,7 +274,7 @@ class Client:
         if LEVELS.index(level) <= LEVELS.index(self._level):
             self.send({"op": "status", "level": level, "msg": line, **({} if number is None else {"id": number})})
 
-    def send(self, message: Dict[str, Any], fragment: Optional[int] = None, compression: str = "none") -> None:
+    def send(self, message: dict[str, Any], fragment: int | None = None, compression: str = "none") -> None:
         if compression == "cbor" and not self._bson:
             data: Frame = cbor2.dumps(message)
         elif compression == "png" and not self._bson:
@@ -282,14 +283,14 @@ class Client:
             data = self._encode(message)
         self._outbox.put(self._frames(data, fragment, message.get("id")))
 
-    def _tell_topic(self, topic: str, data: Frame, fragment: Optional[int]) -> None:
+    def _tell_topic(self, topic: str, data: Frame, fragment: int | None) -> None:
         if self._outbox.put(self._frames(data, fragment, None), topic):
             rospy.logwarn_throttle_identical(60, f"[Client {self.number}] reads too slowly: messages of {topic} are dropped")
 
-    def _encode(self, message: Dict[str, Any]) -> Frame:
+    def _encode(self, message: dict[str, Any]) -> Frame:
         return bson.encode(message) if self._bson else json.dumps(message)
 
-    def _frames(self, data: Frame, fragment: Optional[int], number: Any) -> List[Frame]:
+    def _frames(self, data: Frame, fragment: int | None, number: Any) -> list[Frame]:
         size = fragment or self._settings.max_message_size
         if not size or len(data) <= size or isinstance(data, bytes) and not self._bson:  # CBOR is not cut
             return [data]
@@ -317,7 +318,7 @@ class Client:
 _REQUIRED: Any = object()
 
 
-def _get(message: Dict[str, Any], name: str, kind: Type[Any], default: Any = _REQUIRED) -> Any:
+def _get(message: dict[str, Any], name: str, kind: type[Any], default: Any = _REQUIRED) -> Any:
     """A field, checked; null counts as none where there is a default.
 
     :raises RosbridgeError: it is missing, or of another type
@@ -327,12 +328,12 @@ def _get(message: Dict[str, Any], name: str, kind: Type[Any], default: Any = _RE
         if default is _REQUIRED:
             raise MissingArgumentException(f"a field '{name}' is missing")
         return default
-    kinds: Tuple[type, ...] = (int, float) if kind is float else (kind,)
+    kinds: tuple[type, ...] = (int, float) if kind is float else (kind,)
     if not isinstance(value, kinds) or isinstance(value, bool) and kind in (int, float):
         raise InvalidArgumentException(f"field '{name}' should be {_WORDS.get(kind, 'bytes')}, not {value!r:.60}")
     return value
 
 
-def _key(number: Any) -> Union[str, int, float, None]:
+def _key(number: Any) -> str | int | float | None:
     """An id as a key; clients choose what they like."""
     return number if isinstance(number, (str, int, float)) or number is None else repr(number)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import itertools
 import threading
-from typing import Any, Callable, Dict, Optional
+from collections.abc import Callable
+from typing import Any
 
 import rospy
 import rosservice
@@ -52,12 +53,12 @@ class Offered:
 
     _numbers = itertools.count(1)
 
-    def __init__(self, name: str, type_name: str, ask: Callable[[Dict[str, Any]], None], bson_only: bool) -> None:
+    def __init__(self, name: str, type_name: str, ask: Callable[[dict[str, Any]], None], bson_only: bool) -> None:
         self.name = name
         self._ask, self._bson = ask, bson_only
         self._kind = ros_loader.get_service_class(type_name)
         self._lock = threading.Lock()
-        self._calls: Dict[str, _Call] = {}
+        self._calls: dict[str, _Call] = {}
         self._closed = False
         try:
             self._service = rospy.Service(name, self._kind, self._handle)
@@ -76,7 +77,7 @@ class Offered:
             raise rospy.ServiceException(waiting.error)
         return waiting.response
 
-    def answer(self, number: Any, values: Any, result: Optional[bool]) -> None:
+    def answer(self, number: Any, values: Any, result: bool | None) -> None:
         """
         :param result: whether the service could do it; None: the client did not say
         :raises RosbridgeError: the values are none of the response, which its caller is told as well; or nobody has asked
@@ -112,7 +113,7 @@ class _Call:
     def __init__(self) -> None:
         self.done = threading.Event()
         self.response: Any = None
-        self.error: Optional[str] = None
+        self.error: str | None = None
 
 
 class Services:
@@ -121,9 +122,9 @@ class Services:
     def __init__(self, warn: Callable[[str], None]) -> None:
         self._warn = warn
         self._lock = threading.Lock()
-        self._there: Dict[str, Any] = {}  # name -> client's number, Offered
+        self._there: dict[str, Any] = {}  # name -> client's number, Offered
 
-    def offer(self, client: int, name: str, type_name: str, ask: Callable[[Dict[str, Any]], None], bson_only: bool) -> None:
+    def offer(self, client: int, name: str, type_name: str, ask: Callable[[dict[str, Any]], None], bson_only: bool) -> None:
         """:raises RosbridgeError:"""
         with self._lock:
             ros_loader.get_service_class(type_name)  # what is there stays where the new one cannot be

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from dataclasses import dataclass, fields
-from typing import Any, Callable, Dict, List, Tuple
+from typing import Any
 
 from rosbridge_library.internal.exceptions import InvalidArgumentException, RosbridgeError
 from rosbridge_library.internal.globs import globs
@@ -35,13 +36,13 @@ class Settings:
     websocket_ping_interval: float = 0.0  # s; 0: none
     websocket_ping_timeout: float = 30.0  # s
     websocket_null_origin: bool = True  # whether pages from files may connect
-    topics_glob: Tuple[str, ...] = ()  # patterns of the shell; none: all
-    services_glob: Tuple[str, ...] = ()
-    params_glob: Tuple[str, ...] = ()
+    topics_glob: tuple[str, ...] = ()  # patterns of the shell; none: all
+    services_glob: tuple[str, ...] = ()
+    params_glob: tuple[str, ...] = ()
     bson_only_mode: bool = False
 
     @classmethod
-    def read(cls, get: Callable[[str, Any], Any], words: List[str], warn: Callable[[str], None]) -> Settings:
+    def read(cls, get: Callable[[str, Any], Any], words: list[str], warn: Callable[[str], None]) -> Settings:
         """
         :param get: value of a private parameter, or a default
         :param words: of the command line
@@ -59,7 +60,7 @@ class Settings:
             warn(f"{' '.join(rest)}: there is no such option")
         if get("binary_encoder", "default") not in ("default", "b64"):
             warn("~binary_encoder has no effect here; bytes are base64, and bytes in bson_only_mode")
-        values: Dict[str, Any] = {}
+        values: dict[str, Any] = {}
         for field in fields(cls):
             value = getattr(options, field.name)
             values[field.name] = _checked(field.name, get(field.name, field.default) if value is None else value, field.default)

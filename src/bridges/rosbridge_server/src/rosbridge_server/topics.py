@@ -6,7 +6,8 @@ import json
 import threading
 import time
 from collections import deque
-from typing import Any, Callable, Deque, Dict, List, Optional, Set, Tuple, Union
+from collections.abc import Callable
+from typing import Any
 
 import bson
 import cbor2
@@ -29,7 +30,7 @@ class TopicError(RosbridgeError):
     """A topic that cannot be read or written, in one line."""
 
 
-def established(topic: str) -> Optional[str]:
+def established(topic: str) -> str | None:
     """Type of a topic that somebody publishes or reads; None where nobody does, or the type is not known."""
     master = rosgraph.Master(rospy.get_name())
     published, subscribed, _ = master.getSystemState()
@@ -39,7 +40,7 @@ def established(topic: str) -> Optional[str]:
     return None if found == rosgraph.names.ANYTYPE else found
 
 
-def class_of(topic: str, wanted: Optional[str]) -> Any:
+def class_of(topic: str, wanted: str | None) -> Any:
     """
     :param wanted: type that a client names, if it does
     :raises RosbridgeError: the topic has another type, none that is known, or nothing here defines it
@@ -61,15 +62,15 @@ class Message:
         self._raw, self._kind = raw, kind
         self._now = rospy.get_rostime()
         self._parsed: Any = None
-        self._made: Dict[Tuple[str, str], Union[str, bytes]] = {}
+        self._made: dict[tuple[str, str], str | bytes] = {}
 
-    def encoded(self, form: str, topic: str) -> Union[str, bytes]:
+    def encoded(self, form: str, topic: str) -> str | bytes:
         """:raises RosbridgeError: its type is not the one of the topic"""
         if (form, topic) not in self._made:
             self._made[form, topic] = self._encode(form, topic)
         return self._made[form, topic]
 
-    def _encode(self, form: str, topic: str) -> Union[str, bytes]:
+    def _encode(self, form: str, topic: str) -> str | bytes:
         head = {"op": "publish", "topic": topic}
         if form == "cbor-raw":
             return cbor2.dumps({**head, "msg": {"secs": self._now.secs, "nsecs": self._now.nsecs, "bytes": self._raw._buff}})
@@ -97,7 +98,7 @@ class Feed:
     def __init__(self, topic: str) -> None:
         self.kind: Any = None  # of messages; None while all who read want them as they are
         self._lock = threading.Lock()
-        self._readers: List[Subscription] = []
+        self._readers: list[Subscription] = []
         self._subscriber = rospy.Subscriber(topic, rospy.AnyMsg, self._take, buff_size=BUFFER, tcp_nodelay=True)
 
     def add(self, reader: Subscription) -> None:
@@ -134,9 +135,9 @@ class Feeds:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._feeds: Dict[str, Feed] = {}
+        self._feeds: dict[str, Feed] = {}
 
-    def join(self, reader: Subscription, wanted: Optional[str], raw: bool) -> None:
+    def join(self, reader: Subscription, wanted: str | None, raw: bool) -> None:
         """:raises RosbridgeError: see :func:`class_of`"""
         topic = rospy.resolve_name(reader.topic)
         with self._lock:
@@ -169,23 +170,23 @@ class Subscription:
     def __init__(
         self,
         topic: str,
-        send: Callable[[str, Union[str, bytes], Optional[int]], None],
+        send: Callable[[str, str | bytes, int | None], None],
         outbox: Outbox,
         bson_only: bool,
         complain: Callable[[str], None],
     ) -> None:
         self.topic = topic
         self._send, self._outbox, self._bson, self._complain = send, outbox, bson_only, complain
-        self._wishes: Dict[Any, Dict[str, Any]] = {}
+        self._wishes: dict[Any, dict[str, Any]] = {}
         self._changed = threading.Condition()
-        self._waiting: Deque[Message] = deque()
+        self._waiting: deque[Message] = deque()
         self._last = 0.0
         self._pause, self._length = 0.0, 0  # s, messages
         self._form, self._fragment = "none", None
-        self._worker: Optional[threading.Thread] = None
+        self._worker: threading.Thread | None = None
         self._closed = False
 
-    def wish(self, number: Any, throttle_rate: float, queue_length: int, fragment_size: Optional[int], compression: str) -> None:
+    def wish(self, number: Any, throttle_rate: float, queue_length: int, fragment_size: int | None, compression: str) -> None:
         """:param throttle_rate: ms"""
         with self._changed:
             self._wishes[number] = {"pause": throttle_rate / 1000, "length": queue_length, "fragment": fragment_size, "form": compression}
@@ -266,7 +267,7 @@ class _Early(rospy.SubscribeListener):
 
     def __init__(self) -> None:
         self._end = time.monotonic() + SETTLING
-        self._messages: List[Any] = []
+        self._messages: list[Any] = []
 
     def keep(self, message: Any) -> None:
         if time.monotonic() < self._end:
@@ -284,8 +285,8 @@ class Publication:
 
     def __init__(self, topic: str, kind: Any, latch: bool, queue_size: int) -> None:
         self.kind, self.latch = kind, latch
-        self.clients: Set[int] = set()
-        self.unused_since: Optional[float] = None
+        self.clients: set[int] = set()
+        self.unused_since: float | None = None
         self._early = _Early()
         self._publisher = rospy.Publisher(
             topic, kind, subscriber_listener=self._early, latch=latch, queue_size=queue_size, tcp_nodelay=True
@@ -310,9 +311,9 @@ class Publications:
     def __init__(self, patience: float, warn: Callable[[str], None]) -> None:
         self._patience, self._warn = patience, warn
         self._lock = threading.Lock()
-        self._there: Dict[str, Publication] = {}
+        self._there: dict[str, Publication] = {}
 
-    def register(self, client: int, topic: str, wanted: Optional[str], latch: bool, queue_size: int) -> Publication:
+    def register(self, client: int, topic: str, wanted: str | None, latch: bool, queue_size: int) -> Publication:
         """:raises RosbridgeError: see :func:`class_of`"""
         topic = rospy.resolve_name(topic)
         with self._lock:

@@ -24,7 +24,7 @@ from ._core import set_time, why_not
 __all__ = ["set_time", "start_roscpp", "why_not"]
 
 _starting = threading.Lock()
-_clock: Optional[bool] = None
+_clock: bool | None = None
 _name = ""  # of roscpp's node
 
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence
+from typing import Any
 
 import rosgraph
 import rospy
@@ -43,7 +44,7 @@ class Parameter:
     max: Any = None
     description: str = ""
     level: int = 0
-    enum: Optional[Mapping[Any, str]] = None
+    enum: Mapping[Any, str] | None = None
 
     @property
     def low(self) -> Any:
@@ -94,9 +95,9 @@ class Server:
         self,
         namespace: str,
         parameters: Sequence[Parameter],
-        callback: Callable[[Dict[str, Any], int], Optional[Mapping[str, Any]]],
-        initial: Optional[Mapping[str, Any]] = None,
-        current: Optional[Callable[[], Mapping[str, Any]]] = None,
+        callback: Callable[[dict[str, Any], int], Mapping[str, Any] | None],
+        initial: Mapping[str, Any] | None = None,
+        current: Callable[[], Mapping[str, Any]] | None = None,
     ):
         self._ns = rospy.resolve_name(namespace).rstrip("/") + "/"
         self._parameters = {parameter.name: parameter for parameter in parameters}
@@ -104,7 +105,7 @@ class Server:
         self._current = current
         self._closed = False
         self._lock = threading.RLock()
-        self._config: Dict[str, Any] = {}
+        self._config: dict[str, Any] = {}
         for parameter in parameters:
             self._config[parameter.name] = self._first_value(parameter, initial or {})
         self._descriptions = rospy.Publisher(self._ns + "parameter_descriptions", ConfigDescription, latch=True, queue_size=1)
@@ -117,7 +118,7 @@ class Server:
         master_watch.on_return(self._restore)
 
     @property
-    def config(self) -> Dict[str, Any]:
+    def config(self) -> dict[str, Any]:
         """The current values."""
         with self._lock:
             return dict(self._config)
@@ -163,10 +164,10 @@ class Server:
             )
             return parameter.default
 
-    def _live(self) -> Dict[str, Any]:
+    def _live(self) -> dict[str, Any]:
         return self._config if self._current is None else dict(self._current())
 
-    def _merged(self, config: Mapping[str, Any], values: Mapping[str, Any]) -> Dict[str, Any]:
+    def _merged(self, config: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
         config = dict(config)
         for name, value in values.items():
             if name not in self._parameters:
@@ -187,13 +188,13 @@ class Server:
                 level |= parameter.level
         return level
 
-    def _called_back(self, config: Dict[str, Any], level: int) -> Dict[str, Any]:
+    def _called_back(self, config: dict[str, Any], level: int) -> dict[str, Any]:
         corrected = self._callback(dict(config), level)
         if corrected is None:
             return config
         return {name: parameter.clamp(corrected[name]) for name, parameter in self._parameters.items()}
 
-    def _take(self, config: Dict[str, Any]) -> None:
+    def _take(self, config: dict[str, Any]) -> None:
         changed = {name: value for name, value in config.items() if value != self._config[name]}
         self._config = config
         self._store(changed)
@@ -243,7 +244,7 @@ class Server:
         return message
 
     def _describe(self) -> ConfigDescription:
-        rows: List[ParamDescription] = [
+        rows: list[ParamDescription] = [
             ParamDescription(parameter.name, _TYPES[parameter.type][0], parameter.level, parameter.description, parameter.edit_method)
             for parameter in self._parameters.values()
         ]

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import struct
 from dataclasses import dataclass
-from typing import Any, Tuple
+from typing import Any
 
 import numpy as np
 
@@ -83,7 +83,7 @@ def raw(encoding: str, height: int, width: int, step: int, data: Any, big_endian
     return _seen(pixels[..., 0] if channels == 1 else pixels, encoding, unnamed)
 
 
-def _layout(encoding: str) -> Tuple[str, int]:
+def _layout(encoding: str) -> tuple[str, int]:
     if encoding in _LAYOUT:
         return _LAYOUT[encoding]
     kind, mark, channels = encoding.partition("C")  # OpenCV's own names: 32FC1; 8UC is 8UC1

@@ -8,7 +8,7 @@ last one is not read. TinyXML refuses the same attribute given twice, an end tag
 from __future__ import annotations
 
 import re
-from typing import Dict, List, Protocol, Tuple
+from typing import Protocol
 from xml.etree import ElementTree
 
 _SPACE = re.compile(r"[ \t\r\n\v\f]*")
@@ -29,12 +29,12 @@ class XmlError(ValueError):
 class Target(Protocol):
     """Takes the elements of a text in their order."""
 
-    def start(self, tag: str, attrib: Dict[str, str], line: int) -> None: ...
+    def start(self, tag: str, attrib: dict[str, str], line: int) -> None: ...
     def end(self, tag: str) -> None: ...
     def data(self, text: str) -> None: ...
 
 
-def feed(text: str, target: Target) -> List[Tuple[int, str]]:
+def feed(text: str, target: Target) -> list[tuple[int, str]]:
     """Hand every element of ``text`` to ``target``, those of further roots too. Takes linear time, whatever the text is.
 
     :returns: (line, what) of each thing that was read otherwise than it is written, as a bare ``&``
@@ -67,10 +67,10 @@ def fromstring(text: str, tag: str = "robot") -> ElementTree.Element:
 
 class _Tree:
     def __init__(self) -> None:
-        self.roots: List[ElementTree.Element] = []
-        self._stack: List[ElementTree.Element] = []
+        self.roots: list[ElementTree.Element] = []
+        self._stack: list[ElementTree.Element] = []
 
-    def start(self, tag: str, attrib: Dict[str, str], line: int) -> None:
+    def start(self, tag: str, attrib: dict[str, str], line: int) -> None:
         element = ElementTree.Element(tag, attrib)
         (self._stack[-1] if self._stack else self.roots).append(element)
         self._stack.append(element)
@@ -93,10 +93,10 @@ class _Reading:
         self._text, self._target = text.partition("\0")[0], target  # TinyXML reads up to a zero byte
         self._at = 0
         self._counted = (0, 1)  # up to where lines are counted, and the line there
-        self._open: List[str] = []
-        self._oddities: List[Tuple[int, str]] = []
+        self._open: list[str] = []
+        self._oddities: list[tuple[int, str]] = []
 
-    def read(self) -> List[Tuple[int, str]]:
+    def read(self) -> list[tuple[int, str]]:
         if self._text.startswith("\ufeff"):
             self._at = 1
         while True:
@@ -180,7 +180,7 @@ class _Reading:
         assert match is not None
         tag, line = match.group(), self._line()
         self._at = match.end()
-        attributes: Dict[str, str] = {}
+        attributes: dict[str, str] = {}
         while True:
             self._skip_space()
             sign = self._text[self._at : self._at + 1]
@@ -201,7 +201,7 @@ class _Reading:
         else:
             self._open.append(tag)
 
-    def _attribute(self, tag: str) -> Tuple[str, str]:
+    def _attribute(self, tag: str) -> tuple[str, str]:
         match = _NAME.match(self._text, self._at)
         if match is None:
             raise self._error(f"<{tag}> has something in it that is no attribute")
@@ -241,7 +241,7 @@ class _Reading:
         """Entities replaced; of what is none the ``&`` is dropped."""
         return _ENTITY.sub(self._meaning, text) if "&" in text else text
 
-    def _meaning(self, match: "re.Match[str]") -> str:
+    def _meaning(self, match: re.Match[str]) -> str:
         named, hexadecimal, digits, closed = match.groups()
         if named:
             return _NAMED[named]

@@ -88,7 +88,7 @@ def spin() -> None:
     _shut_down.wait()
 
 
-def leave(code: Optional[int] = 0) -> None:
+def leave(code: int | None = 0) -> None:
     """End the process like ``sys.exit(code)``, the node shut down in order, without waiting for rospy's threads.
 
     Python would join them one by one at its end, up to 5 s each when one waits for a peer that hangs.
@@ -140,7 +140,7 @@ def _end_when_starved_at_start() -> None:
     logging.getLogger("rosout").addFilter(look)
 
 
-def _starved(error: Optional[BaseException]) -> bool:
+def _starved(error: BaseException | None) -> bool:
     """Whether the system has refused memory, a thread or a file."""
     text = str(error)
     return (
@@ -180,7 +180,7 @@ def _watch_for_starvation() -> None:
     sys.excepthook, threading.excepthook = in_main, in_thread
 
 
-def _over(error: Optional[BaseException]) -> bool:
+def _over(error: BaseException | None) -> bool:
     """A thread that published, or waited, while the node was shut down: the status timer of an action server, say."""
     rospy = sys.modules.get("rospy")
     if rospy is None or not isinstance(error, rospy.ROSException):

@@ -6,7 +6,6 @@ import glob
 import os
 import re
 from pathlib import Path
-from typing import List
 
 import rospkg
 from catkin.find_in_workspaces import find_in_workspaces
@@ -104,7 +103,7 @@ def of_program(package: str, name: str) -> str:
     return f"The package has {', '.join(there[:_MOST_NAMED])}{others}" if there else "The package has no programs at all"
 
 
-def _programs(package: str, folder: Path) -> List[str]:
+def _programs(package: str, folder: Path) -> list[str]:
     """What rosrun finds in a package, without the files of its own making."""
     built = [Path(place) for place in find_in_workspaces(["libexec"], project=package, first_matching_workspace_only=True)]
     sources = [path for path in (folder / "scripts", folder / "nodes", folder / "src", folder / "bin") if path.is_dir()]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Optional
-
 import rospy
 
 SENTENCE = (
@@ -17,6 +15,6 @@ def expected() -> bool:
     return not rospy.rostime.is_wallclock()
 
 
-def missing() -> Optional[str]:
+def missing() -> str | None:
     """What to tell the user while no time has come, or None."""
     return SENTENCE if expected() and rospy.rostime.is_rostime_initialized() and rospy.get_rostime().is_zero() else None

@@ -9,7 +9,7 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
-from typing import List, MutableMapping, Optional
+from collections.abc import MutableMapping
 
 from node_signals import programs, rviz_start
 from node_signals.interpreter import supply_python
@@ -32,7 +32,7 @@ def choose_platform(environment: MutableMapping[str, str]) -> None:
         environment["QT_QPA_PLATFORM"] = "xcb"
 
 
-def missing_display(x11_only: bool = False) -> Optional[str]:
+def missing_display(x11_only: bool = False) -> str | None:
     """
     One line saying what is missing and what to do, or None when a window can be shown.
 
@@ -64,7 +64,7 @@ def missing_display(x11_only: bool = False) -> Optional[str]:
     return None
 
 
-def asked_for(words: List[str]) -> Optional[str]:
+def asked_for(words: list[str]) -> str | None:
     """The window that a command opens: ``rviz ...`` or ``rosrun [--prefix COMMAND] [--debug] PACKAGE PROGRAM ...``."""
     if os.path.basename(words[0]) != "rosrun":
         package = program = os.path.basename(words[0])
@@ -74,14 +74,14 @@ def asked_for(words: List[str]) -> Optional[str]:
     return program if program in WINDOWS.get(package, ()) else None
 
 
-def _place_of_package(words: List[str]) -> int:
+def _place_of_package(words: list[str]) -> int:
     at = 1
     while at < len(words) and words[at].startswith("-"):
         at += 2 if words[at] in ("-p", "--prefix") else 1
     return at
 
 
-def in_working_order(words: List[str]) -> List[str]:
+def in_working_order(words: list[str]) -> list[str]:
     """``rosrun tf view_frames``, which Debian's tf ends with a trace, as the program of tf2 that draws the same frames.pdf."""
     at = _place_of_package(words)
     if os.path.basename(words[0]) == "rosrun" and words[at:] == ["tf", "view_frames"]:

@@ -11,7 +11,7 @@ import os
 import re
 import shutil
 import subprocess
-from typing import Iterator, List, MutableMapping, Optional, Tuple
+from collections.abc import Iterator, MutableMapping
 
 _DEBIANS = "/usr/bin/python3"
 _HERE = os.path.dirname(os.path.abspath(__file__))
@@ -33,7 +33,7 @@ def supply_python(environment: MutableMapping[str, str]) -> None:
         _put_first("python", environment)
 
 
-def as_it_can_run(program: str) -> Tuple[List[str], str]:
+def as_it_can_run(program: str) -> tuple[list[str], str]:
     """The words that start ``program``, and a line saying what is different, or "".
 
     What the kernel starts is left to it. Scripts of Python whose first line names what is not there are given to Python.
@@ -98,6 +98,6 @@ def _put_first(name: str, environment: MutableMapping[str, str]) -> None:
         environment["PATH"] = folder + os.pathsep + path
 
 
-def _folder(name: str) -> Optional[str]:
+def _folder(name: str) -> str | None:
     folders = (os.path.normpath(os.path.join(place, name)) for place in _PLACES)
     return next((folder for folder in folders if os.access(os.path.join(folder, name), os.X_OK)), None)

@@ -18,7 +18,6 @@ import threading
 import time
 import traceback
 from pathlib import Path
-from typing import Optional, Set
 
 from node_signals import quick_start
 
@@ -111,7 +110,7 @@ class _Popen(subprocess.Popen):
         super().__init__(*arguments, **options)
 
 
-def _trouble_with(folder: str) -> Optional[OSError]:
+def _trouble_with(folder: str) -> OSError | None:
     """Why no log of a few pages can be kept there."""
     try:
         os.makedirs(folder, exist_ok=True)
@@ -141,7 +140,7 @@ def _find_place_for_logs() -> None:
 
 def _naming_windows_without_display(start):
     """A window on a machine without a screen ends with a page of Qt's words; one line says what to do."""
-    told: Set[str] = set()
+    told: set[str] = set()
 
     def checked(process):
         process.args, difference = with_what_is_there(process.args or [])

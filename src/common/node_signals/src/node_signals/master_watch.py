@@ -10,8 +10,8 @@ from __future__ import annotations
 import threading
 import weakref
 import xmlrpc.client
+from collections.abc import Callable, Iterator
 from http.client import HTTPException
-from typing import Callable, Dict, Iterator, List, Optional, Tuple
 
 import rosgraph
 import rospy
@@ -20,7 +20,7 @@ from rospy.impl.registration import RegManager, get_registration_listeners, get_
 _PERIOD = 1.0  # s
 _TIMEOUT = 5.0  # s that the master gets to answer
 _TROUBLE = (OSError, xmlrpc.client.Error, HTTPException, rosgraph.MasterException)
-_restorers: Dict[int, Callable[[], Optional[Callable[[], None]]]] = {}  # by their own id
+_restorers: dict[int, Callable[[], Callable[[], None] | None]] = {}  # by their own id
 
 
 def on_return(f: Callable[[], None]) -> None:
@@ -48,7 +48,7 @@ class _Watch:
     def __init__(self):
         self._uri = rosgraph.get_master_uri()
         self._name, self._node_uri = rospy.get_caller_id(), rospy.core.get_node_uri()
-        self._master_pid: Optional[int] = None
+        self._master_pid: int | None = None
         self._missed = False
 
     def run(self) -> None:
@@ -75,7 +75,7 @@ class _Watch:
         self._master_pid = pid
         rospy.logwarn("a new ROS master runs at %s: this node has registered with it", self._uri)
 
-    def _call(self, calls: List[Tuple[str, tuple]]) -> list:
+    def _call(self, calls: list[tuple[str, tuple]]) -> list:
         """Answers (code, text, value) to several calls, made in one."""
         multi = xmlrpc.client.MultiCall(xmlrpc.client.ServerProxy(self._uri, _Transport()))
         for method, arguments in calls:
@@ -94,7 +94,7 @@ class _Watch:
                 for manager in managers:
                     manager.publisher_update(arguments[0], value)
 
-    def _registrations(self) -> Iterator[Tuple[str, tuple]]:
+    def _registrations(self) -> Iterator[tuple[str, tuple]]:
         for topic, kind in get_topic_manager().get_publications():
             yield "registerPublisher", (topic, kind, self._node_uri)
         for topic, kind in get_topic_manager().get_subscriptions():

@@ -7,7 +7,8 @@ stand-in that does nothing, and the log has one ERROR line that names both.
 
 from __future__ import annotations
 
-from typing import Any, Callable
+from collections.abc import Callable
+from typing import Any
 
 import rospy
 from rospy.impl.registration import Registration

@@ -13,7 +13,8 @@ import signal
 import sys
 import threading
 import time
-from typing import Callable, NamedTuple, Optional
+from collections.abc import Callable
+from typing import NamedTuple
 
 _LAUNCHERS = ("roslaunch", "rostest", "rosmon", "mon")
 _GONE_FOR = 10.0  # s, after which a node ends
@@ -34,7 +35,7 @@ class Launcher(NamedTuple):
         return _started(self.pid) == self.started
 
 
-def launcher() -> Optional[Launcher]:
+def launcher() -> Launcher | None:
     """The process of roslaunch, rostest or rosmon that started this one, else None."""
     parent = _field(os.getsid(0), 1)
     if parent is None:
@@ -76,7 +77,7 @@ def _watch(found: Launcher, end: Callable[[], None]) -> None:
     end()
 
 
-def _field(pid: int, index: int) -> Optional[str]:
+def _field(pid: int, index: int) -> str | None:
     """Of what /proc/PID/stat has behind the name: 0 state, 1 parent, 19 when it was started."""
     try:
         with open(f"/proc/{pid}/stat", "rb") as file:
@@ -85,6 +86,6 @@ def _field(pid: int, index: int) -> Optional[str]:
         return None
 
 
-def _started(pid: int) -> Optional[str]:
+def _started(pid: int) -> str | None:
     """None when it has ended, also if nobody has asked for its end yet."""
     return None if _field(pid, 0) in (None, "Z", "X") else _field(pid, 19)

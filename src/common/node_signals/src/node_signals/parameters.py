@@ -13,7 +13,8 @@ YAML's true and false are no numbers here, though Python counts them among them,
 
 import math
 import sys
-from typing import Any, Callable, List, Optional
+from collections.abc import Callable
+from typing import Any
 
 _KINDS = {float: "a number", int: "a whole number", bool: "true or false", str: "a text", list: "a list", dict: "a map"}
 #: In place of a default: the parameter must be there.
@@ -24,7 +25,7 @@ class ParameterError(ValueError):
     """A parameter is missing, of the wrong kind or out of its range; the line says which, what it is and what it must be."""
 
 
-def is_number(value: Any, least: float = -math.inf, above: Optional[float] = None, finite: bool = True) -> bool:
+def is_number(value: Any, least: float = -math.inf, above: float | None = None, finite: bool = True) -> bool:
     """Whether ``value`` is a number of at least ``least`` and, if that is given, greater than ``above``."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return False
@@ -48,7 +49,7 @@ def of_kind(where: str, value: Any, kind: type, shown: Callable[[Any], str] = re
     return value
 
 
-def get(name: str, default: Any = REQUIRED, kind: Optional[type] = None) -> Any:
+def get(name: str, default: Any = REQUIRED, kind: type | None = None) -> Any:
     """The parameter ``name``, or ``default``.
 
     :param name: as for rospy.get_param
@@ -94,7 +95,7 @@ def number_or(where: str, value: Any, default: float) -> float:
     return default
 
 
-def texts(where: str, value: Any, empty: bool = False, shown: Callable[[Any], str] = repr) -> List[str]:
+def texts(where: str, value: Any, empty: bool = False, shown: Callable[[Any], str] = repr) -> list[str]:
     """``value`` as a list of names.
 
     :param where: as for :func:`of_kind`

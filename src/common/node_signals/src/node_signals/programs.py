@@ -9,7 +9,7 @@ import contextlib
 import os
 import subprocess
 import sys
-from typing import List, NamedTuple, Optional
+from typing import NamedTuple
 
 from node_signals import rviz_start
 from node_signals.interpreter import as_it_can_run
@@ -23,10 +23,10 @@ class Command(NamedTuple):
     prefix: str
     package: str
     program: str
-    arguments: List[str]
+    arguments: list[str]
 
 
-def command(words: List[str]) -> Optional[Command]:
+def command(words: list[str]) -> Command | None:
     """What was typed, ``words[0]`` being rosrun's name; None where Debian's has more to say than what the program says."""
     rest, prefix = words[1:], ""
     while len(rest) > 2 and rest[0] in ("-p", "--prefix"):
@@ -36,7 +36,7 @@ def command(words: List[str]) -> Optional[Command]:
     return Command(prefix, rest[0], rest[1], rest[2:])
 
 
-def find(package: str, name: str) -> List[str]:
+def find(package: str, name: str) -> list[str]:
     """The files that could be meant; each is run where there is one, where there are several somebody has to choose."""
     catkins, own = _catkin_folders(["libexec", "share"], package), _folder_of(package)
     if not own:
@@ -52,7 +52,7 @@ def find(package: str, name: str) -> List[str]:
     return found
 
 
-def _catkin_folders(kinds: List[str], package: str) -> List[str]:
+def _catkin_folders(kinds: list[str], package: str) -> list[str]:
     from node_signals.quick_start import find_in_workspaces
 
     return list(find_in_workspaces(kinds, project=package, first_matching_workspace_only=True))
@@ -63,7 +63,7 @@ def _folder_of(package: str) -> str:
     return found.stdout.strip()
 
 
-def _executables(folders: List[str], own: str, name: str) -> List[str]:
+def _executables(folders: list[str], own: str, name: str) -> list[str]:
     """In the order of ``folders``; what two neighbouring folders show is there once."""
     found = subprocess.run(
         ["find", "-L", *folders, "-name", name, "-type", "f", "-perm", "/111", "!", "-regex", f".*{own}/build/.*"],
@@ -74,7 +74,7 @@ def _executables(folders: List[str], own: str, name: str) -> List[str]:
     return [path for path, before in zip(found, ["", *found]) if path != before]
 
 
-def run(words: List[str]) -> None:
+def run(words: list[str]) -> None:
     """Become the program, if it is clear which it is; otherwise return, when Debian's rosrun has its say. Why it will find nothing
     stands before that."""
     asked = command(words)

@@ -14,7 +14,7 @@ import os
 import runpy
 import shlex
 import sys
-from typing import Any, Dict, List, NamedTuple, Optional
+from typing import Any, NamedTuple
 from xml.etree import ElementTree
 
 import rospkg.rospack
@@ -37,8 +37,8 @@ class _Named(NamedTuple):
     name: str
 
 
-@functools.lru_cache(maxsize=None)
-def packages_below(folder: str) -> Dict[str, object]:
+@functools.cache
+def packages_below(folder: str) -> dict[str, object]:
     """`catkin_pkg.packages.find_packages` of ``folder``: {path below it: something with a ``name``}.
 
     catkin tools lists each package of a workspace as a folder of its own, and a launch file asks for all of them at each
@@ -53,11 +53,11 @@ def packages_below(folder: str) -> Dict[str, object]:
 
 def _remembering(list_by_path):
     """rospkg's search of one folder for packages; each ``RosPack()`` of roslaunch begins it anew."""
-    known: Dict[tuple, tuple] = {}
+    known: dict[tuple, tuple] = {}
 
     def listed(manifest_name, path, cache):
         if (manifest_name, path) not in known:
-            places: Dict[str, str] = {}
+            places: dict[str, str] = {}
             known[manifest_name, path] = list_by_path(manifest_name, path, places), places
         names, places = known[manifest_name, path]
         if cache is not None:
@@ -67,7 +67,7 @@ def _remembering(list_by_path):
     return listed
 
 
-def version_asked_for(command: Optional[str]) -> Optional[str]:
+def version_asked_for(command: str | None) -> str | None:
     """What ``rosversion ...`` prints, as the master's parameters want it; None if ``command`` is another one or fails."""
     words = shlex.split(command or "")
     if not words or words[0] != "rosversion":
@@ -127,7 +127,7 @@ def _searching_once() -> Any:
     return module
 
 
-def find_in_workspaces(*arguments, **named) -> List[str]:
+def find_in_workspaces(*arguments, **named) -> list[str]:
     """catkin's function of that name: folders or files of a package in the workspaces."""
     return _searching_once().find_in_workspaces(*arguments, **named)
 

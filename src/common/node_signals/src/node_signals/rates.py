@@ -17,8 +17,6 @@ Time that goes backwards (a simulation was reset) starts each anew. Knows no ROS
 
 from __future__ import annotations
 
-from typing import Optional
-
 _NS = 1_000_000_000
 
 
@@ -78,7 +76,7 @@ class PeriodAdded:
 
     def __init__(self, rate: float):
         self._period_ns = round(_NS / rate) if rate > 0.0 else 0
-        self._last_ns: Optional[int] = None
+        self._last_ns: int | None = None
         #: s from the opening before to the last one
         self.elapsed = 0.0
 
@@ -104,7 +102,7 @@ class Spaced:
     :param last_ns: an opening to count from; without it the first question finds the gate open
     """
 
-    def __init__(self, rate: float, strict: bool = False, last_ns: Optional[int] = None):
+    def __init__(self, rate: float, strict: bool = False, last_ns: int | None = None):
         self._period_ns = round(_NS / rate) if rate > 0.0 else 0
         self._least_ns = self._period_ns + strict if self._period_ns else 0
         self._last_ns = last_ns

@@ -10,19 +10,19 @@ import os
 import subprocess
 import sys
 import sysconfig
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Iterator, List
 from xml.etree import ElementTree
 
 
-def start(words: List[str]) -> None:
+def start(words: list[str]) -> None:
     """Look in a process of its own, which nobody has to wait for. :param words: rviz's; those that open no window want no look"""
     if {"--help", "-h"} & set(words):
         return
     subprocess.run(["sh", "-c", '"$0" -m node_signals.rviz_displays &', sys.executable], check=False)
 
 
-def unbuilt() -> List[str]:
+def unbuilt() -> list[str]:
     """A line for each library that is declared and is nowhere."""
     found = subprocess.run(["rospack", "plugins", "--attrib=plugin", "rviz"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     lines = []

@@ -12,7 +12,6 @@ import signal
 import subprocess
 import sys
 import time
-from typing import List
 
 from node_signals import rviz_displays
 from node_signals.children import end_with_parent
@@ -26,7 +25,7 @@ _ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 class _Run:
     """One run of the program after another, and whether somebody asked for the end."""
 
-    def __init__(self, command: List[str]) -> None:
+    def __init__(self, command: list[str]) -> None:
         self.command, self.asked_to_end = command, False
         for number in _ENDING:
             signal.signal(number, self._hand_on)
@@ -56,7 +55,7 @@ class _Run:
         return ended
 
 
-def run(command: List[str]) -> None:
+def run(command: list[str]) -> None:
     """
     Run ``command`` and end this process as it ends.
 

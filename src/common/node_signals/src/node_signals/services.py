@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from typing import Iterator, Optional
+from collections.abc import Iterator
 
 import rosgraph
 import rospy
@@ -12,7 +12,7 @@ _EVERY = 0.03  # s between two looks at first
 _SELDOM = 0.3  # s between two looks of those who have waited long, as rospy's
 
 
-def wait_for_service(name: str, timeout: Optional[float] = None) -> None:
+def wait_for_service(name: str, timeout: float | None = None) -> None:
     """As ``rospy.wait_for_service``, which looks three times a second and so holds up every node of a launch; here looks
     are a tenth of the time waited apart.
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import os
 import shutil
-from typing import List, Optional, Tuple
 
 from node_signals.display import missing_display
 
@@ -29,7 +28,7 @@ _TERMINALS = {
 _COMMAND_FOLLOWS = ("-e", "-x", "--", "--execute", "--command")
 
 
-def command_in_terminal(words: List[str]) -> Optional[List[str]]:
+def command_in_terminal(words: list[str]) -> list[str] | None:
     """What a terminal is asked to run: the words behind its ``-e``. None if these words start no terminal, or one for a shell."""
     if not words or os.path.basename(words[0]) not in _TERMINALS:
         return None
@@ -37,7 +36,7 @@ def command_in_terminal(words: List[str]) -> Optional[List[str]]:
     return words[at + 1 :] or None
 
 
-def with_what_is_there(words: List[str]) -> Tuple[List[str], str]:
+def with_what_is_there(words: list[str]) -> tuple[list[str], str]:
     """The command of a node as it can be run here, and a line saying what is different, or "".
 
     With a display and another terminal the node gets that one. Otherwise it runs as nodes do that have no window.

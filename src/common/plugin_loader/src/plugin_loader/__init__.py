@@ -23,8 +23,9 @@ import re
 import sys
 import threading
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, Dict, Iterator, List, Optional, Tuple
+from typing import Any, Optional
 
 import rospkg
 
@@ -74,7 +75,7 @@ class PluginClass:
             ) from error
 
 
-def _exports(rospack: rospkg.RosPack, base: str, attribute: str) -> Iterator[Tuple[str, str, str]]:
+def _exports(rospack: rospkg.RosPack, base: str, attribute: str) -> Iterator[tuple[str, str, str]]:
     """(package, package directory, exported value) of every package that depends on ``base``, sorted by name."""
     for package in sorted(rospack.list()):
         directory = rospack.get_path(package)
@@ -90,7 +91,7 @@ def _exports(rospack: rospkg.RosPack, base: str, attribute: str) -> Iterator[Tup
                 yield package, directory, value.replace("${prefix}", directory)
 
 
-def exported_values(base: str, attribute: str, rospack: Optional[rospkg.RosPack] = None) -> List[str]:
+def exported_values(base: str, attribute: str, rospack: rospkg.RosPack | None = None) -> list[str]:
     """Values of ``<export><base attribute="..."/>`` with ``${prefix}`` replaced by the package directory.
 
     As ``rospack plugins`` does, only packages that directly depend on ``base`` (and ``base`` itself) are read.
@@ -105,12 +106,10 @@ def _plugin_description(file: str) -> ET.Element:
     return ET.fromstring(f"<file>{text}</file>")
 
 
-def find_plugins(
-    base: str, attribute: str = "plugin", rospack: Optional[rospkg.RosPack] = None
-) -> Tuple[Dict[str, PluginClass], List[str]]:
+def find_plugins(base: str, attribute: str = "plugin", rospack: rospkg.RosPack | None = None) -> tuple[dict[str, PluginClass], list[str]]:
     """All classes exported for ``base``: (name -> PluginClass, problems as lines). The first package wins a name."""
-    found: Dict[str, PluginClass] = {}
-    problems: List[str] = []
+    found: dict[str, PluginClass] = {}
+    problems: list[str] = []
     for package, _, file in _exports(rospack or rospkg.RosPack(), base, attribute):
         try:
             root = _plugin_description(file)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import contextlib
 import traceback
 import unittest
-from typing import Any, Iterator, List, Optional
+from collections.abc import Iterator
+from typing import Any
 
 
 class TestCase(unittest.TestCase):
@@ -14,7 +15,7 @@ class TestCase(unittest.TestCase):
     rosunit writes no line about a failure of unittest's own subtests into its report.
     """
 
-    _told: Optional[List[str]] = None
+    _told: list[str] | None = None
 
     @contextlib.contextmanager
     def subTest(self, msg: Any = None, **params: Any) -> Iterator[None]:

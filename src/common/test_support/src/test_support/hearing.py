@@ -1,7 +1,8 @@
 """Who hears whom, and how much, for tests that talk to nodes. Imports rospy, which nothing else here does."""
 
 import xmlrpc.client
-from typing import Any, Iterable
+from collections.abc import Iterable
+from typing import Any
 
 import rosgraph
 import rospy

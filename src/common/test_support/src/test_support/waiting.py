@@ -1,7 +1,8 @@
 """Waiting in wall time."""
 
 import time
-from typing import Callable, TypeVar
+from collections.abc import Callable
+from typing import TypeVar
 
 T = TypeVar("T")
 

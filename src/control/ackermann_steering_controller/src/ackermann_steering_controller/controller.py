@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Optional, Tuple
 
 from controller_interface import MultiInterfaceController, NodeHandle
 from diff_drive_controller.laws import WheelTravel, bicycle
@@ -44,7 +43,7 @@ class AckermannSteeringController(WheeledBase, MultiInterfaceController):
         self._wheel.command = 0.0
         self._steer.command = 0.0
 
-    def measured_way(self) -> Optional[Tuple[float, float]]:
+    def measured_way(self) -> tuple[float, float] | None:
         wheel, steer = self._wheel.position, self._steer.position
         if not (math.isfinite(wheel) and math.isfinite(steer)):
             return None

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import List, Optional, Sequence
 
 import rospy
 from hardware_interface import ControllerInfo, InterfaceResources, RobotHW, SwitchState
@@ -19,7 +19,7 @@ class CombinedRobotHW(RobotHW):
 
     def __init__(self) -> None:
         super().__init__()
-        self.parts: List[RobotHW] = []
+        self.parts: list[RobotHW] = []
 
     def init(self, root_nh, robot_hw_nh) -> bool:
         """:return: False, with one ERROR line, if a part is missing or refuses."""
@@ -74,7 +74,7 @@ class CombinedRobotHW(RobotHW):
         for part in self.parts:
             part.do_switch(_concerning(part, start), _concerning(part, stop))
 
-    def switch_result(self, controller: Optional[ControllerInfo] = None) -> SwitchState:
+    def switch_result(self, controller: ControllerInfo | None = None) -> SwitchState:
         """ERROR if any part has one, else ONGOING while any part is at it."""
         results = []
         for part in self.parts:
@@ -86,7 +86,7 @@ class CombinedRobotHW(RobotHW):
         return SwitchState.ONGOING if SwitchState.ONGOING in results else SwitchState.DONE
 
 
-def _concerning(part: RobotHW, controllers: Sequence[ControllerInfo]) -> List[ControllerInfo]:
+def _concerning(part: RobotHW, controllers: Sequence[ControllerInfo]) -> list[ControllerInfo]:
     """The controllers with claims on this part, cut down to these; a controller without any claim concerns all."""
     result = []
     for controller in controllers:

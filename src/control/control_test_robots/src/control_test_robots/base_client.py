@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, List
+from collections.abc import Callable
+from typing import Any
 
 import rospy
 from geometry_msgs.msg import Twist
@@ -25,7 +26,7 @@ class Base:
         self._topics = [self.odometry, self.tf]
         self.odometry.next()
 
-    def __enter__(self) -> "Base":
+    def __enter__(self) -> Base:
         return self
 
     def __exit__(self, *_exception) -> None:
@@ -45,11 +46,11 @@ class Base:
         message.linear.x, message.angular.z = linear, angular
         self.command.publish(message)
 
-    def drive(self, linear: float, angular: float, seconds: float, obeys: bool = True) -> List[Odometry]:
+    def drive(self, linear: float, angular: float, seconds: float, obeys: bool = True) -> list[Odometry]:
         """Command a twist over and over. :return: odometry of ``seconds`` after it came into force"""
         return self.follow(lambda: self.send(linear, angular), seconds, obeys)
 
-    def follow(self, send: Callable[[], None], seconds: float, obeys: bool = True) -> List[Odometry]:
+    def follow(self, send: Callable[[], None], seconds: float, obeys: bool = True) -> list[Odometry]:
         """Call ``send``, which commands a motion, over and over. :return: odometry of ``seconds`` of that motion
 
         However late a command arrives, what the base did before does not count.
@@ -92,12 +93,12 @@ def yaw(odometry: Odometry) -> float:
     return heading(odometry.pose.pose.orientation)
 
 
-def duration(messages: List[Any]) -> float:
+def duration(messages: list[Any]) -> float:
     """Between the first and the last stamp, s."""
     return (messages[-1].header.stamp - messages[0].header.stamp).to_sec()
 
 
-def displacement(odometry: List[Odometry]) -> tuple:
+def displacement(odometry: list[Odometry]) -> tuple:
     """(x, y) of the last pose in the frame of the first one, m."""
     first, last = odometry[0], odometry[-1]
     dx = last.pose.pose.position.x - first.pose.pose.position.x
@@ -106,6 +107,6 @@ def displacement(odometry: List[Odometry]) -> tuple:
     return cosine * dx + sine * dy, cosine * dy - sine * dx
 
 
-def turned(odometry: List[Odometry]) -> float:
+def turned(odometry: list[Odometry]) -> float:
     """Sum of the small turns between the poses, rad; several turns are counted."""
     return sum(math.remainder(yaw(b) - yaw(a), 2.0 * math.pi) for a, b in zip(odometry, odometry[1:]))

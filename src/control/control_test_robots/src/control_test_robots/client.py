@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import time as wall
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any, Callable, Iterator, List, Sequence
+from typing import Any
 
 import rosgraph
 import rospy
@@ -62,7 +63,7 @@ class Topic:
     """Messages of a topic since the last ``clear``."""
 
     def __init__(self, name: str, message_type: type):
-        self.messages: List[Any] = []
+        self.messages: list[Any] = []
         self.name = name
         self._since = 0.0
         self._subscriber = rospy.Subscriber(name, message_type, self._receive, tcp_nodelay=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import dataclass
-from typing import Any, Dict, List
+from typing import Any
 
 from hardware_interface import (
     EffortJointInterface,
@@ -59,10 +59,10 @@ class TestJoint:
 
     __test__ = False  # not a test case, whatever pytest thinks of the name
 
-    def __init__(self, name: str, modes: List[str], position: float):
+    def __init__(self, name: str, modes: list[str], position: float):
         self.state = JointStateHandle(name, position)
         self._initial = position
-        self.handles: Dict[str, Any] = {mode: _COMMANDS[mode][1](self.state) for mode in modes}
+        self.handles: dict[str, Any] = {mode: _COMMANDS[mode][1](self.state) for mode in modes}
         self.mode = modes[0] if modes else ""
         self.position = position
         self.velocity = 0.0
@@ -112,7 +112,7 @@ class TestRobot(RobotHW):
 
     __test__ = False
 
-    def __init__(self, parameters: Dict):
+    def __init__(self, parameters: dict):
         super().__init__()
         self.joints = {
             name: TestJoint(name, list(entry.get("interfaces", [])), float(entry.get("initial", 0.0)))
@@ -130,7 +130,7 @@ class TestRobot(RobotHW):
         )
         self.set_faults(parameters.get("faults", {}))
 
-    def set_faults(self, faults: Dict[str, Dict]) -> None:
+    def set_faults(self, faults: dict[str, dict]) -> None:
         """Faults by joint; joints not named have none."""
         for name, joint in self.joints.items():
             joint.faults = Faults(**faults.get(name, {}))

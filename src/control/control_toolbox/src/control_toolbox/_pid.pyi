@@ -1,12 +1,10 @@
-from typing import Optional, Tuple
-
 class Law:
     """The law of ``pid_law.h``, with gains."""
 
     def __init__(self) -> None: ...
     def _set_gains(self, p: float, i: float, d: float, i_max: float, i_min: float, antiwindup: bool) -> None: ...
-    def _gains(self) -> Tuple[float, float, float, float, float, bool]: ...
-    def compute_command(self, error: float, dt: float, error_dot: Optional[float] = ...) -> float:
+    def _gains(self) -> tuple[float, float, float, float, float, bool]: ...
+    def compute_command(self, error: float, dt: float, error_dot: float | None = ...) -> float:
         """One step.
 
         :param error: target - measured.
@@ -14,7 +12,7 @@ class Law:
         :param error_dot: derivative of the error; by default the difference quotient.
         :return: the command; 0.0, with nothing integrated, for dt 0 or an error that is not finite. Always finite.
         """
-    def reset(self, d_error: Optional[float] = ..., i_error: float = ...) -> None:
+    def reset(self, d_error: float | None = ..., i_error: float = ...) -> None:
         """Forget the past.
 
         After a plain reset the last error counts as 0, so the first step sees a derivative of e/dt; give ``d_error``

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, List
+from typing import Any
 
 import rospy
 
@@ -20,7 +20,7 @@ class PidGainsSetter:
 
     def __init__(self, nh: Any, *pids: Pid):
         self._nh = nh
-        self._pids: List[Pid] = list(pids)
+        self._pids: list[Pid] = list(pids)
         nh.service("set_gains", SetPidGains, self._set)
 
     def add(self, pid: Pid) -> None:

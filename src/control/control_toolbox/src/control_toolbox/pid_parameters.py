@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Optional
+from typing import Any
 
 import rospy
 from control_msgs.msg import PidState
@@ -35,8 +35,8 @@ class RosPid(Pid):
     def __init__(self, namespace: str, gains: Gains, nh: Any, dynamic: bool, publish_state: bool):
         super().__init__(*gains)
         self.namespace = namespace
-        self._publisher: Optional[RealtimePublisher] = None
-        self._server: Optional[Server] = None
+        self._publisher: RealtimePublisher | None = None
+        self._server: Server | None = None
         if publish_state:
             self._publisher = RealtimePublisher(nh, namespace + "/state", PidState, queue_size=1)
         if dynamic:
@@ -47,12 +47,12 @@ class RosPid(Pid):
         if self._server is not None:
             self._server.update(_to_config(self.gains))
 
-    def _reconfigure(self, config: Dict[str, Any], level: int) -> None:
+    def _reconfigure(self, config: dict[str, Any], level: int) -> None:
         if level == -1:
             return  # the server repeats the loaded gains, clamped to what a slider shows: the loaded ones hold
         self.gains = Gains(config["p"], config["i"], config["d"], config["i_clamp_max"], config["i_clamp_min"], config["antiwindup"])
 
-    def compute_command(self, error: float, dt: float, error_dot: Optional[float] = None) -> float:
+    def compute_command(self, error: float, dt: float, error_dot: float | None = None) -> float:
         command = super().compute_command(error, dt, error_dot)
         if self._publisher is not None and self.counted and self._publisher.has_subscribers:
             self._publish(self._publisher, dt)
@@ -78,7 +78,7 @@ class RosPid(Pid):
         publisher.publish(message)
 
 
-def _to_config(gains: Gains) -> Dict[str, Any]:
+def _to_config(gains: Gains) -> dict[str, Any]:
     return {
         "p": gains.p,
         "i": gains.i,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-from typing import Optional
 
 from realtime_tools.action_server import RealtimeActionServer, RealtimeGoal
 
@@ -24,14 +23,14 @@ class ActionController(Controller):
         """Offer the action ``name``, say of type ``control_msgs.msg.FollowJointTrajectoryAction``."""
         self._lock = threading.Lock()
         self._running = False
-        self._goal: Optional[RealtimeGoal] = None
+        self._goal: RealtimeGoal | None = None
         controller_nh.own(RealtimeActionServer(controller_nh.resolve(name), action, self._on_goal, self._on_cancel))
 
     def _on_goal(self, goal: RealtimeGoal) -> None:
         """Take ``goal`` or reject it. Called in a thread of rospy."""
         raise NotImplementedError
 
-    def _hold(self, goal: Optional[RealtimeGoal]) -> None:
+    def _hold(self, goal: RealtimeGoal | None) -> None:
         """Stop, on behalf of ``goal`` or of nobody. Called with ``_lock`` held."""
         raise NotImplementedError
 
@@ -43,7 +42,7 @@ class ActionController(Controller):
     def aborting(self, time: float) -> None:
         self.stopping(time)
 
-    def _replace(self, goal: Optional[RealtimeGoal], text: str) -> None:
+    def _replace(self, goal: RealtimeGoal | None, text: str) -> None:
         """``goal`` (or none) becomes the active one. Call it with ``_lock`` held, so that the loop cannot finish a goal
         that is not accepted yet.
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from enum import Enum
-from typing import Any, ClassVar, Optional, Sequence, Tuple, Type
+from typing import Any, ClassVar
 
 import rospy
 from hardware_interface import ControlError, HardwareInterface, InterfaceResources, RobotHW
@@ -38,7 +39,7 @@ class ControllerBase:
 
     # -- for the controller's author -----------------------------------------------------------------------------------
 
-    def init(self, hw: Any, root_nh: NodeHandle, controller_nh: NodeHandle) -> Optional[bool]:
+    def init(self, hw: Any, root_nh: NodeHandle, controller_nh: NodeHandle) -> bool | None:
         """Read parameters, take handles, make topics. Return False or raise to refuse."""
 
     def starting(self, time: float) -> None:
@@ -58,7 +59,7 @@ class ControllerBase:
 
     # -- for the controller manager ---------------------------------------------------------------------------------
 
-    def init_request(self, robot_hw: RobotHW, root_nh: NodeHandle, controller_nh: NodeHandle) -> Tuple[InterfaceResources, ...]:
+    def init_request(self, robot_hw: RobotHW, root_nh: NodeHandle, controller_nh: NodeHandle) -> tuple[InterfaceResources, ...]:
         """Initialise. :return: the claimed resources, one entry per interface.
 
         :raises InitError: refused; any other exception of ``init`` passes through.
@@ -101,7 +102,7 @@ class ControllerBase:
 
     def _init_with(
         self, hw: Any, interfaces: Sequence[HardwareInterface], root_nh: NodeHandle, controller_nh: NodeHandle
-    ) -> Tuple[InterfaceResources, ...]:
+    ) -> tuple[InterfaceResources, ...]:
         if self.state is not ControllerState.CONSTRUCTED:
             raise InitError("it has been initialised before")
         for interface in interfaces:
@@ -129,9 +130,9 @@ def _missing(names: Sequence[str], robot_hw: RobotHW) -> InitError:
 class Controller(ControllerBase):
     """A controller on one hardware interface; ``init`` is given that interface."""
 
-    interface: ClassVar[Type[HardwareInterface]]
+    interface: ClassVar[type[HardwareInterface]]
 
-    def init_request(self, robot_hw: RobotHW, root_nh: NodeHandle, controller_nh: NodeHandle) -> Tuple[InterfaceResources, ...]:
+    def init_request(self, robot_hw: RobotHW, root_nh: NodeHandle, controller_nh: NodeHandle) -> tuple[InterfaceResources, ...]:
         hw = robot_hw.get(self.interface)
         if hw is None:
             raise _missing([self.interface.type_name], robot_hw)
@@ -145,10 +146,10 @@ class MultiInterfaceController(ControllerBase):
     refusing to load.
     """
 
-    interfaces: ClassVar[Tuple[Type[HardwareInterface], ...]] = ()
+    interfaces: ClassVar[tuple[type[HardwareInterface], ...]] = ()
     optional: ClassVar[bool] = False
 
-    def init_request(self, robot_hw: RobotHW, root_nh: NodeHandle, controller_nh: NodeHandle) -> Tuple[InterfaceResources, ...]:
+    def init_request(self, robot_hw: RobotHW, root_nh: NodeHandle, controller_nh: NodeHandle) -> tuple[InterfaceResources, ...]:
         there = [robot_hw.get(interface) for interface in self.interfaces]
         if not self.optional and None in there:
             raise _missing([wanted.type_name for wanted, have in zip(self.interfaces, there) if have is None], robot_hw)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, List, Optional
+from collections.abc import Callable
+from typing import Any
 
 import rosgraph
 import rospy
@@ -30,11 +31,11 @@ class NodeHandle:
     :param namespace: absolute, or relative to the namespace of the process; "" is the latter.
     """
 
-    def __init__(self, namespace: str = "", _owned: Optional[List[Any]] = None):
+    def __init__(self, namespace: str = "", _owned: list[Any] | None = None):
         self.namespace = rospy.resolve_name(namespace or rospy.get_namespace()).rstrip("/") or "/"
         self._owned = [] if _owned is None else _owned
 
-    def sub(self, name: str) -> "NodeHandle":
+    def sub(self, name: str) -> NodeHandle:
         """A handle one level down; what it makes goes when this handle is shut down."""
         return NodeHandle(self._join(name), self._owned)
 
@@ -60,7 +61,7 @@ class NodeHandle:
         kind = None if default is None else type(default)
         return self._get(name, default, kind if kind in _KINDS else None)
 
-    def get_param(self, name: str, kind: Optional[type] = None) -> Any:
+    def get_param(self, name: str, kind: type | None = None) -> Any:
         """Value of a required parameter.
 
         :param kind: float (whole numbers accepted), int, bool, str, list or dict; None takes anything.
@@ -68,14 +69,14 @@ class NodeHandle:
         """
         return self._get(name, REQUIRED, kind)
 
-    def strings(self, name: str) -> List[str]:
+    def strings(self, name: str) -> list[str]:
         """A required non-empty list of texts (joint names).
 
         :raises ParameterError: missing, empty, or something else than texts in it.
         """
         return texts(f"parameter {self._join(name)}", self.get_param(name, list))
 
-    def _get(self, name: str, default: Any, kind: Optional[type]) -> Any:
+    def _get(self, name: str, default: Any, kind: type | None) -> Any:
         value = rospy.get_param(self._join(name), default)
         if value is REQUIRED:
             raise ParameterError(f"parameter {self._join(name)} is not set; {self.describe()}")
@@ -93,7 +94,7 @@ class NodeHandle:
     def set_param(self, name: str, value: Any) -> None:
         rospy.set_param(self._join(name), value)
 
-    def search_param(self, name: str) -> Optional[str]:
+    def search_param(self, name: str) -> str | None:
         """Absolute name of the closest parameter ``name`` here or in a namespace above, or None."""
         # the master refuses "/" as the place to begin; from a name below, it looks there on its way up
         place = "/search_param" if self.namespace == "/" else self.namespace

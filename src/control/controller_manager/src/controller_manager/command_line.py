@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from typing import Dict, List, Optional, Sequence
+from collections.abc import Sequence
 
 import node_signals
 import rospy
@@ -66,7 +66,7 @@ def controller_manager_main(arguments: Sequence[str]) -> int:
     return 0
 
 
-def _groups() -> Dict[str, List[str]]:
+def _groups() -> dict[str, list[str]]:
     groups = rospy.get_param("controller_groups", {})
     if not isinstance(groups, dict) or not all(isinstance(members, list) for members in groups.values()):
         rospy.logerr("parameter %s must map each group to a list of controllers, it is %r", rospy.resolve_name("controller_groups"), groups)
@@ -74,7 +74,7 @@ def _groups() -> Dict[str, List[str]]:
     return groups
 
 
-def _members(group: str) -> Optional[List[str]]:
+def _members(group: str) -> list[str] | None:
     members = list(dict.fromkeys(_groups().get(group, [])))
     if not members:
         rospy.logerr(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Callable, Optional, Sequence, Tuple
+from collections.abc import Callable, Sequence
 
 import compiled_plugins
 from controller_interface import ControllerBase, ControllerState, NodeHandle
@@ -34,7 +34,7 @@ class CompiledController(ControllerBase):
         self._core = core
         self.update = core.update  # type: ignore[assignment]  # nothing between the loop and it
 
-    def init_request(self, robot_hw: RobotHW, root_nh: NodeHandle, controller_nh: NodeHandle) -> Tuple[InterfaceResources, ...]:
+    def init_request(self, robot_hw: RobotHW, root_nh: NodeHandle, controller_nh: NodeHandle) -> tuple[InterfaceResources, ...]:
         controller_nh.own(self)
         self._robot = twin(robot_hw)
         claimed = self._core.init(self._robot.address, root_nh.namespace, controller_nh.namespace)
@@ -89,7 +89,7 @@ class CompiledTypes:
 
     def __init__(self, descriptions: Sequence[str]):
         #: moves the clock of compiled code, s; None: it has the clock of the system
-        self.set_time: Optional[Callable[[float], None]] = None
+        self.set_time: Callable[[float], None] | None = None
         if compiled_plugins.start_roscpp():
             self.set_time = compiled_plugins.set_time
         self._classes = _compiled.Classes(list(dict.fromkeys(descriptions)))

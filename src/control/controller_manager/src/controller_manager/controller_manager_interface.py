@@ -5,7 +5,8 @@ Service names are relative: ROS_NAMESPACE (or ``__ns:=``) chooses the controller
 
 from __future__ import annotations
 
-from typing import Any, Sequence
+from collections.abc import Sequence
+from typing import Any
 
 import rospy
 from controller_manager_msgs.srv import (

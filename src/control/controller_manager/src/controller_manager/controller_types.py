@@ -6,7 +6,8 @@ import difflib
 import importlib
 import sys
 import threading
-from typing import TYPE_CHECKING, Callable, Dict, List, Optional, Set, Tuple
+from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import rospy
 from controller_interface import ControllerBase
@@ -23,14 +24,14 @@ class ControllerTypes:
     """
 
     def __init__(self) -> None:
-        self.set_time: Optional[Callable[[float], None]] = None
-        self._compiled: Optional[CompiledTypes] = None
-        self._loaders: List[Tuple[str, Callable[[], List[str]], Callable[[str], int]]] = []
+        self.set_time: Callable[[float], None] | None = None
+        self._compiled: CompiledTypes | None = None
+        self._loaders: list[tuple[str, Callable[[], list[str]], Callable[[str], int]]] = []
         self._lock = threading.Lock()
-        self._known: Optional[Dict[str, PluginClass]] = None
-        self._imported: Set[str] = set()
+        self._known: dict[str, PluginClass] | None = None
+        self._imported: set[str] = set()
 
-    def _plugins(self) -> Dict[str, PluginClass]:
+    def _plugins(self) -> dict[str, PluginClass]:
         with self._lock:
             if self._known is None:
                 self._known, problems = find_plugins("controller_interface")
@@ -38,19 +39,19 @@ class ControllerTypes:
                     rospy.logwarn("controller types: %s", problem)
             return self._known
 
-    def all(self) -> List[PluginClass]:
+    def all(self) -> list[PluginClass]:
         """Types that can be loaded here, by name."""
         known = {name: PluginClass(name, name, base, "", "", "") for base, names, _ in self._loaders for name in names()}
         known.update(self._plugins())
         return [plugin for _, plugin in sorted(known.items())]
 
-    def find(self, name: str) -> Optional[PluginClass]:
+    def find(self, name: str) -> PluginClass | None:
         found = self._plugins().get(name)
         if found is None and self._loaders:
             found = next((plugin for plugin in self.all() if plugin.name == name), None)
         return found
 
-    def add_loader(self, base: str, names: Callable[[], List[str]], create: Callable[[str], int]) -> None:
+    def add_loader(self, base: str, names: Callable[[], list[str]], create: Callable[[str], int]) -> None:
         """Types of a loader in C++: their names, and a function that makes one and gives the address of a shared pointer."""
         self._loaders.append((base, names, create))
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import sys
-from typing import TYPE_CHECKING, Callable, List
+from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from .manager import ControllerManager
@@ -15,7 +16,7 @@ _SWITCH_INTERVAL = 0.0002
 _own_node = False  # rospy's node was begun here
 
 
-def make(robot: int, namespace: str, node: str, node_namespace: str) -> "ControllerManager":
+def make(robot: int, namespace: str, node: str, node_namespace: str) -> ControllerManager:
     """A controller manager in ``namespace``, which is absolute, for the C++ robot at an address.
 
     :param node, node_namespace: of the process; rospy's node has ``_controller_manager`` behind that name. In a process that is one
@@ -38,7 +39,7 @@ def make(robot: int, namespace: str, node: str, node_namespace: str) -> "Control
     return ControllerManager(CompiledRobotHW(Robot(robot, None)), namespace)
 
 
-def end(manager: "ControllerManager", last: bool) -> None:
+def end(manager: ControllerManager, last: bool) -> None:
     """Stop and free the controllers; with the last manager of the process rospy's node ends too, if make() has begun it."""
     import rospy
 
@@ -47,11 +48,11 @@ def end(manager: "ControllerManager", last: bool) -> None:
         rospy.signal_shutdown("the robot's program ends")
 
 
-def address_of(manager: "ControllerManager", name: str) -> int:
+def address_of(manager: ControllerManager, name: str) -> int:
     """Of a loaded controller in C++, else 0."""
     return next((getattr(loaded.controller, "address", 0) for loaded in manager.controllers if loaded.name == name), 0)
 
 
-def add_loader(manager: "ControllerManager", base: str, names: Callable[[], List[str]], create: Callable[[str], int]) -> None:
+def add_loader(manager: ControllerManager, base: str, names: Callable[[], list[str]], create: Callable[[str], int]) -> None:
     """Take the types of a loader in C++ too."""
     manager.add_loader(base, names, create)

@@ -12,7 +12,7 @@ import math
 import sys
 import threading
 import traceback
-from typing import Callable, List, Optional, Sequence, Tuple
+from collections.abc import Callable, Sequence
 
 import rosgraph.names
 import rospy
@@ -75,8 +75,8 @@ class ControllerManager:
         self._services = threading.Lock()
         self._loop = threading.Lock()
         self._begun = False
-        self._controllers: Tuple[LoadedController, ...] = ()
-        self._switch: Optional[Switch] = None
+        self._controllers: tuple[LoadedController, ...] = ()
+        self._switch: Switch | None = None
         self._closing = False
         nh = self._root.sub("controller_manager")
         nh.service("list_controllers", ListControllers, self._list_controllers)
@@ -99,7 +99,7 @@ class ControllerManager:
         )
 
     @property
-    def asked_to_start(self) -> Tuple[ControllerInfo, ...]:
+    def asked_to_start(self) -> tuple[ControllerInfo, ...]:
         """What a switch is to start that waits for the control loop; empty while none does. Any thread."""
         switch = self._switch
         return tuple(switch.start_info) if switch is not None else ()
@@ -159,7 +159,7 @@ class ControllerManager:
                 self._switch = None
             switch.finished.set()
 
-    def _start_if_ready(self, switch: Switch, starting: Sequence[LoadedController], info: Optional[ControllerInfo], time: float) -> bool:
+    def _start_if_ready(self, switch: Switch, starting: Sequence[LoadedController], info: ControllerInfo | None, time: float) -> bool:
         """Start, abort or keep waiting. :return: False while waiting."""
         result = self._hardware_result(switch, info)
         if result is SwitchState.DONE:
@@ -185,7 +185,7 @@ class ControllerManager:
             return False
         return True
 
-    def _hardware_result(self, switch: Switch, info: Optional[ControllerInfo]) -> SwitchState:
+    def _hardware_result(self, switch: Switch, info: ControllerInfo | None) -> SwitchState:
         if switch.hardware_failed:
             return SwitchState.ERROR
         try:
@@ -331,7 +331,7 @@ class ControllerManager:
             switch = self._ask_for(start, stop, strictness, start_asap, timeout)
         return switch is not None and self._carried_out(switch)
 
-    def _ask_for(self, start: Sequence[str], stop: Sequence[str], strictness: int, start_asap: bool, timeout: float) -> Optional[Switch]:
+    def _ask_for(self, start: Sequence[str], stop: Sequence[str], strictness: int, start_asap: bool, timeout: float) -> Switch | None:
         """Check a switch and hand it to the loop; None if it is refused."""
         if strictness == 0:
             rospy.logwarn(
@@ -375,7 +375,7 @@ class ControllerManager:
                 return False
         return not switch.failed
 
-    def _wait(self, switch: Switch) -> Optional[str]:
+    def _wait(self, switch: Switch) -> str | None:
         """Until the loop has done the switch: None; else why not, in words."""
         patience = Patience(switch)
         while not switch.finished.wait(Patience.INTERVAL):
@@ -460,22 +460,22 @@ class ControllerManager:
             for lock in held:
                 lock.release()
 
-    def add_loader(self, base: str, names: Callable[[], List[str]], create: Callable[[str], int]) -> None:
+    def add_loader(self, base: str, names: Callable[[], list[str]], create: Callable[[str], int]) -> None:
         """Take types from a loader in C++ too, for those that no package exports; see ControllerTypes.add_loader."""
         self._types.add_loader(base, names, create)
 
     @property
-    def controllers(self) -> List[LoadedController]:
+    def controllers(self) -> list[LoadedController]:
         """What is loaded, in load order."""
         return list(self._controllers)
 
-    def _find(self, name: str) -> Optional[LoadedController]:
+    def _find(self, name: str) -> LoadedController | None:
         return next((loaded for loaded in self._controllers if loaded.name == name), None)
 
     def _names(self) -> str:
         return ", ".join(loaded.name for loaded in self._controllers) or "none"
 
-    def _exchange(self, controllers: Tuple[LoadedController, ...]) -> bool:
+    def _exchange(self, controllers: tuple[LoadedController, ...]) -> bool:
         """Between two cycles. :return: False if a cycle does not end."""
         if not self._loop.acquire(timeout=LONGEST_CYCLE):
             return False

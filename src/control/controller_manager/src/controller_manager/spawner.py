@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import time
-from typing import List, Optional, Sequence
+from collections.abc import Sequence
 
 import node_signals
 import rosparam
@@ -41,7 +41,7 @@ def _parse(arguments: Sequence[str]) -> argparse.Namespace:
     return parsed
 
 
-def wait_for_service(name: str, timeout: Optional[float]) -> bool:
+def wait_for_service(name: str, timeout: float | None) -> bool:
     """Wait for a service of a controller manager; after a few s say what is looked for and what is there.
 
     :param timeout: s; None waits for ever.
@@ -81,8 +81,8 @@ class Spawner:
         if prefix and not prefix.endswith("/"):
             prefix += "/"
         self._prefix = f"{prefix}controller_manager/"
-        self._loaded: List[str] = []
-        self._heard: Optional[Bool] = None
+        self._loaded: list[str] = []
+        self._heard: Bool | None = None
 
     def run(self) -> int:
         """:return: exit code."""
@@ -123,9 +123,9 @@ class Spawner:
         subscriber.unregister()
         return True
 
-    def _names(self) -> List[str]:
+    def _names(self) -> list[str]:
         """Names of the controllers; YAML files among the arguments go to the parameter server."""
-        names: List[str] = []
+        names: list[str] = []
         for argument in self._options.controllers:
             content = _read_yaml(argument) if os.path.isfile(argument) else None
             if content is None:
@@ -137,7 +137,7 @@ class Spawner:
 
     def _bring_up(self) -> None:
         load = rospy.ServiceProxy(self._prefix + "load_controller", LoadController)
-        start: List[str] = []
+        start: list[str] = []
         for name in self._names():
             rospy.loginfo("Loading controller: %s", name)
             if load(name).ok:
@@ -162,11 +162,11 @@ class Spawner:
         if not self._options.stopped:
             self._start(start)
 
-    def _state_of(self, name: str) -> Optional[str]:
+    def _state_of(self, name: str) -> str | None:
         listed = rospy.ServiceProxy(self._prefix + "list_controllers", ListControllers)().controller
         return next((controller.state for controller in listed if controller.name == name), None)
 
-    def _start(self, names: List[str]) -> None:
+    def _start(self, names: list[str]) -> None:
         if self._switch(start=names):
             rospy.loginfo("Started controllers: %s", ", ".join(names))
         elif not self._shut_down_soon():
@@ -205,7 +205,7 @@ class Spawner:
             )
 
 
-def _read_yaml(path: str) -> Optional[dict]:
+def _read_yaml(path: str) -> dict | None:
     """A YAML file of controllers; None if it is something else that happens to have a controller's name."""
     try:
         with open(path, encoding="utf-8") as file:
@@ -225,7 +225,7 @@ class Unspawner:
 
     def __init__(self, names: Sequence[str]):
         self._names = names
-        self._stopped: List[str] = []
+        self._stopped: list[str] = []
 
     def run(self) -> int:
         """:return: exit code."""

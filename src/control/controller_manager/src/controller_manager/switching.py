@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time as wall
-from typing import List, Optional, Sequence, Tuple
+from collections.abc import Sequence
 
 from hardware_interface import ControlError
 
@@ -17,7 +17,7 @@ class SwitchRefused(ControlError):
 
 def plan(
     controllers: Sequence[LoadedController], start: Sequence[str], stop: Sequence[str], strict: bool
-) -> Tuple[List[LoadedController], List[LoadedController]]:
+) -> tuple[list[LoadedController], list[LoadedController]]:
     """Which controllers really change: (to start, to stop), each in the order of the request.
 
     :param controllers: all that are loaded, in load order.
@@ -50,7 +50,7 @@ def plan(
 class Switch:
     """A switch on its way through the control loop."""
 
-    def __init__(self, start: List[LoadedController], stop: List[LoadedController], start_asap: bool, timeout: float):
+    def __init__(self, start: list[LoadedController], stop: list[LoadedController], start_asap: bool, timeout: float):
         self.start = start
         self.stop = stop
         self.start_info = [loaded.info for loaded in start]
@@ -60,8 +60,8 @@ class Switch:
         self.begun = False
         self.cycles = 0  # of the loop, since the switch was handed to it
         self.hardware_failed = False
-        self.failed: List[LoadedController] = []  # their starting() raised
-        self.reported: List[str] = []  # names of those whose start the log says to be aborted
+        self.failed: list[LoadedController] = []  # their starting() raised
+        self.reported: list[str] = []  # names of those whose start the log says to be aborted
         self.finished = threading.Event()
         self._since = 0.0
 
@@ -96,7 +96,7 @@ class Patience:
         self._clock = 0.0
         self._cycles = 0
 
-    def exhausted(self, clock: float, begun: bool) -> Optional[str]:
+    def exhausted(self, clock: float, begun: bool) -> str | None:
         """To be called every INTERVAL. :return: why the wait is over, in words; None to wait on.
 
         :param clock: s, ROS time

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import socket
-from typing import Any, Dict, List, Optional, Sequence
+from collections.abc import Sequence
+from typing import Any
 
 import rosgraph
 import rospy
@@ -27,10 +27,10 @@ def _join(namespace: str, name: str) -> str:
     return f"{namespace.rstrip('/')}/{name}"
 
 
-def _service_type(name: str) -> Optional[str]:
+def _service_type(name: str) -> str | None:
     try:
         return rosservice.get_service_type(name)
-    except (rosservice.ROSServiceIOException, socket.error):  # its node has died without telling the master
+    except (OSError, rosservice.ROSServiceIOException):  # its node has died without telling the master
         return None
 
 
@@ -39,7 +39,7 @@ def is_controller_manager(namespace: str) -> bool:
     return all(_service_type(_join(namespace, name)) == kind for name, kind in _SERVICES.items())
 
 
-def get_controller_managers(namespace: str = "/", initial_guess: Optional[Sequence[str]] = None) -> List[str]:
+def get_controller_managers(namespace: str = "/", initial_guess: Sequence[str] | None = None) -> list[str]:
     """Namespaces of the controller managers at or below ``namespace``, sorted, such as ``/arm/controller_manager``.
 
     :param initial_guess: an earlier answer; what is still there of it is not looked at again, right or wrong.
@@ -61,7 +61,7 @@ def describe_controller_managers() -> str:
     """A sentence for messages: which controller managers there are, or that there is none."""
     try:
         managers = get_controller_managers()
-    except (rosservice.ROSServiceException, rosgraph.MasterException, socket.error):
+    except (OSError, rosservice.ROSServiceException, rosgraph.MasterException):
         return "The ROS master does not answer."
     if not managers:
         return "There is no controller manager at all; is the robot (or its gazebo_ros_control plugin) running?"
@@ -73,9 +73,9 @@ class ControllerManagerLister:
 
     def __init__(self, namespace: str = "/"):
         self._namespace = namespace
-        self._known: List[str] = []
+        self._known: list[str] = []
 
-    def __call__(self) -> List[str]:
+    def __call__(self) -> list[str]:
         self._known = get_controller_managers(self._namespace, self._known)
         return self._known
 
@@ -90,7 +90,7 @@ class ControllerLister:
     def _connect(self) -> rospy.ServiceProxy:
         return rospy.ServiceProxy(self._service, ListControllers, persistent=True)
 
-    def __call__(self) -> List[ControllerState]:
+    def __call__(self) -> list[ControllerState]:
         for _ in range(2):
             try:
                 return self._proxy().controller
@@ -104,21 +104,21 @@ def _matches(text: str, value: str, match_substring: bool) -> bool:
     return value in text if match_substring else value == text
 
 
-def filter_by_name(controllers: Sequence[ControllerState], name: str, match_substring: bool = False) -> List[ControllerState]:
+def filter_by_name(controllers: Sequence[ControllerState], name: str, match_substring: bool = False) -> list[ControllerState]:
     return [controller for controller in controllers if _matches(controller.name, name, match_substring)]
 
 
-def filter_by_type(controllers: Sequence[ControllerState], type_name: str, match_substring: bool = False) -> List[ControllerState]:
+def filter_by_type(controllers: Sequence[ControllerState], type_name: str, match_substring: bool = False) -> list[ControllerState]:
     return [controller for controller in controllers if _matches(controller.type, type_name, match_substring)]
 
 
-def filter_by_state(controllers: Sequence[ControllerState], state: str, match_substring: bool = False) -> List[ControllerState]:
+def filter_by_state(controllers: Sequence[ControllerState], state: str, match_substring: bool = False) -> list[ControllerState]:
     return [controller for controller in controllers if _matches(controller.state, state, match_substring)]
 
 
 def filter_by_hardware_interface(
     controllers: Sequence[ControllerState], hardware_interface: str, match_substring: bool = False
-) -> List[ControllerState]:
+) -> list[ControllerState]:
     return [
         controller
         for controller in controllers
@@ -127,8 +127,8 @@ def filter_by_hardware_interface(
 
 
 def filter_by_resources(
-    controllers: Sequence[ControllerState], resources: Sequence[str], hardware_interface: Optional[str] = None, match_any: bool = False
-) -> List[ControllerState]:
+    controllers: Sequence[ControllerState], resources: Sequence[str], hardware_interface: str | None = None, match_any: bool = False
+) -> list[ControllerState]:
     """Controllers that claim all of ``resources`` (any of them with ``match_any``).
 
     :param hardware_interface: count only claims through this interface; by default every interface counts.
@@ -147,8 +147,8 @@ def filter_by_resources(
     return result
 
 
-def get_rosparam_controller_names(namespace: str = "/") -> List[str]:
+def get_rosparam_controller_names(namespace: str = "/") -> list[str]:
     """First-level names in ``namespace`` that have a parameter ``type``: controllers that could be loaded."""
     values: Any = rospy.get_param(namespace, {})
-    entries: Dict[str, Any] = values if isinstance(values, dict) else {}
+    entries: dict[str, Any] = values if isinstance(values, dict) else {}
     return [name for name, value in entries.items() if isinstance(value, dict) and "type" in value and not isinstance(value["type"], dict)]

@@ -1,6 +1,6 @@
 """Controllers that claim joints in every way there is, and one that breaks on demand."""
 
-from typing import ClassVar, Dict, List, Tuple
+from typing import ClassVar
 
 from controller_interface import Controller, MultiInterfaceController
 from hardware_interface import (
@@ -34,7 +34,7 @@ class EffortTestController(Controller):
 class _TwoInterfaces(MultiInterfaceController):
     """Claims the parameters ``<prefix>_joints`` through the interfaces of the class."""
 
-    joints: Dict[type, Tuple[str, List[str]]] = {}
+    joints: dict[type, tuple[str, list[str]]] = {}
 
     def init(self, hw, root_nh, controller_nh):
         for interface in self.interfaces:
@@ -80,7 +80,7 @@ class MyDummyController(Controller):
 class ExtensibleController(MultiInterfaceController):
     """A controller that others derive from: takes effort joints."""
 
-    interfaces: ClassVar[Tuple[type, ...]] = (EffortJointInterface,)
+    interfaces: ClassVar[tuple[type, ...]] = (EffortJointInterface,)
 
     def init(self, hw, root_nh, controller_nh):
         self.take(hw.get(EffortJointInterface), "hiDOF_joint1")

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, Tuple
+from collections.abc import Callable
+from typing import Any
 
 import rospy
 from controller_interface import NodeHandle
@@ -22,7 +23,7 @@ class CommandTopic:
     :param what: what is commanded, for the log
     """
 
-    def __init__(self, nh: NodeHandle, topic: str, message_type: type, values: Callable[[Any], Tuple[float, ...]], what: str):
+    def __init__(self, nh: NodeHandle, topic: str, message_type: type, values: Callable[[Any], tuple[float, ...]], what: str):
         self._name = nh.namespace
         self._timeout = nh.param("cmd_vel_timeout", 0.5)
         self._values = values
@@ -44,7 +45,7 @@ class CommandTopic:
         """Refuse commands."""
         self._running = False
 
-    def at(self, time: float) -> Tuple[float, ...]:
+    def at(self, time: float) -> tuple[float, ...]:
         """What is to be done at ``time`` (s). Realtime safe."""
         self._now = time
         values, stamp = self._last

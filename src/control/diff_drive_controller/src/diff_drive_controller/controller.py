@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import List, Optional, Tuple
 
 import rospy
 from control_msgs.msg import JointTrajectoryControllerState
@@ -82,12 +81,12 @@ class DiffDriveController(WheeledBase, Controller):
         for handle in self._right:
             handle.command = right
 
-    def _geometry(self) -> Tuple[float, float, float]:
+    def _geometry(self) -> tuple[float, float, float]:
         """Radius of the left and of the right wheels and the distance of the sides, m."""
         left, right, separation = self._multipliers
         return self._radius * left, self._radius * right, self._separation * separation
 
-    def measured_way(self) -> Optional[Tuple[float, float]]:
+    def measured_way(self) -> tuple[float, float] | None:
         left_radius, right_radius, separation = self._geometry()
         left = sum(handle.state.position for handle in self._left) / len(self._left)
         right = sum(handle.state.position for handle in self._right) / len(self._right)
@@ -137,7 +136,7 @@ class DiffDriveController(WheeledBase, Controller):
         return message
 
 
-def wheel_names(nh: NodeHandle, name: str) -> List[str]:
+def wheel_names(nh: NodeHandle, name: str) -> list[str]:
     """Joint names from a parameter that is one name or a list of them."""
     value = nh.get_param(name)
     return [value] if isinstance(value, str) and value else nh.strings(name)

@@ -1,11 +1,9 @@
-from typing import Optional, Tuple
-
 MIN_INTERVAL: float  # s; shorter ones give no usable velocity
 
-def differential(left: float, right: float, separation: float) -> Tuple[float, float]:
+def differential(left: float, right: float, separation: float) -> tuple[float, float]:
     """(distance m, angle rad) of a base whose sides went ``left`` and ``right`` (m), ``separation`` (m) apart."""
 
-def bicycle(distance: float, steering: float, base: float) -> Tuple[float, float]:
+def bicycle(distance: float, steering: float, base: float) -> tuple[float, float]:
     """The same of one whose driven axle went ``distance`` (m), steered ``steering`` (rad) at an axle ``base`` (m) before it."""
 
 class RollingMean:
@@ -48,7 +46,7 @@ class PlanarOdometry:
     def moved(self, linear: float, linear_y: float, angular: float, time: float) -> None:
         """Velocities of a base that also moves sideways, as measured at ``time``."""
 
-Bounds = Optional[Tuple[float, float]]
+Bounds = tuple[float, float] | None
 
 class SpeedLimiter:
     """Limits a commanded velocity, given the last two that came out of it; ``speed_limiter.h`` says how.

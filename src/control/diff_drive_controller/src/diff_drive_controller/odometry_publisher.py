@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import List, Optional
 
 import rospy
 from controller_interface import NodeHandle, ParameterError, RateGate, RealtimePublisher, to_stamp
@@ -20,7 +19,7 @@ class OdometryPublisher:
     :param odom_frame: fixed name of the odometry frame; None reads the parameter ``odom_frame_id``
     """
 
-    def __init__(self, root_nh: NodeHandle, controller_nh: NodeHandle, odom_frame: Optional[str] = None):
+    def __init__(self, root_nh: NodeHandle, controller_nh: NodeHandle, odom_frame: str | None = None):
         self.rate = controller_nh.param("publish_rate", 50.0)
         self.base_frame = controller_nh.param("base_frame_id", "base_link")
         self.odom_frame = odom_frame or controller_nh.param("odom_frame_id", "odom")
@@ -73,7 +72,7 @@ class OdometryPublisher:
         return True
 
 
-def _diagonal(nh: NodeHandle, name: str) -> List[float]:
+def _diagonal(nh: NodeHandle, name: str) -> list[float]:
     """A 6x6 covariance, row-major, from its diagonal in a parameter; zeros without one."""
     values = nh.param(name, [])
     if not values:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Optional, Tuple
-
 from controller_interface import ParameterError
 
 from .laws import SpeedLimiter
@@ -16,7 +14,7 @@ def load_limiter(nh, axis: str, jerk: bool = True) -> SpeedLimiter:
     :raises ParameterError: a lower bound above the upper one
     """
 
-    def bounds(quantity: str) -> Optional[Tuple[float, float]]:
+    def bounds(quantity: str) -> tuple[float, float] | None:
         if not nh.param(f"{axis}/has_{quantity}_limits", False):
             return None
         high = nh.param(f"{axis}/max_{quantity}", 0.0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Callable, Optional, Tuple
+from collections.abc import Callable
 
 from controller_interface import ControllerBase, NodeHandle, ParameterError
 
@@ -23,9 +23,9 @@ class WheeledBase(ControllerBase):
         self,
         root_nh: NodeHandle,
         controller_nh: NodeHandle,
-        travel: Tuple[WheelTravel, ...] = (),
+        travel: tuple[WheelTravel, ...] = (),
         jerk: bool = True,
-        odom_frame: Optional[str] = None,
+        odom_frame: str | None = None,
     ) -> None:
         """Parameters and topics common to all bases.
 
@@ -47,7 +47,7 @@ class WheeledBase(ControllerBase):
         """Command the base to stand still. Realtime safe."""
         raise NotImplementedError
 
-    def measured_way(self) -> Optional[Tuple[float, float]]:
+    def measured_way(self) -> tuple[float, float] | None:
         """(m forward, rad turned) since the last call, from the wheels; None if they are not known. Realtime safe."""
         raise NotImplementedError
 
@@ -90,7 +90,7 @@ class WheeledBase(ControllerBase):
         self._publisher.publish(self._odometry, time)
         return True
 
-    def limited_command(self, time: float, period: float) -> Tuple[float, float]:
+    def limited_command(self, time: float, period: float) -> tuple[float, float]:
         """(linear x m/s, angular z rad/s) to be done now."""
         linear, angular = self._command.at(time)
         return self._limit_linear.limit(linear, period), self._limit_angular.limit(angular, period)

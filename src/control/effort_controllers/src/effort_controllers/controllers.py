@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import List
-
 import rospy
 from control_msgs.msg import JointControllerState
 from control_toolbox import load_pid
@@ -29,7 +27,7 @@ class JointGroupEffortController(ForwardJointGroupCommandController):
     interface = EffortJointInterface
 
 
-def describe_joints(nh: NodeHandle, names: List[str]) -> List[JointDescription]:
+def describe_joints(nh: NodeHandle, names: list[str]) -> list[JointDescription]:
     """Joints ``names`` in the closest ``robot_description`` above ``nh``.
 
     :raises InitError: no description, or a joint is not in it.

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import List
-
 import rospy
 from controller_interface import Controller, NodeHandle
 from hardware_interface import JointCommandInterface, JointHandle
@@ -36,7 +34,7 @@ class ForwardJointGroupCommandController(Controller):
     """Parameter ``joints``; topic ``command`` (std_msgs/Float64MultiArray, one value per joint in that order)."""
 
     def init(self, hw: JointCommandInterface, root_nh: NodeHandle, controller_nh: NodeHandle) -> None:
-        self.joints: List[JointHandle] = [hw.get_handle(name) for name in controller_nh.strings("joints")]
+        self.joints: list[JointHandle] = [hw.get_handle(name) for name in controller_nh.strings("joints")]
         self._commands = [0.0] * len(self.joints)
         self._topic = controller_nh.resolve("command")
         controller_nh.subscriber("command", Float64MultiArray, self._receive)

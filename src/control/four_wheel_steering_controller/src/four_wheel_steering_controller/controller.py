@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, List, Tuple
+from typing import Any
 
 from controller_interface import MultiInterfaceController, NodeHandle, ParameterError, RealtimePublisher, to_stamp
 from diff_drive_controller.command_topic import CommandTopic
@@ -131,7 +131,7 @@ class _Rates:
             setattr(state, name, value)
 
 
-def _steering_values(message: FourWheelSteering) -> Tuple[float, float, float]:
+def _steering_values(message: FourWheelSteering) -> tuple[float, float, float]:
     """Speed (m/s) and the angles of the front and the rear axle (rad)."""
     return message.speed, message.front_steering_angle, message.rear_steering_angle
 
@@ -140,7 +140,7 @@ def _clamp(angle: float) -> float:
     return max(-_RIGHT_ANGLE, min(_RIGHT_ANGLE, angle))
 
 
-def _pair(nh: NodeHandle, name: str) -> List[str]:
+def _pair(nh: NodeHandle, name: str) -> list[str]:
     """[left, right] joint names from a parameter."""
     names = nh.strings(name)
     if len(names) != 2:

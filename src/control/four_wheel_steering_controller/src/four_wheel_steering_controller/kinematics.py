@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple, Tuple
+from typing import NamedTuple
 
 STANDSTILL = 1e-3  # m/s; slower bases do not turn their wheels
 STRAIGHT = 1e-3  # rad
@@ -36,7 +36,7 @@ class Base:
     wheel_radius: float
     y_offset: float
 
-    def from_twist(self, linear: float, angular: float) -> Tuple[Axle, Axle]:
+    def from_twist(self, linear: float, angular: float) -> tuple[Axle, Axle]:
         """(front, rear) that move the base at ``linear`` (m/s) and ``angular`` (rad/s); the axles steer opposite ways.
 
         The base turns about a point outside of its track; when asked for a tighter turn it steers as far as it can.
@@ -49,7 +49,7 @@ class Base:
             left = right = math.copysign(0.5 * math.pi, angular) if abs(linear) > STANDSTILL else 0.0
         return Axle(left, right, left_speed, right_speed), Axle(-left, -right, left_speed, right_speed)
 
-    def from_steering(self, speed: float, front: float, rear: float) -> Tuple[Axle, Axle]:
+    def from_steering(self, speed: float, front: float, rear: float) -> tuple[Axle, Axle]:
         """(front, rear) for steering angles of the middles of the axles."""
         tan_front, tan_rear = math.tan(front), math.tan(rear)
         length = self.wheel_base
@@ -68,7 +68,7 @@ class Base:
             axles.append(Axle(left, right, *self._speeds(speed, angular, lever * angular)))
         return axles[0], axles[1]
 
-    def _speeds(self, linear: float, angular: float, lateral: float) -> Tuple[float, float]:
+    def _speeds(self, linear: float, angular: float, lateral: float) -> tuple[float, float]:
         """Wheel speeds of an axle that goes ``linear`` forward and ``lateral`` to the left (m/s)."""
         if abs(linear) <= STANDSTILL:
             return 0.0, 0.0
@@ -79,7 +79,7 @@ class Base:
             (math.copysign(math.hypot(linear + half, lateral), linear) + inner) / self.wheel_radius,
         )
 
-    def motion(self, front: Axle, rear: Axle) -> Tuple[float, float, float]:
+    def motion(self, front: Axle, rear: Axle) -> tuple[float, float, float]:
         """(forward m/s, to the left m/s, rad/s) of a base whose wheels do this, the best fit to all four."""
         angles = axle_angle(front), axle_angle(rear)
         bend = math.tan(angles[0]) - math.tan(angles[1])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Optional
 
 import rospy
 from control_msgs.msg import GripperCommandAction, GripperCommandResult
@@ -105,7 +104,7 @@ class GripperActionController(ActionController):
         rospy.logerr("%s: %s", self._name, text)
         goal.reject(text=text)
 
-    def _hold(self, goal: Optional[RealtimeGoal]) -> None:
+    def _hold(self, goal: RealtimeGoal | None) -> None:
         self._command = (self._handle.position, self._default_effort)
 
 

@@ -4,9 +4,10 @@
 handle a view of numbers that ``keeper`` keeps.
 """
 
-from typing import Any, Optional, Sequence, Tuple
+from collections.abc import Sequence
+from typing import Any
 
-_Addresses = Tuple[int, int, int, int, int, int]
+_Addresses = tuple[int, int, int, int, int, int]
 
 class JointStateHandle:
     """Measured state of a joint, written by the hardware.
@@ -18,22 +19,22 @@ class JointStateHandle:
     position: float
     velocity: float
     effort: float
-    absolute_position: Optional[float]
-    torque_sensor: Optional[float]
+    absolute_position: float | None
+    torque_sensor: float | None
     def __init__(
         self,
         name: str,
         position: float = ...,
         velocity: float = ...,
         effort: float = ...,
-        absolute_position: Optional[float] = ...,
-        torque_sensor: Optional[float] = ...,
+        absolute_position: float | None = ...,
+        torque_sensor: float | None = ...,
     ) -> None: ...
     @property
     def name(self) -> str: ...
     @property
     def _addresses(self) -> _Addresses: ...
-    def _look_at(self, addresses: Tuple[int, ...], keeper: Any, /) -> None: ...
+    def _look_at(self, addresses: tuple[int, ...], keeper: Any, /) -> None: ...
 
 class _CommandHandle:
     """A commanding handle shows the state of its joint too. In a tight loop read ``handle.state`` directly."""
@@ -49,12 +50,12 @@ class _CommandHandle:
     @property
     def effort(self) -> float: ...
     @property
-    def absolute_position(self) -> Optional[float]: ...
+    def absolute_position(self) -> float | None: ...
     @property
-    def torque_sensor(self) -> Optional[float]: ...
+    def torque_sensor(self) -> float | None: ...
     @property
     def _addresses(self) -> _Addresses: ...
-    def _look_at(self, addresses: Tuple[int, ...], keeper: Any, /) -> None: ...
+    def _look_at(self, addresses: tuple[int, ...], keeper: Any, /) -> None: ...
 
 class JointHandle(_CommandHandle):
     """A joint and one command: position, velocity or effort, depending on the interface it is registered in.
@@ -110,22 +111,22 @@ class ImuSensorHandle:
     :param orientation_covariance: (9,) row-major, likewise the other two.
     """
 
-    orientation: Optional[Sequence[float]]
-    orientation_covariance: Optional[Sequence[float]]
-    angular_velocity: Optional[Sequence[float]]
-    angular_velocity_covariance: Optional[Sequence[float]]
-    linear_acceleration: Optional[Sequence[float]]
-    linear_acceleration_covariance: Optional[Sequence[float]]
+    orientation: Sequence[float] | None
+    orientation_covariance: Sequence[float] | None
+    angular_velocity: Sequence[float] | None
+    angular_velocity_covariance: Sequence[float] | None
+    linear_acceleration: Sequence[float] | None
+    linear_acceleration_covariance: Sequence[float] | None
     def __init__(
         self,
         name: str,
         frame_id: str = ...,
-        orientation: Optional[Sequence[float]] = ...,
-        orientation_covariance: Optional[Sequence[float]] = ...,
-        angular_velocity: Optional[Sequence[float]] = ...,
-        angular_velocity_covariance: Optional[Sequence[float]] = ...,
-        linear_acceleration: Optional[Sequence[float]] = ...,
-        linear_acceleration_covariance: Optional[Sequence[float]] = ...,
+        orientation: Sequence[float] | None = ...,
+        orientation_covariance: Sequence[float] | None = ...,
+        angular_velocity: Sequence[float] | None = ...,
+        angular_velocity_covariance: Sequence[float] | None = ...,
+        linear_acceleration: Sequence[float] | None = ...,
+        linear_acceleration_covariance: Sequence[float] | None = ...,
     ) -> None: ...
     @property
     def name(self) -> str: ...
@@ -133,7 +134,7 @@ class ImuSensorHandle:
     def frame_id(self) -> str: ...
     @property
     def _addresses(self) -> _Addresses: ...
-    def _look_at(self, addresses: Tuple[int, ...], keeper: Any, /) -> None: ...
+    def _look_at(self, addresses: tuple[int, ...], keeper: Any, /) -> None: ...
 
 class ForceTorqueSensorHandle:
     """A wrist or foot sensor.
@@ -144,10 +145,10 @@ class ForceTorqueSensorHandle:
     :param torque: (3,) Nm in that frame; None where there is no torque sensor.
     """
 
-    force: Optional[Sequence[float]]
-    torque: Optional[Sequence[float]]
+    force: Sequence[float] | None
+    torque: Sequence[float] | None
     def __init__(
-        self, name: str, frame_id: str = ..., force: Optional[Sequence[float]] = ..., torque: Optional[Sequence[float]] = ...
+        self, name: str, frame_id: str = ..., force: Sequence[float] | None = ..., torque: Sequence[float] | None = ...
     ) -> None: ...
     @property
     def name(self) -> str: ...
@@ -155,7 +156,7 @@ class ForceTorqueSensorHandle:
     def frame_id(self) -> str: ...
     @property
     def _addresses(self) -> _Addresses: ...
-    def _look_at(self, addresses: Tuple[int, ...], keeper: Any, /) -> None: ...
+    def _look_at(self, addresses: tuple[int, ...], keeper: Any, /) -> None: ...
 
 class JointModeHandle:
     """The mode of one drive, as a number."""

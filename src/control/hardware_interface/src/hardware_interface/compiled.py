@@ -8,7 +8,8 @@ either.
 
 from __future__ import annotations
 
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from collections.abc import Sequence
+from typing import Any
 
 from . import handles as _handles
 from . import interfaces as _interfaces
@@ -17,7 +18,7 @@ from .interfaces import HardwareInterface
 from .robot_hw import ControllerInfo, RobotHW, SwitchState
 
 #: C++ name of an interface -> (its class, that of its handles, that of their states or None for sensors)
-_KNOWN: Dict[str, Tuple[type, type, Optional[type]]] = {
+_KNOWN: dict[str, tuple[type, type, type | None]] = {
     interface.type_name: (interface, getattr(_handles, handle), getattr(_handles, state) if state else None)
     for interface, handle, state in (
         (_interfaces.JointStateInterface, "JointStateHandle", None),
@@ -53,8 +54,8 @@ class _Twin:
 
     def __init__(self) -> None:
         self.robot = Robot()
-        self.handles: Dict[Tuple[str, str], Any] = {}
-        self.parts: List[RobotHW] = []
+        self.handles: dict[tuple[str, str], Any] = {}
+        self.parts: list[RobotHW] = []
 
 
 def twin(robot: RobotHW) -> Robot:
@@ -83,7 +84,7 @@ def twin(robot: RobotHW) -> Robot:
     return known.robot
 
 
-def _infos(controllers: Sequence[ControllerInfo]) -> List[Tuple[str, str, List[Tuple[str, List[str]]]]]:
+def _infos(controllers: Sequence[ControllerInfo]) -> list[tuple[str, str, list[tuple[str, list[str]]]]]:
     return [
         (info.name, info.type, [(claimed.hardware_interface, list(claimed.resources)) for claimed in info.claimed_resources])
         for info in controllers
@@ -106,7 +107,7 @@ class CompiledRobotHW(RobotHW):
             self._show(name)
         return super().get(name)
 
-    def interface_names(self) -> List[str]:
+    def interface_names(self) -> list[str]:
         return sorted(set(self.core.names()) | set(super().interface_names()))
 
     def _show(self, type_name: str) -> None:
@@ -124,7 +125,7 @@ class CompiledRobotHW(RobotHW):
             if record.name not in shown:
                 shown.register_handle(self._view(record, handle_class, state_class))
 
-    def _view(self, record: Record, handle_class: type, state_class: Optional[type]) -> Any:
+    def _view(self, record: Record, handle_class: type, state_class: type | None) -> Any:
         if handle_class is _handles.JointModeHandle:
             handle = handle_class(record.name)
             handle._look_at(record.data[0], self.core)
@@ -153,5 +154,5 @@ class CompiledRobotHW(RobotHW):
     def do_switch(self, start: Sequence[ControllerInfo], stop: Sequence[ControllerInfo]) -> None:
         self.core.do_switch(_infos(start), _infos(stop))
 
-    def switch_result(self, controller: Optional[ControllerInfo] = None) -> SwitchState:
+    def switch_result(self, controller: ControllerInfo | None = None) -> SwitchState:
         return SwitchState(self.core.switch_result(None if controller is None else _infos([controller])[0]))

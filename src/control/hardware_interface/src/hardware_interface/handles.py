@@ -34,7 +34,7 @@ __all__ = [
 ]
 
 
-def addresses(handle) -> "tuple[int, ...]":
+def addresses(handle) -> tuple[int, ...]:
     """Where its numbers are, in the order in which the class declares them; 0 for what is not there. C++ may read and write them as
     long as the handle lives."""
     return handle._addresses

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List, Set
+from typing import Any
 
 import rospy
 
@@ -26,8 +26,8 @@ class HardwareInterface:
             cls.type_name = f"{cls.__module__.partition('.')[0]}::{cls.__name__}"
 
     def __init__(self, *handles: Any):
-        self._handles: Dict[str, Any] = {}
-        self._claims: Set[str] = set()
+        self._handles: dict[str, Any] = {}
+        self._claims: set[str] = set()
         for handle in handles:
             self.register_handle(handle)
 
@@ -52,11 +52,11 @@ class HardwareInterface:
             self.claim(name)
         return handle
 
-    def handles(self) -> List[Any]:
+    def handles(self) -> list[Any]:
         """All handles, sorted by name, without claiming anything: for the hardware itself."""
         return [self._handles[name] for name in self.names()]
 
-    def names(self) -> List[str]:
+    def names(self) -> list[str]:
         """Resource names, sorted."""
         return sorted(self._handles)
 
@@ -70,12 +70,12 @@ class HardwareInterface:
         self._claims.clear()
 
     @property
-    def claims(self) -> Set[str]:
+    def claims(self) -> set[str]:
         """Resources claimed since clear_claims()."""
         return set(self._claims)
 
     @classmethod
-    def merged(cls, interfaces: List["HardwareInterface"]) -> "HardwareInterface":
+    def merged(cls, interfaces: list[HardwareInterface]) -> HardwareInterface:
         """One interface with the handles of several of the same type."""
         result = cls()
         for interface in interfaces:

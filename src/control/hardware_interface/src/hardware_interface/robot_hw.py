@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Type, TypeVar, Union, overload
+from typing import Any, TypeVar, overload
 
 import rospy
 
@@ -18,7 +19,7 @@ class InterfaceResources:
     """Resources that a controller claims through one interface (C++ name), sorted."""
 
     hardware_interface: str
-    resources: Tuple[str, ...] = ()
+    resources: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,7 @@ class ControllerInfo:
 
     name: str
     type: str
-    claimed_resources: Tuple[InterfaceResources, ...] = field(default_factory=tuple)
+    claimed_resources: tuple[InterfaceResources, ...] = field(default_factory=tuple)
 
 
 class SwitchState(Enum):
@@ -44,9 +45,9 @@ class RobotHW:
     """
 
     def __init__(self) -> None:
-        self._interfaces: Dict[str, HardwareInterface] = {}
-        self._children: List[RobotHW] = []
-        self._merged: Dict[str, HardwareInterface] = {}
+        self._interfaces: dict[str, HardwareInterface] = {}
+        self._children: list[RobotHW] = []
+        self._merged: dict[str, HardwareInterface] = {}
         self._twin: Any = None  # in C++; see the module compiled
 
     # -- interfaces -------------------------------------------------------------------------------------------------
@@ -58,18 +59,18 @@ class RobotHW:
         self._interfaces[interface.type_name] = interface
         self._merged.clear()
 
-    def register_interface_manager(self, hw: "RobotHW") -> None:
+    def register_interface_manager(self, hw: RobotHW) -> None:
         """Offer the interfaces of another RobotHW too; those of the same type are merged by handle."""
         self._children.append(hw)
         self._merged.clear()
 
     @overload
-    def get(self, interface: Type[InterfaceT]) -> Optional[InterfaceT]: ...
+    def get(self, interface: type[InterfaceT]) -> InterfaceT | None: ...
 
     @overload
-    def get(self, interface: str) -> Optional[HardwareInterface]: ...
+    def get(self, interface: str) -> HardwareInterface | None: ...
 
-    def get(self, interface: Union[Type[HardwareInterface], str]) -> Optional[HardwareInterface]:
+    def get(self, interface: type[HardwareInterface] | str) -> HardwareInterface | None:
         """The interface of that class (or C++ name), or None. The same object every time, as long as nothing is
         registered in between: claims live in it."""
         name = interface if isinstance(interface, str) else interface.type_name
@@ -84,7 +85,7 @@ class RobotHW:
         self._merged[name] = type(parts[0]).merged(parts)
         return self._merged[name]
 
-    def interface_names(self) -> List[str]:
+    def interface_names(self) -> list[str]:
         """C++ names of all interfaces offered, sorted."""
         names = set(self._interfaces)
         for child in self._children:
@@ -113,7 +114,7 @@ class RobotHW:
     def check_for_conflict(self, controllers: Sequence[ControllerInfo]) -> bool:
         """True if these controllers cannot run together: by default, if any resource is claimed twice, whatever the
         interface (a controller that takes one joint through two interfaces is in conflict with itself)."""
-        owners: Dict[str, List[str]] = {}
+        owners: dict[str, list[str]] = {}
         for controller in controllers:
             for claimed in controller.claimed_resources:
                 for resource in claimed.resources:
@@ -132,6 +133,6 @@ class RobotHW:
     def do_switch(self, start: Sequence[ControllerInfo], stop: Sequence[ControllerInfo]) -> None:
         """Begin the switch of the hardware."""
 
-    def switch_result(self, controller: Optional[ControllerInfo] = None) -> SwitchState:
+    def switch_result(self, controller: ControllerInfo | None = None) -> SwitchState:
         """How far the switch is, for all (None) or for one controller."""
         return SwitchState.DONE

@@ -1,5 +1,3 @@
-from typing import Optional, Tuple
-
 from .limits import JointLimits, SoftJointLimits
 
 class CommandLimiter:
@@ -8,8 +6,8 @@ class CommandLimiter:
     :param command: "position", "velocity" or "effort"; with ``soft`` limits or without
     """
 
-    def __init__(self, command: str, limits: JointLimits, soft: Optional[SoftJointLimits] = ...) -> None: ...
+    def __init__(self, command: str, limits: JointLimits, soft: SoftJointLimits | None = ...) -> None: ...
     def reset(self) -> None:
         """Forget the last command."""
-    def enforce(self, command: float, position: float, velocity: float, dt: float) -> Tuple[float, bool]:
+    def enforce(self, command: float, position: float, velocity: float, dt: float) -> tuple[float, bool]:
         """The allowed command, and whether the given one was a usable number. ``dt``: s since the last cycle."""

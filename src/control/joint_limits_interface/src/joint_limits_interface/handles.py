@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import time
 from math import inf
-from typing import ClassVar, Dict, Optional
+from typing import ClassVar
 
 import rospy
 from hardware_interface import ControlError, JointHandle
@@ -28,10 +28,10 @@ class _LimitHandle:
 
     __slots__ = ("joint", "limits", "law", "_state", "_warned")
 
-    requires: "tuple[str, ...]" = ()
+    requires: tuple[str, ...] = ()
     kind: ClassVar[str]  #: of command
 
-    def __init__(self, joint: JointHandle, limits: JointLimits, soft: Optional[SoftJointLimits] = None):
+    def __init__(self, joint: JointHandle, limits: JointLimits, soft: SoftJointLimits | None = None):
         self.joint = joint
         self.limits = limits
         self._state = joint.state
@@ -128,13 +128,13 @@ class JointLimitsInterface:
     """Limit handles of one kind, enforced together in the order of their joints' names."""
 
     def __init__(self) -> None:
-        self._handles: Dict[str, _LimitHandle] = {}
+        self._handles: dict[str, _LimitHandle] = {}
 
     def register_handle(self, handle: _LimitHandle) -> None:
         self._handles[handle.name] = handle
         self._handles = dict(sorted(self._handles.items()))
 
-    def names(self) -> "list[str]":
+    def names(self) -> list[str]:
         return list(self._handles)
 
     def enforce_limits(self, dt: float) -> None:

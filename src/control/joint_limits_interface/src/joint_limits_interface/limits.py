@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any, Dict, List, Optional
+from typing import Any
 
 import rospy
 from node_signals.parameters import is_number
@@ -50,7 +50,7 @@ _VALUES = {
 }
 
 
-def limits_from_urdf(joint: JointDescription, limits: JointLimits = JointLimits()) -> Optional[JointLimits]:
+def limits_from_urdf(joint: JointDescription, limits: JointLimits = JointLimits()) -> JointLimits | None:
     """``limits`` with what ``<limit>`` says; None for a joint without one."""
     if joint.limit is None:
         return None
@@ -69,7 +69,7 @@ def limits_from_urdf(joint: JointDescription, limits: JointLimits = JointLimits(
     )
 
 
-def soft_limits_from_urdf(joint: JointDescription) -> Optional[SoftJointLimits]:
+def soft_limits_from_urdf(joint: JointDescription) -> SoftJointLimits | None:
     """What ``<safety_controller>`` says; None without one."""
     safety = joint.safety
     if safety is None:
@@ -77,12 +77,12 @@ def soft_limits_from_urdf(joint: JointDescription) -> Optional[SoftJointLimits]:
     return SoftJointLimits(safety.lower, safety.upper, safety.k_position, safety.k_velocity)
 
 
-def _read(nh: Any, joint: str) -> Optional[Dict[str, Any]]:
+def _read(nh: Any, joint: str) -> dict[str, Any] | None:
     values = rospy.get_param(nh.resolve(f"joint_limits/{joint}"), None)
     return values if isinstance(values, dict) else None
 
 
-def limits_from_params(nh: Any, joint: str, limits: JointLimits = JointLimits()) -> Optional[JointLimits]:
+def limits_from_params(nh: Any, joint: str, limits: JointLimits = JointLimits()) -> JointLimits | None:
     """``limits`` with what ``<nh>/joint_limits/<joint>`` says; None if that namespace is not there.
 
     :param nh: controller_interface.NodeHandle.
@@ -91,9 +91,9 @@ def limits_from_params(nh: Any, joint: str, limits: JointLimits = JointLimits())
     return None if values is None else apply_limits(values, limits)
 
 
-def apply_limits(values: Dict[str, Any], limits: JointLimits) -> JointLimits:
+def apply_limits(values: dict[str, Any], limits: JointLimits) -> JointLimits:
     """``limits`` overridden by a parameter map. A value counts only beside ``has_<kind>_limits: true``."""
-    changes: Dict[str, Any] = {}
+    changes: dict[str, Any] = {}
     for kind, names in _VALUES.items():
         flag = values.get(f"has_{kind}_limits")
         if flag is False:
@@ -106,14 +106,14 @@ def apply_limits(values: Dict[str, Any], limits: JointLimits) -> JointLimits:
     return replace(limits, **changes)
 
 
-def soft_limits_from_params(nh: Any, joint: str) -> Optional[SoftJointLimits]:
+def soft_limits_from_params(nh: Any, joint: str) -> SoftJointLimits | None:
     """Soft limits of ``<nh>/joint_limits/<joint>``; None unless has_soft_limits and all four values are there."""
     values = _read(nh, joint)
     return None if values is None else soft_limits_of(values)
 
 
-def soft_limits_of(values: Dict[str, Any]) -> Optional[SoftJointLimits]:
-    numbers: List[Any] = [values.get(name) for name in ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity")]
+def soft_limits_of(values: dict[str, Any]) -> SoftJointLimits | None:
+    numbers: list[Any] = [values.get(name) for name in ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity")]
     if values.get("has_soft_limits") is not True or not all(is_number(value, finite=False) for value in numbers):
         return None
     return SoftJointLimits(*map(float, numbers))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from math import inf
-from typing import Dict, Optional
 from xml.etree import ElementTree
 
 from hardware_interface import ControlError, description_root
@@ -45,8 +44,8 @@ class JointDescription:
 
     name: str
     kind: str
-    limit: Optional[Limit] = None
-    safety: Optional[Safety] = None
+    limit: Limit | None = None
+    safety: Safety | None = None
 
     @property
     def lower(self) -> float:
@@ -93,7 +92,7 @@ def _joint(element: ElementTree.Element) -> JointDescription:
     )
 
 
-def read_joints(urdf: str) -> Dict[str, JointDescription]:
+def read_joints(urdf: str) -> dict[str, JointDescription]:
     """The joints of a URDF text by name.
 
     :raises DescriptionError: the text is no XML, or a limit no number.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List
+from typing import Any
 
 import rospy
 from controller_interface import Controller, NodeHandle, RateGate, RealtimePublisher, to_stamp
@@ -25,9 +25,9 @@ class JointStateController(Controller):
         names = controller_nh.strings("joints") if controller_nh.has_param("joints") else hw.names()
         self._joints = [hw.get_handle(name) for name in names]
         self._names = list(names)
-        self._extra_position: List[float] = []
-        self._extra_velocity: List[float] = []
-        self._extra_effort: List[float] = []
+        self._extra_position: list[float] = []
+        self._extra_velocity: list[float] = []
+        self._extra_effort: list[float] = []
         self._add_extra_joints(controller_nh)
         self._publisher = RealtimePublisher(root_nh, "joint_states", JointState, queue_size=4)
         self._gate = RateGate(rate)
@@ -56,7 +56,7 @@ class JointStateController(Controller):
             return "it has no name"
         if entry["name"] in self._names:
             return f"joint '{entry['name']}' is there already"
-        values: Dict[str, Any] = {key: entry[key] for key in ("position", "velocity", "effort") if key in entry}
+        values: dict[str, Any] = {key: entry[key] for key in ("position", "velocity", "effort") if key in entry}
         wrong = [f"{key}: {value!r}" for key, value in values.items() if not isinstance(value, float)]
         return f"write numbers with a decimal point ({', '.join(wrong)})" if wrong else ""
 

@@ -1,9 +1,10 @@
 """The laws of trajectories (spline_law.h, tracking_law.h), and by them the samples of all joints, cycle by cycle (core/sampler.cpp).
 rad or m, seconds."""
 
-from typing import Optional, Sequence, Tuple, overload
+from collections.abc import Sequence
+from typing import overload
 
-_State = Tuple[float, Optional[float], Optional[float]]
+_State = tuple[float, float | None, float | None]
 
 class Spline:
     @overload
@@ -13,7 +14,7 @@ class Spline:
     def __init__(self, other: Spline) -> None: ...
     @staticmethod
     def stop(start: float, position: float, velocity: float, duration: float) -> Spline: ...
-    def sample(self, time: float) -> Tuple[float, float, float]:
+    def sample(self, time: float) -> tuple[float, float, float]:
         """(position, velocity, acceleration)"""
     def move(self, delay: float, offset: float) -> None: ...
     @property
@@ -23,7 +24,7 @@ class Spline:
     @property
     def end_position(self) -> float: ...
     @property
-    def coefficients(self) -> Tuple[float, ...]: ...
+    def coefficients(self) -> tuple[float, ...]: ...
 
 def position_error(measured: float, desired: float, angular: bool) -> float: ...
 def violation(what: str, error: float, tolerance: float) -> str: ...
@@ -41,4 +42,4 @@ class Sampler:
     ) -> None: ...
     def quick(
         self, time: float, watch: bool, whole: bool
-    ) -> Optional[Tuple[Sequence[Tuple[float, float, float]], Sequence[Tuple[float, float]]]]: ...
+    ) -> tuple[Sequence[tuple[float, float, float]], Sequence[tuple[float, float]]] | None: ...

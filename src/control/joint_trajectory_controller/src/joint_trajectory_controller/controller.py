@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, List, Optional, Sequence, Tuple
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import rospy
 from control_msgs.msg import (
@@ -42,13 +43,13 @@ class JointTrajectoryController(ActionController):
 
     # -- what a variant adds -------------------------------------------------------------------------------------------
 
-    def init_output(self, handles: List[Any], controller_nh: NodeHandle) -> None:
+    def init_output(self, handles: list[Any], controller_nh: NodeHandle) -> None:
         """Read the variant's parameters."""
 
     def start_output(self) -> None:
         """Write the first command; the joints are to stay where they are."""
 
-    def write_output(self, desired: List[Tuple[float, float, float]], errors: List[Tuple[float, float]], period: float) -> None:
+    def write_output(self, desired: list[tuple[float, float, float]], errors: list[tuple[float, float]], period: float) -> None:
         """Write the commands of this cycle.
 
         :param desired: position, velocity, acceleration of each joint
@@ -160,11 +161,11 @@ class JointTrajectoryController(ActionController):
     def _sample(
         self,
         uptime: float,
-        trajectory: List[List[Segment]],
-        cursor: List[int],
-        next_start: List[float],
-        goal: Optional[RealtimeGoal],
-        done: List[bool],
+        trajectory: list[list[Segment]],
+        cursor: list[int],
+        next_start: list[float],
+        goal: RealtimeGoal | None,
+        done: list[bool],
         publish: bool,
     ):
         """Every joint at ``uptime``, and what becomes of the goal: (desired states, errors, the goal or None if it was aborted)."""
@@ -199,7 +200,7 @@ class JointTrajectoryController(ActionController):
                         goal = None
         return desired, errors, goal
 
-    def _remember(self, trajectory: List[List[Segment]], cursor: List[int], next_start: List[float], goal: Optional[RealtimeGoal]) -> None:
+    def _remember(self, trajectory: list[list[Segment]], cursor: list[int], next_start: list[float], goal: RealtimeGoal | None) -> None:
         """Hand the segments that are under way to the sampler, which answers from then on until something happens."""
         if self._sampler is None:
             return
@@ -239,12 +240,12 @@ class JointTrajectoryController(ActionController):
 
     # -- motions (called with _lock held) ------------------------------------------------------------------------------
 
-    def _follow(self, trajectory: List[List[Segment]]) -> None:
+    def _follow(self, trajectory: list[list[Segment]]) -> None:
         self._trajectory = trajectory
         self._cursor = [0] * len(trajectory)
         self._next_start = [segments[1].start if len(segments) > 1 else math.inf for segments in trajectory]
 
-    def _hold_measured(self, goal: Optional[RealtimeGoal]) -> bool:
+    def _hold_measured(self, goal: RealtimeGoal | None) -> bool:
         """Rest where the joints are now; False when the hardware does not say where that is."""
         positions = [state.position for state in self._states]
         if not all(map(math.isfinite, positions)):
@@ -254,7 +255,7 @@ class JointTrajectoryController(ActionController):
         )
         return True
 
-    def _hold(self, goal: Optional[RealtimeGoal]) -> None:
+    def _hold(self, goal: RealtimeGoal | None) -> None:
         if self._stop_duration == 0.0 and self._hold_measured(goal):
             return
         states = [segments[max(active_index(segments, self._uptime), 0)].sample(self._uptime) for segments in self._trajectory]
@@ -286,7 +287,7 @@ class JointTrajectoryController(ActionController):
             code = getattr(error, "code", Result.INVALID_GOAL)
             goal.reject(Result(error_code=code, error_string=str(error)), str(error))
 
-    def _take(self, message: JointTrajectory, goal: Optional[RealtimeGoal], wanted: List[tolerances.JointTolerances], named: bool) -> None:
+    def _take(self, message: JointTrajectory, goal: RealtimeGoal | None, wanted: list[tolerances.JointTolerances], named: bool) -> None:
         """Join a message to the running motion; its goal, or none, takes the place of the active one.
 
         :param named: whether an empty trajectory must name the joints, as that of an action goal
@@ -342,7 +343,7 @@ class JointTrajectoryController(ActionController):
         return QueryTrajectoryStateResponse(self._joints, *map(list, zip(*samples)))
 
 
-def _sampler_of(states: Sequence[JointStateHandle], angular: Sequence[bool]) -> Optional[Sampler]:
+def _sampler_of(states: Sequence[JointStateHandle], angular: Sequence[bool]) -> Sampler | None:
     """In C++, for handles whose numbers it may read; None for those of other classes."""
     sampler = Sampler()
     for state, turns in zip(states, angular):

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import List, NamedTuple, Optional, Sequence
+from collections.abc import Sequence
+from typing import NamedTuple
 
 from ._sampler import Spline
 from .tolerances import JointTolerances
@@ -12,8 +13,8 @@ class State(NamedTuple):
     """Way-point of one joint: position (rad or m), and velocity and acceleration where they are specified."""
 
     position: float
-    velocity: Optional[float] = None
-    acceleration: Optional[float] = None
+    velocity: float | None = None
+    acceleration: float | None = None
 
 
 class Segment(Spline):
@@ -46,7 +47,7 @@ class Segment(Spline):
         self.tolerances = tolerances
 
     @staticmethod
-    def of(spline: Spline, point_time: float, goal, tolerances: JointTolerances) -> "Segment":
+    def of(spline: Spline, point_time: float, goal, tolerances: JointTolerances) -> Segment:
         """A segment that moves like another."""
         segment = Segment.__new__(Segment)
         Spline.__init__(segment, spline)
@@ -55,14 +56,14 @@ class Segment(Spline):
         segment.tolerances = tolerances
         return segment
 
-    def moved(self, delay: float, offset: float, goal, tolerances: JointTolerances) -> "Segment":
+    def moved(self, delay: float, offset: float, goal, tolerances: JointTolerances) -> Segment:
         """Shift this segment in place by ``delay`` seconds and ``offset`` rad or m, and give it an owner."""
         self.move(delay, offset)
         self.goal = goal
         self.tolerances = tolerances
         return self
 
-    def owned_by(self, goal) -> "Segment":
+    def owned_by(self, goal) -> Segment:
         """A copy that belongs to ``goal`` and keeps its tolerances."""
         return Segment.of(self, self.point_time, goal, self.tolerances)
 
@@ -84,6 +85,6 @@ def stop_segment(start: float, position: float, velocity: float, duration: float
     return Segment.of(Spline.stop(start, position, velocity, duration), 0.0, goal, tolerances)
 
 
-def point_segments(states: Sequence[State], times: Sequence[float]) -> List[Segment]:
+def point_segments(states: Sequence[State], times: Sequence[float]) -> list[Segment]:
     """Segments between consecutive way-points of one joint, their times relative to the start of the message."""
     return [Segment(times[i], states[i], times[i + 1], states[i + 1], times[i]) for i in range(len(states) - 1)]

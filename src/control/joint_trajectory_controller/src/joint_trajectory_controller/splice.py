@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Dict, List, Optional, Sequence
+from collections.abc import Sequence
 
 from controller_interface import one_line
 from hardware_interface import ControlError
@@ -34,7 +34,7 @@ class Late(InvalidTrajectory):
     """All of the message lies in the past: whoever streams commands sends one now and then, which is no fault."""
 
 
-def map_joints(names: Sequence[str], joints: Sequence[str], partial: bool) -> List[int]:
+def map_joints(names: Sequence[str], joints: Sequence[str], partial: bool) -> list[int]:
     """Index into ``joints`` of every name of a message.
 
     :param partial: whether fewer names than joints will do
@@ -74,8 +74,8 @@ class Command:
         self.surplus = length - width
         for number, point in enumerate(points[self.first :], self.first):
             _check_point(number, point, width, length)
-        self.states: Dict[int, List[State]] = {}
-        self.segments: Dict[int, List[Segment]] = {}
+        self.states: dict[int, list[State]] = {}
+        self.segments: dict[int, list[Segment]] = {}
         for column, joint in enumerate(columns):
             states = [_state(point, column) for point in points[self.first :]]
             self.states[joint] = states
@@ -142,8 +142,8 @@ def splice(
     next_uptime: float,
     continuous: Sequence[bool],
     tolerances: Sequence[JointTolerances],
-    goal: Optional[object],
-) -> List[List[Segment]]:
+    goal: object | None,
+) -> list[list[Segment]]:
     """The running motion continued by ``command``. Uses ``command`` up.
 
     The old motion runs on to the joining instant; a bridge leads from its desired state there to the first way-point:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Dict, List, NamedTuple, Optional, Sequence
+from collections.abc import Sequence
+from typing import NamedTuple
 
 from node_signals.parameters import of_kind
 
@@ -18,7 +19,7 @@ class StateTolerance(NamedTuple):
     velocity: float = 0.0
     acceleration: float = 0.0
 
-    def violation(self, position_error: float, velocity_error: float) -> Optional[str]:
+    def violation(self, position_error: float, velocity_error: float) -> str | None:
         """What is over its limit, in words, or None. A NaN error is over any limit.
 
         The acceleration of joints is not measured: its error counts as 0, which no tolerance forbids.
@@ -37,7 +38,7 @@ class JointTolerances(NamedTuple):
     goal_time: float = 0.0
 
 
-def from_parameters(joints: Sequence[str], constraints: Dict) -> List[JointTolerances]:
+def from_parameters(joints: Sequence[str], constraints: dict) -> list[JointTolerances]:
     """Tolerances of ``joints`` from the ``constraints`` parameters.
 
     :raises ValueError: a value that is not a number
@@ -59,7 +60,7 @@ def from_parameters(joints: Sequence[str], constraints: Dict) -> List[JointToler
     return result
 
 
-def overridden(defaults: Sequence[JointTolerances], joints: Sequence[str], goal) -> List[JointTolerances]:
+def overridden(defaults: Sequence[JointTolerances], joints: Sequence[str], goal) -> list[JointTolerances]:
     """``defaults`` with what a FollowJointTrajectoryGoal says: positive replaces, negative switches off, 0 keeps.
 
     :raises ValueError: a NaN tolerance, which nothing would ever violate

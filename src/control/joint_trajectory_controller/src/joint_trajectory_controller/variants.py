@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import ClassVar, Type
+from typing import ClassVar
 
 from control_toolbox import load_pid
 from controller_interface import ParameterError
@@ -42,7 +42,7 @@ class PositionTrajectoryController(JointTrajectoryController):
 class PosVelTrajectoryController(JointTrajectoryController):
     """Desired positions and velocities."""
 
-    interface: ClassVar[Type[HardwareInterface]] = PosVelJointInterface
+    interface: ClassVar[type[HardwareInterface]] = PosVelJointInterface
 
     def init_output(self, handles, controller_nh):
         self._handles = handles

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import socket
 import time
-from typing import Optional
 
 import rospy
 from rospy.exceptions import TransportTerminated
@@ -23,7 +22,7 @@ class PromptConnection:
     def __init__(self, connection, queue_size: int):
         self._connection = connection
         self._queue_size = queue_size
-        self._queued: Optional[QueuedConnection] = None
+        self._queued: QueuedConnection | None = None
 
     def __getattr__(self, name: str):
         return getattr(self._connection, name)

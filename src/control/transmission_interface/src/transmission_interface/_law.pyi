@@ -1,5 +1,6 @@
 import enum
-from typing import List, Optional, Sequence, Tuple, overload
+from collections.abc import Sequence
+from typing import overload
 
 class Coupling(enum.Enum):
     SIMPLE = ...
@@ -21,13 +22,13 @@ class Law:
     def velocity_to_actuator(self, j: Sequence[float]) -> Sequence[float]: ...
     def effort_to_actuator(self, j: Sequence[float]) -> Sequence[float]: ...
 
-Part = Tuple[str, str, Optional[str], Optional[str], bool]  # name, role, <mechanicalReduction>, <offset>, <ignore...Encoder>
+Part = tuple[str, str, str | None, str | None, bool]  # name, role, <mechanicalReduction>, <offset>, <ignore...Encoder>
 
-def plan(coupling: Coupling, name: str, type: str, actuators: Sequence[Part], joints: Sequence[Part]) -> Tuple[Law, List[int], List[int]]:
+def plan(coupling: Coupling, name: str, type: str, actuators: Sequence[Part], joints: Sequence[Part]) -> tuple[Law, list[int], list[int]]:
     """A transmission, and the indices of its actuators and joints in its order. :raises TransmissionError: it cannot be"""
 
-def asked_for(written: str) -> Tuple[str, bool]:
+def asked_for(written: str) -> tuple[str, bool]:
     """(position, velocity, effort, state or "" for unknown; both ways) of a <hardwareInterface>."""
 
-def known_interfaces(name: str, interfaces: Sequence[Sequence[str]]) -> List[str]:
+def known_interfaces(name: str, interfaces: Sequence[Sequence[str]]) -> list[str]:
     """:param interfaces: of each joint. :raises TransmissionError: they differ, or none is known"""

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+from collections.abc import Sequence
+from functools import cache
 from math import nan
-from typing import Dict, List, Sequence, Tuple, Type
 
 import rospy
 from hardware_interface import (
@@ -29,15 +29,15 @@ from .parser import TransmissionInfo, parse_transmissions
 from .pipelines import TransmissionPipeline
 from .transmissions import Transmission, TransmissionError
 
-_KINDS: Dict[str, Tuple[Type[HardwareInterface], Type[HardwareInterface]]] = {
+_KINDS: dict[str, tuple[type[HardwareInterface], type[HardwareInterface]]] = {
     "position": (PositionJointInterface, PositionActuatorInterface),
     "velocity": (VelocityJointInterface, VelocityActuatorInterface),
     "effort": (EffortJointInterface, EffortActuatorInterface),
 }
 
 
-@lru_cache(maxsize=None)
-def _transmission_types() -> Dict[str, PluginClass]:
+@cache
+def _transmission_types() -> dict[str, PluginClass]:
     """What packages export; looked for once per process."""
     types, problems = find_plugins("transmission_interface")
     for problem in problems:
@@ -148,7 +148,7 @@ class TransmissionInterfaceLoader:
         if bidirectional:
             pipelines[f"actuator_to_joint_{kind}"].register(info.name, transmission, actuator_handles, handles)
 
-    def _interface(self, interface: Type[HardwareInterface]) -> HardwareInterface:
+    def _interface(self, interface: type[HardwareInterface]) -> HardwareInterface:
         found = self._hw.get(interface)
         if found is None:
             found = interface()
@@ -161,7 +161,7 @@ class TransmissionInterfaceLoader:
             interface.register_handle(JointStateHandle(name, nan, nan, nan))
         return interface.get_handle(name)
 
-    def _actuators(self, interface: Type[HardwareInterface], names: Sequence[str], info: TransmissionInfo) -> List:
+    def _actuators(self, interface: type[HardwareInterface], names: Sequence[str], info: TransmissionInfo) -> list:
         found = self._hw.get(interface)
         if found is None:
             raise TransmissionError(

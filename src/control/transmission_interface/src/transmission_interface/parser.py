@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import List, Optional, Tuple
 from xml.etree import ElementTree
 
 from hardware_interface import description_root
@@ -16,9 +15,9 @@ class JointInfo:
     """A joint of a transmission; ``hardware_interfaces`` as written, e.g. hardware_interface/EffortJointInterface."""
 
     name: str
-    hardware_interfaces: Tuple[str, ...]
+    hardware_interfaces: tuple[str, ...]
     role: str = ""
-    element: Optional[ElementTree.Element] = field(default=None, repr=False, compare=False)
+    element: ElementTree.Element | None = field(default=None, repr=False, compare=False)
 
 
 @dataclass(frozen=True)
@@ -26,9 +25,9 @@ class ActuatorInfo:
     """An actuator of a transmission."""
 
     name: str
-    hardware_interfaces: Tuple[str, ...] = ()
+    hardware_interfaces: tuple[str, ...] = ()
     role: str = ""
-    element: Optional[ElementTree.Element] = field(default=None, repr=False, compare=False)
+    element: ElementTree.Element | None = field(default=None, repr=False, compare=False)
 
 
 @dataclass(frozen=True)
@@ -37,8 +36,8 @@ class TransmissionInfo:
 
     name: str
     type: str
-    joints: Tuple[JointInfo, ...]
-    actuators: Tuple[ActuatorInfo, ...]
+    joints: tuple[JointInfo, ...]
+    actuators: tuple[ActuatorInfo, ...]
 
 
 class _Skip(Exception):
@@ -49,12 +48,12 @@ def _text(element: ElementTree.Element, tag: str) -> str:
     return (element.findtext(tag) or "").strip()
 
 
-def _interfaces(element: ElementTree.Element) -> Tuple[str, ...]:
+def _interfaces(element: ElementTree.Element) -> tuple[str, ...]:
     texts = ((entry.text or "").strip() for entry in element.iterfind("hardwareInterface"))
     return tuple(text for text in texts if text)
 
 
-def _parse_one(element: ElementTree.Element, name: str, problems: List[str]) -> TransmissionInfo:
+def _parse_one(element: ElementTree.Element, name: str, problems: list[str]) -> TransmissionInfo:
     kind = _text(element, "type")
     if not kind:
         raise _Skip("it has no <type>, e.g. transmission_interface/SimpleTransmission")
@@ -92,7 +91,7 @@ def _parse_one(element: ElementTree.Element, name: str, problems: List[str]) -> 
     return TransmissionInfo(name, kind, tuple(joints), tuple(actuators))
 
 
-def parse_transmissions(urdf: str) -> Tuple[List[TransmissionInfo], List[str]]:
+def parse_transmissions(urdf: str) -> tuple[list[TransmissionInfo], list[str]]:
     """The usable transmissions of a URDF text, in file order, and a line for each thing that is left out.
 
     :raises TransmissionError: the text is no XML.
@@ -101,8 +100,8 @@ def parse_transmissions(urdf: str) -> Tuple[List[TransmissionInfo], List[str]]:
         root = description_root(urdf)
     except ElementTree.ParseError as error:
         raise TransmissionError(f"the robot description is no valid XML: {error}") from None
-    found: List[TransmissionInfo] = []
-    problems: List[str] = []
+    found: list[TransmissionInfo] = []
+    problems: list[str] = []
     for index, element in enumerate(root.iterfind("transmission")):
         name = element.get("name", "")
         try:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Dict, List, Sequence, Tuple
+from collections.abc import Callable, Sequence
+from typing import Any
 
 from .transmissions import Transmission
 
@@ -20,18 +21,18 @@ class TransmissionPipeline:
     :param fields: attributes of the handles that are moved -> position, velocity, effort or absolute.
     """
 
-    def __init__(self, target: str, fields: Dict[str, str]):
+    def __init__(self, target: str, fields: dict[str, str]):
         self._target = target
         self._fields = fields
-        self._entries: Dict[str, List[Tuple[str, Convert, List[Any], List[Any]]]] = {}
+        self._entries: dict[str, list[tuple[str, Convert, list[Any], list[Any]]]] = {}
 
     @classmethod
-    def of_states(cls, target: str) -> "TransmissionPipeline":
+    def of_states(cls, target: str) -> TransmissionPipeline:
         """Everything that is measured; to joints also absolute encoders and torque sensors where all have them."""
         return cls(target, {**_STATE, **_SENSORS} if target == "joint" else _STATE)
 
     @classmethod
-    def of_commands(cls, target: str, kind: str) -> "TransmissionPipeline":
+    def of_commands(cls, target: str, kind: str) -> TransmissionPipeline:
         """:param kind: position, velocity or effort."""
         return cls(target, {"command": kind})
 
@@ -45,7 +46,7 @@ class TransmissionPipeline:
             for field, kind in self._fields.items()
         ]
 
-    def names(self) -> List[str]:
+    def names(self) -> list[str]:
         """Of the transmissions, in the order of their registration."""
         return list(self._entries)
 

@@ -5,7 +5,8 @@ Every method takes and gives one value per actuator or joint, in SI units.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, List, Sequence, Tuple
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from ._law import Coupling, Law, plan
 from .errors import TransmissionError
@@ -23,7 +24,7 @@ class Transmission:
     num_joints = 1
 
     @classmethod
-    def from_info(cls, info) -> "Tuple[Transmission, List[int], List[int]]":
+    def from_info(cls, info) -> tuple[Transmission, list[int], list[int]]:
         """:param info: TransmissionInfo.
         :return: the transmission, and the indices of the info's actuators and joints in the transmission's order.
         :raises TransmissionError: wrong number of joints, missing roles, zero reduction ...
@@ -108,7 +109,7 @@ class FourBarLinkageTransmission(_Lawful):
         super().__init__(self._coupling, actuator_reduction, joint_reduction, joint_offset, False)
 
 
-def _part(entry) -> "Part":
+def _part(entry) -> Part:
     """What an ActuatorInfo or a JointInfo says, for the law."""
     element = entry.element
     if element is None:

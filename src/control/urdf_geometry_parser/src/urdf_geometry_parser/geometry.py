@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Dict, Sequence, Tuple
 
 from controller_interface import ParameterError
 from hardware_interface import description_root
 
-Vector = Tuple[float, float, float]
+Vector = tuple[float, float, float]
 
 
 class GeometryError(ParameterError):
@@ -44,7 +44,7 @@ class RobotGeometry:
             raise GeometryError(f"{source} is not valid XML: {error}") from None
         if robot.tag != "robot":
             raise GeometryError(f"{source} is not a URDF: its root element is <{robot.tag}>, not <robot>")
-        self._joints: Dict[str, UrdfJoint] = {}
+        self._joints: dict[str, UrdfJoint] = {}
         for element in robot.iterfind("joint"):
             joint = UrdfJoint(
                 element.get("name", ""), element.get("type", ""), _link(element, "parent"), _link(element, "child"), self._origin(element)

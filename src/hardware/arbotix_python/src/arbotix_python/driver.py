@@ -1,7 +1,6 @@
 """The node arbotix: joints, controllers and pins of one board."""
 
 import sys
-from typing import Optional
 
 import node_signals
 import rospy
@@ -30,7 +29,7 @@ CONTROLLER_TYPES = {
 class Driver:
     def __init__(self):
         self.fake = rospy.get_param("~sim", False)
-        self.board: Optional[ArbotiX] = None
+        self.board: ArbotiX | None = None
         if self.fake:
             rospy.loginfo("ArbotiX being simulated.")
         else:

@@ -3,7 +3,6 @@
 import bisect
 import math
 import struct
-from typing import Optional
 
 import rospy
 from std_msgs.msg import Float64
@@ -88,7 +87,7 @@ class LinearControllerAbsolute(Controller):
         if joint not in device.joints or not isinstance(device.joints[joint], LinearJoint):
             raise ParameterError("joint %s is not among the joints of type calibrated_linear" % joint)
         self._joint = device.joints[joint]
-        self._running: Optional[int] = 0
+        self._running: int | None = 0
         self._reading = 0
         rospy.loginfo("Started %s (%s).", type(self).__name__, name)
 

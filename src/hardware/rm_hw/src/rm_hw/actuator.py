@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Optional
 
 from rm_hw.coefficients import Coefficients
 from rm_hw.frames import CheetahReply, Feedback
@@ -49,8 +48,8 @@ class Actuator:
         self.commanded_effort = self.executed_effort = 0.0
         self.stamp = 0.0
         self.halted = True
-        self._heard: Optional[float] = None
-        self._angle: Optional[int] = None
+        self._heard: float | None = None
+        self._angle: int | None = None
 
     def on_feedback(self, feedback: Feedback, stamp: float, now: float) -> bool:
         """Take a RoboMaster frame received at ``stamp`` (s since the epoch) and monotonic time ``now`` (s).
@@ -109,7 +108,7 @@ class Actuator:
         self._heard = now
         return True
 
-    def check(self, now: float) -> Optional[str]:
+    def check(self, now: float) -> str | None:
         """Decide whether the motor may be commanded. Call once a cycle after all frames are in.
 
         :returns: a line when that changed (silent, too hot, back again), else None.

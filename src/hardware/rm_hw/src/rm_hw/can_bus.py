@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import threading
 import time
-from typing import Any, Callable, Iterator, Optional
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import can
 
@@ -49,13 +50,13 @@ class CanBus:
         self.name, self.interface, self.channel = name, interface, channel
         self._bitrate = bitrate
         self._report = report
-        self._bus: Optional[can.BusABC] = None
+        self._bus: can.BusABC | None = None
         self._stop = threading.Event()
-        self._opener: Optional[threading.Thread] = None
+        self._opener: threading.Thread | None = None
         self._told = False
         self._rejected = 0
         self._next_garbage_line = 0.0
-        self._failing_since: Optional[float] = None
+        self._failing_since: float | None = None
 
     @property
     def connected(self) -> bool:

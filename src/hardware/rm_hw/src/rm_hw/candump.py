@@ -6,7 +6,6 @@ import argparse
 import os
 import signal
 import sys
-from typing import List, Optional, Tuple
 
 import can
 
@@ -21,7 +20,7 @@ def format_frame(channel: str, message: can.Message) -> str:
     return f"  {channel}  {identifier}   [{message.dlc}]  {data}"
 
 
-def open_bus(name: str, interface: Optional[str], channel: Optional[str]) -> Tuple[can.BusABC, str]:
+def open_bus(name: str, interface: str | None, channel: str | None) -> tuple[can.BusABC, str]:
     """Open bus ``name`` and return it with its name; without ``interface`` the bench's onlooker port if there is one.
 
     :raises OSError, ValueError, can.CanError: it cannot be opened.
@@ -32,7 +31,7 @@ def open_bus(name: str, interface: Optional[str], channel: Optional[str]) -> Tup
     return open_interface(interface or "socketcan", channel or name), name
 
 
-def main(arguments: Optional[List[str]] = None) -> int:
+def main(arguments: list[str] | None = None) -> int:
     """Print until Ctrl-C; returns the exit code."""
     parser = argparse.ArgumentParser(prog="candump", description=__doc__)
     parser.add_argument("bus", help="interface, for example can0")

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import reprlib
+from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, fields
-from typing import Any, Mapping
+from typing import Any
 
 from node_signals.parameters import ParameterError, is_number
 
@@ -52,7 +53,7 @@ class Coefficients:
     counts_per_turn: float = 8192.0
 
     @classmethod
-    def from_params(cls, type_name: str, params: Mapping[str, Any]) -> "Coefficients":
+    def from_params(cls, type_name: str, params: Mapping[str, Any]) -> Coefficients:
         """Coefficients from a parameter mapping.
 
         :raises ConfigError: a required factor is missing or a value is no number.

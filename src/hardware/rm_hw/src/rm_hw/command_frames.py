@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Dict, Iterable, List, Optional, Tuple
+from collections.abc import Iterable
 
 from rm_hw.actuator import Actuator
 from rm_hw.frames import command_slot, pack_cheetah_command, pack_command
 
 _HALTED_PERIOD = 0.1  # s between frames to motors that do not answer
 
-Frame = Tuple[int, bytes]
+Frame = tuple[int, bytes]
 
 
 class CommandFrames:
@@ -21,17 +21,17 @@ class CommandFrames:
     """
 
     def __init__(self, actuators: Iterable[Actuator]) -> None:
-        self._groups: Dict[int, List[Optional[Actuator]]] = {}
-        self._cheetahs: List[Actuator] = []
+        self._groups: dict[int, list[Actuator | None]] = {}
+        self._cheetahs: list[Actuator] = []
         for actuator in actuators:
             if "cheetah" in actuator.type:
                 self._cheetahs.append(actuator)
             else:
                 command_id, slot = command_slot(actuator.id)
                 self._groups.setdefault(command_id, [None] * 4)[slot] = actuator
-        self._due: Dict[int, float] = {}
+        self._due: dict[int, float] = {}
 
-    def build(self, now: float) -> List[Frame]:
+    def build(self, now: float) -> list[Frame]:
         """Frames to send at monotonic time ``now`` (s), for the actuators' ``executed_effort``."""
         frames = []
         for command_id, group in self._groups.items():
@@ -42,7 +42,7 @@ class CommandFrames:
                 frames.append(self._cheetah(actuator, 0.0 if actuator.halted else actuator.executed_effort))
         return frames
 
-    def zero(self) -> List[Frame]:
+    def zero(self) -> list[Frame]:
         """Frames that take the current from all motors."""
         return [(command_id, bytes(8)) for command_id in self._groups] + [self._cheetah(a, 0.0) for a in self._cheetahs]
 

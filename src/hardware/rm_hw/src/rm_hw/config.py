@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import reprlib
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Mapping, Tuple
+from typing import Any
 
 from node_signals.parameters import is_number
 
@@ -55,23 +56,23 @@ class ImuConfig:
     accel_coeff: float = 0.0017944335  # 6 g over 32768 counts
     temp_coeff: float = 0.125
     temp_offset: float = 23.0
-    angular_vel_offset: Tuple[float, float, float] = (0.0, 0.0, 0.0)
-    orientation_covariance: Tuple[float, float, float] = (0.0012, 0.0012, 0.0012)
-    angular_velocity_covariance: Tuple[float, float, float] = (0.0004, 0.0004, 0.0004)
-    linear_acceleration_covariance: Tuple[float, float, float] = (0.01, 0.01, 0.01)
+    angular_vel_offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    orientation_covariance: tuple[float, float, float] = (0.0012, 0.0012, 0.0012)
+    angular_velocity_covariance: tuple[float, float, float] = (0.0004, 0.0004, 0.0004)
+    linear_acceleration_covariance: tuple[float, float, float] = (0.01, 0.01, 0.01)
 
 
 @dataclass
 class Config:
     """All of it. ``lines`` are (level, text) for the log, level info, warn or error."""
 
-    buses: List[BusConfig] = field(default_factory=list)
-    actuators: List[ActuatorConfig] = field(default_factory=list)
-    imus: List[ImuConfig] = field(default_factory=list)
+    buses: list[BusConfig] = field(default_factory=list)
+    actuators: list[ActuatorConfig] = field(default_factory=list)
+    imus: list[ImuConfig] = field(default_factory=list)
     loop_frequency: float = 1000.0
     cycle_time_error_threshold: float = 0.001
     thread_priority: int = 95
-    lines: List[Tuple[str, str]] = field(default_factory=list)
+    lines: list[tuple[str, str]] = field(default_factory=list)
 
 
 def parse(params: Mapping[str, Any], own_coefficients: Mapping[str, Any]) -> Config:
@@ -113,7 +114,7 @@ def _positive(value: Any, name: str) -> float:
     return float(value)
 
 
-def _section(params: Mapping[str, Any], key: str, label: str, lines: List[Tuple[str, str]]) -> Mapping[str, Any]:
+def _section(params: Mapping[str, Any], key: str, label: str, lines: list[tuple[str, str]]) -> Mapping[str, Any]:
     section = params.get(key)
     if not section:
         lines.append(("warn", f"No {label} specified"))
@@ -123,14 +124,14 @@ def _section(params: Mapping[str, Any], key: str, label: str, lines: List[Tuple[
     return section
 
 
-def _buses(params: Mapping[str, Any], lines: List[Tuple[str, str]]) -> List[BusConfig]:
+def _buses(params: Mapping[str, Any], lines: list[tuple[str, str]]) -> list[BusConfig]:
     entries = params.get("bus")
     if not entries:
         lines.append(("warn", "No bus specified"))
         return []
     if not isinstance(entries, list):
         raise ConfigError(f"parameter 'bus' is {reprlib.repr(entries)}: write a list, for example [can0]")
-    buses: List[BusConfig] = []
+    buses: list[BusConfig] = []
     for entry in entries:
         entry = entry if isinstance(entry, dict) else {"name": entry}
         name = str(entry.get("name", ""))
@@ -149,7 +150,7 @@ def _buses(params: Mapping[str, Any], lines: List[Tuple[str, str]]) -> List[BusC
     return buses
 
 
-def _complete(kind: str, name: str, entry: Any, keys: Tuple[str, ...], config: Config) -> bool:
+def _complete(kind: str, name: str, entry: Any, keys: tuple[str, ...], config: Config) -> bool:
     """True if a section has all keys and its bus exists; else an error line names what is missing."""
     missing = [key for key in keys if not isinstance(entry, dict) or key not in entry]
     for key in missing:
@@ -200,7 +201,7 @@ def _add_actuator(config: Config, name: str, entry: Any, coefficients: Mapping[s
     )
 
 
-def _triple(value: Any, what: str) -> Tuple[float, float, float]:
+def _triple(value: Any, what: str) -> tuple[float, float, float]:
     if not isinstance(value, (list, tuple)) or len(value) != 3:
         raise ConfigError(f"{what} is {reprlib.repr(value)}: write three numbers")
     x, y, z = (number(entry, what) for entry in value)
@@ -210,7 +211,7 @@ def _triple(value: Any, what: str) -> Tuple[float, float, float]:
 def _add_imu(config: Config, name: str, entry: Any) -> None:
     if not _complete("IMU", name, entry, ("bus", "id", "frame_id"), config):
         return
-    values: Dict[str, Any] = {}
+    values: dict[str, Any] = {}
     for key, default in (
         (f.name, f.default) for f in ImuConfig.__dataclass_fields__.values() if f.name not in ("name", "bus", "id", "frame_id")
     ):

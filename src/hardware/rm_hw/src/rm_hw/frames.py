@@ -6,7 +6,8 @@ All identifiers are standard 11-bit ones, all frames have 8 data bytes unless st
 from __future__ import annotations
 
 import struct
-from typing import NamedTuple, Sequence, Tuple
+from collections.abc import Sequence
+from typing import NamedTuple
 
 RM_COMMAND_IDS = (0x200, 0x1FF, 0x2FF)
 CHEETAH_REPLY_ID = 0x000
@@ -61,7 +62,7 @@ class ImuAccel(NamedTuple):
     trigger_enabled: bool
 
 
-def command_slot(feedback_id: int) -> Tuple[int, int]:
+def command_slot(feedback_id: int) -> tuple[int, int]:
     """(command frame id, slot 0..3) that drives the motor reporting on ``feedback_id``.
 
     :raises ValueError: no RoboMaster motor reports on that id.
@@ -80,7 +81,7 @@ def pack_command(counts: Sequence[int]) -> bytes:
     return _COMMAND.pack(*(max(-_INT16_MAX - 1, min(_INT16_MAX, int(c))) for c in counts))
 
 
-def unpack_command(data: bytes) -> Tuple[int, int, int, int]:
+def unpack_command(data: bytes) -> tuple[int, int, int, int]:
     """The four commands of a frame 0x200, 0x1FF or 0x2FF."""
     return _COMMAND.unpack(data)
 
@@ -111,7 +112,7 @@ def pack_cheetah_command(position: float, velocity: float, kp: float, kd: float,
     return word.to_bytes(8, "big")
 
 
-def unpack_cheetah_command(data: bytes) -> Tuple[int, int, int, int, int]:
+def unpack_cheetah_command(data: bytes) -> tuple[int, int, int, int, int]:
     """(position, velocity, kp, kd, effort) in counts."""
     word = int.from_bytes(data, "big")
     return word >> 48, word >> 36 & 0xFFF, word >> 24 & 0xFFF, word >> 12 & 0xFFF, word & 0xFFF

@@ -11,7 +11,7 @@ import signal
 import subprocess
 import sys
 import time
-from typing import Dict, List, Sequence, Tuple
+from collections.abc import Sequence
 
 import can
 
@@ -28,7 +28,7 @@ class Guard:
     :param buses: (interface, channel, bitrate, zero frames) of each bus.
     """
 
-    def __init__(self, buses: Sequence[Tuple[str, str, int, List[Tuple[int, bytes]]]]) -> None:
+    def __init__(self, buses: Sequence[tuple[str, str, int, list[tuple[int, bytes]]]]) -> None:
         task = json.dumps(
             [[interface, channel, bitrate, [[i, data.hex()] for i, data in frames]] for interface, channel, bitrate, frames in buses]
         )
@@ -46,7 +46,7 @@ class Guard:
 
 
 def _switch_off(task: Sequence[Sequence]) -> None:
-    open_buses: Dict[int, can.BusABC] = {}
+    open_buses: dict[int, can.BusABC] = {}
     for _attempt in range(_ATTEMPTS):
         for index, (interface, channel, bitrate, _) in enumerate(task):
             if index not in open_buses:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import os
 import time as clock
-from typing import Any, Callable, Dict, List, Optional, Set, Tuple
+from collections.abc import Callable
+from typing import Any
 
 import can
 import rospkg
@@ -79,7 +80,7 @@ def report(level: str, text: str) -> None:
     _LOG[level]("%s", text)
 
 
-def package_coefficients() -> Dict[str, dict]:
+def package_coefficients() -> dict[str, dict]:
     """The table that comes with rm_hw."""
     path = os.path.join(rospkg.RosPack().get_path("rm_hw"), "config", "actuator_coefficient.yaml")
     with open(path) as file:
@@ -89,18 +90,18 @@ def package_coefficients() -> Dict[str, dict]:
 class _Bus:
     """A CAN bus with who is on it."""
 
-    def __init__(self, can_bus: CanBus, actuators: List[Actuator], imus: List[Imu]) -> None:
+    def __init__(self, can_bus: CanBus, actuators: list[Actuator], imus: list[Imu]) -> None:
         self.can_bus = can_bus
         self.commands = CommandFrames(actuators)
         self.motors = {a.id: a for a in actuators if "cheetah" not in a.type}
         self.cheetahs = {a.id: a for a in actuators if "cheetah" in a.type}
         self.gyros = {imu.config.id: imu for imu in imus}
         self.accels = {imu.config.id + 1: imu for imu in imus}
-        self._unknown: Set[int] = set()
+        self._unknown: set[int] = set()
 
     def read(self, now: float) -> None:
         """Take all frames that have come. Of several from one motor the newest counts, the others only its turns."""
-        newest: Dict[Tuple[int, int], can.Message] = {}
+        newest: dict[tuple[int, int], can.Message] = {}
         for message in self.can_bus.receive():
             motor = message.data[0] if message.arbitration_id == frames.CHEETAH_REPLY_ID and message.data else 0
             overtaken = newest.get((message.arbitration_id, motor))
@@ -155,15 +156,15 @@ class RmRobotHW(RobotHW):
     def __init__(self) -> None:
         super().__init__()
         self.config = Config()
-        self._actuators: List[Tuple[Actuator, ActuatorStateHandle, ActuatorHandle]] = []
-        self._buses: List[_Bus] = []
-        self._imus: Dict[str, Imu] = {}
-        self._joints: List = []
+        self._actuators: list[tuple[Actuator, ActuatorStateHandle, ActuatorHandle]] = []
+        self._buses: list[_Bus] = []
+        self._imus: dict[str, Imu] = {}
+        self._joints: list = []
         self._limits = JointLimitsInterface()
         self._transmissions = RobotTransmissions()
-        self._warned_warm: Set[str] = set()
+        self._warned_warm: set[str] = set()
         self._next_publish = 0.0
-        self._guard: Optional[Guard] = None
+        self._guard: Guard | None = None
         self._part: Any = None  # an RmControlPart, once a compiled controller is loaded
 
     def init(self, root_nh, robot_hw_nh) -> bool:

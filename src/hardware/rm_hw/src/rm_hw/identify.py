@@ -16,7 +16,7 @@ import math
 import sys
 import time
 from dataclasses import dataclass
-from typing import Any, List, Optional, Tuple
+from typing import Any
 
 import can
 import numpy as np
@@ -43,7 +43,7 @@ class Identified:
     torque_constant: float
     coulomb: float
     viscous: float
-    errors: Tuple[float, float, float]
+    errors: tuple[float, float, float]
     residual: float
 
 
@@ -57,7 +57,7 @@ def sending_times(arrivals: np.ndarray, period: float) -> np.ndarray:
     return slots + np.minimum.accumulate((arrivals - slots)[::-1])[::-1]
 
 
-def read_log(path: str, feedback_id: int, type_name: str, rate: float = 1000.0) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+def read_log(path: str, feedback_id: int, type_name: str, rate: float = 1000.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(time s, speed rad/s, current A) of one motor, each (N,).
 
     :param rate: Hz, of the motor's frames.
@@ -187,7 +187,7 @@ def _fit(options: argparse.Namespace) -> None:
         plot(options.plot, stamps, speed, current, predict(stamps, speed, current, options.inertia, found), found)
 
 
-def main(arguments: Optional[List[str]] = None) -> int:
+def main(arguments: list[str] | None = None) -> int:
     """Run ``excite`` or ``fit``; returns the exit code."""
     parser = argparse.ArgumentParser(prog="identify", description=__doc__.splitlines()[0])
     commands = parser.add_subparsers(required=True, metavar="excite|fit")

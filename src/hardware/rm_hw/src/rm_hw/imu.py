@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Optional, Tuple
 
 from hardware_interface import ImuSensorHandle
 
@@ -14,7 +13,7 @@ _GAIN = 0.01  # share of the accelerometer's idea of "down" that is believed per
 _GRAVITY = 9.81
 _TOLERANCE = 0.3  # relative; beyond it the accelerometer measures motion rather than gravity
 
-Quaternion = Tuple[float, float, float, float]
+Quaternion = tuple[float, float, float, float]
 
 
 def _multiply(a: Quaternion, b: Quaternion) -> Quaternion:
@@ -58,7 +57,7 @@ class Imu:
             (0.0, 0.0, 0.0),
             _diagonal(config.linear_acceleration_covariance),
         )
-        self._stamp: Optional[float] = None
+        self._stamp: float | None = None
 
     @property
     def stamp(self) -> float:
@@ -98,6 +97,6 @@ class Imu:
         self._orientation = self.handle.orientation = _normalized(_multiply(self._orientation, correction))
 
 
-def _diagonal(values: Tuple[float, float, float]) -> Tuple[float, ...]:
+def _diagonal(values: tuple[float, float, float]) -> tuple[float, ...]:
     a, b, c = values
     return a, 0.0, 0.0, 0.0, b, 0.0, 0.0, 0.0, c

@@ -6,7 +6,7 @@ import gc
 import os
 import sys
 import time
-from typing import Callable, Optional
+from collections.abc import Callable
 
 import rospy
 
@@ -48,7 +48,7 @@ class ControlLoop:
     """
 
     def __init__(
-        self, frequency: float, threshold: float, cycle: Callable[[float, float], None], watch: Optional[Callable[[float], None]] = None
+        self, frequency: float, threshold: float, cycle: Callable[[float, float], None], watch: Callable[[float], None] | None = None
     ) -> None:
         self._period = 1.0 / frequency
         self._threshold = threshold

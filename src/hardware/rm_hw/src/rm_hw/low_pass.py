@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Optional
 
 _ROOT = math.sqrt(2.0)
 _NOTHING = 1e-12  # standing still reads 0, not ever smaller numbers
@@ -28,7 +27,7 @@ class LowPass:
     def reset(self) -> None:
         """Forget all samples."""
         self.output = 0.0
-        self._stamp: Optional[float] = None
+        self._stamp: float | None = None
         self._slope = self._input = 0.0
 
     def update(self, value: float, stamp: float) -> float:

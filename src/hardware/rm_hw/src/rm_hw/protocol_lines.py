@@ -13,7 +13,6 @@ from __future__ import annotations
 import os
 import re
 import select
-from typing import Optional, Tuple
 
 import serial
 
@@ -30,17 +29,17 @@ class LineSerial(serial.Serial):
         self._ready = b""
         self._position = 0
         self._partial = b""
-        self._read_timeout: Optional[float] = None
+        self._read_timeout: float | None = None
         self.rejected = 0
         super().__init__(*args, **kwargs)
 
     @property
-    def timeout(self) -> Optional[float]:
+    def timeout(self) -> float | None:
         """s to wait for a read. Unlike pyserial's, changing it does not reconfigure the port."""
         return self._read_timeout
 
     @timeout.setter
-    def timeout(self, timeout: Optional[float]) -> None:
+    def timeout(self, timeout: float | None) -> None:
         self._read_timeout = self._timeout = timeout
 
     @property
@@ -79,12 +78,12 @@ class LineSerial(serial.Serial):
         """Nothing waits here; the driver sends as fast as the line allows."""
 
     @property
-    def write_timeout(self) -> Optional[float]:
+    def write_timeout(self) -> float | None:
         """s to wait for room. Unlike pyserial's, changing it does not reconfigure the port."""
         return self._write_timeout
 
     @write_timeout.setter
-    def write_timeout(self, timeout: Optional[float]) -> None:
+    def write_timeout(self, timeout: float | None) -> None:
         self._write_timeout = timeout
 
     def _fill(self) -> None:
@@ -110,7 +109,7 @@ class LineSerial(serial.Serial):
         self._ready, self._position = b"".join(good), 0
 
 
-def serial_class_for_url(url: str) -> Tuple[str, type]:
+def serial_class_for_url(url: str) -> tuple[str, type]:
     """pyserial's hook: (device path, class)."""
     return url[len("lines://") :], LineSerial
 

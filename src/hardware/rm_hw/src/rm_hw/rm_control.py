@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List, Sequence, Tuple
+from collections.abc import Sequence
+from typing import Any
 
 from hardware_interface._robots import Robot
 
@@ -17,15 +18,15 @@ class RmControlPart:
     :ivar robot: the interfaces, in C++
     """
 
-    def __init__(self, actuators: Sequence[Actuator], imus: Dict[str, Imu]) -> None:
+    def __init__(self, actuators: Sequence[Actuator], imus: dict[str, Imu]) -> None:
         self._core = _rm_control.Interfaces()
-        self._motors: List[Tuple[Actuator, _rm_control.Motor]] = []
+        self._motors: list[tuple[Actuator, _rm_control.Motor]] = []
         for actuator in actuators:
             motor = self._core.add_motor(actuator.name)
             motor.need_calibration = actuator.need_calibration
             motor.calibrated, motor.offset = actuator.calibrated, actuator.offset
             self._motors.append((actuator, motor))
-        self._imus: List[Tuple[Imu, Any]] = [
+        self._imus: list[tuple[Imu, Any]] = [
             (imu, self._core.add_imu(name, imu.config.frame_id, imu.handle._addresses)) for name, imu in imus.items()
         ]
         self.robot = Robot(self._core.address, self._core)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import List, Optional, Sequence, Union
 
 import numpy as np
 
@@ -36,13 +36,13 @@ def cartesian_path(
     waypoints: Sequence[AnyPose],
     *,
     link: str = "",
-    start: Optional[_core.RobotState] = None,
+    start: _core.RobotState | None = None,
     max_step: float = 0.01,
     jump_threshold: float = 0.0,
     prismatic_jump: float = 0.0,
     revolute_jump: float = 0.0,
     avoid_collisions: bool = True,
-    constraints: Optional[_core.Constraints] = None,
+    constraints: _core.Constraints | None = None,
     relative: bool = False,
     timeout: float = 0.0,
     position_only: bool = False,
@@ -59,7 +59,7 @@ def cartesian_path(
     """
     state = start if start is not None else scene.state
     link = link or scene.model.group(group).tip_link or scene.model.group(group).links[-1]
-    poses: List[AnyPose] = list(waypoints)
+    poses: list[AnyPose] = list(waypoints)
     if relative:
         origin = state.pose(link)
         poses = [origin * Pose(*(np.asarray(part, float) for part in pose)) for pose in poses]
@@ -83,9 +83,9 @@ def cartesian_path(
 
 def explain(
     scene: _core.PlanningScene,
-    state: Optional[_core.RobotState] = None,
+    state: _core.RobotState | None = None,
     group: str = "",
-    constraints: Optional[_core.Constraints] = None,
+    constraints: _core.Constraints | None = None,
     padded: bool = True,
 ) -> str:
     """Why a state may not be used: limits, constraints, then collision; "" if it may."""
@@ -103,7 +103,7 @@ def explain(
 
 
 def is_valid(
-    scene: _core.PlanningScene, state: Optional[_core.RobotState] = None, group: str = "", constraints: Optional[_core.Constraints] = None
+    scene: _core.PlanningScene, state: _core.RobotState | None = None, group: str = "", constraints: _core.Constraints | None = None
 ) -> bool:
     """Within limits, within the constraints and touching nothing."""
     return not explain(scene, state, group, constraints)
@@ -113,10 +113,10 @@ def path_valid(
     scene: _core.PlanningScene,
     start: _core.RobotState,
     group: str,
-    path: Union[np.ndarray, Sequence[Sequence[float]]],
-    constraints: Optional[_core.Constraints] = None,
+    path: np.ndarray | Sequence[Sequence[float]],
+    constraints: _core.Constraints | None = None,
     padded: bool = True,
-) -> List[int]:
+) -> list[int]:
     """Indices of the (k, n) way points that collide or break the constraints."""
     if not len(path):
         return []

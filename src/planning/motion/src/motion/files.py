@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Callable
 from functools import lru_cache
-from typing import Callable, Dict, Optional, Tuple
 from urllib.parse import unquote
 
 from motion import _core
 
-FindPackage = Callable[[str], Optional[str]]
+FindPackage = Callable[[str], str | None]
 _COMMENT, _NAME = re.compile(rb"<!--.*?-->", re.S), re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
 
 
 @lru_cache(maxsize=4)
-def _packages_below(path: str) -> Dict[str, str]:
+def _packages_below(path: str) -> dict[str, str]:
     """Name -> folder of every package below the roots, links included; the first root wins."""
-    found: Dict[str, str] = {}
+    found: dict[str, str] = {}
     for root in filter(None, path.split(":")):
         seen = set()  # real paths: a link may lead back up
         for folder, folders, files in os.walk(root, followlinks=True):
@@ -43,7 +43,7 @@ def _name_in(manifest: str) -> str:
     return name.group(1).decode(errors="replace") if name else ""
 
 
-def find_package(name: str) -> Optional[str]:
+def find_package(name: str) -> str | None:
     """Directory of a package below ROS_PACKAGE_PATH, by the name in its package.xml; None if there is none."""
     path = os.environ.get("ROS_PACKAGE_PATH", "")
     found = _packages_below(path).get(name)
@@ -57,7 +57,7 @@ def resolve(uri: str, package: FindPackage = find_package) -> str:
     """Absolute path of what ``package://``, ``file://`` or a plain name says; "" when there is no such file."""
     scheme, separator, rest = uri.strip().partition("://")
     if not separator:
-        path: Optional[str] = uri.strip()
+        path: str | None = uri.strip()
     elif scheme == "file":
         path = unquote(rest)
         path = path if path.startswith("/") else "/" + path.partition("/")[2]
@@ -70,7 +70,7 @@ def resolve(uri: str, package: FindPackage = find_package) -> str:
     return os.path.abspath(path) if path and os.path.isfile(path) else ""
 
 
-def load_mesh(path: str, scale: Tuple[float, float, float] = (1.0, 1.0, 1.0), package: FindPackage = find_package) -> _core.Mesh:
+def load_mesh(path: str, scale: tuple[float, float, float] = (1.0, 1.0, 1.0), package: FindPackage = find_package) -> _core.Mesh:
     """A mesh of an STL, DAE, OBJ ... file; ``package://`` will do.
 
     :param scale: per axis.

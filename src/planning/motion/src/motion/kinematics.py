@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Callable, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any
 
 import numpy as np
 
 from motion import _core
 from motion.pose import Pose
 
-AnyPose = Union[Pose, Tuple[Sequence[float], Sequence[float]]]
+AnyPose = Pose | tuple[Sequence[float], Sequence[float]]
 
 
 @dataclass(frozen=True)
@@ -38,8 +39,8 @@ class IkResult:
 
 
 def _targets(
-    model: _core.RobotModel, group: _core.Group, pose: Union[AnyPose, Mapping[str, AnyPose]], link: str
-) -> Sequence[Tuple[str, AnyPose]]:
+    model: _core.RobotModel, group: _core.Group, pose: AnyPose | Mapping[str, AnyPose], link: str
+) -> Sequence[tuple[str, AnyPose]]:
     if isinstance(pose, Mapping):
         if not pose:
             raise _core.InvalidInputError("inverse kinematics: no pose was given")
@@ -51,29 +52,29 @@ def _targets(
     return [(link, pose)]
 
 
-def _on_robot(state: _core.RobotState, name: str, pose: AnyPose) -> Tuple[str, AnyPose]:
+def _on_robot(state: _core.RobotState, name: str, pose: AnyPose) -> tuple[str, AnyPose]:
     """The same target for the link that carries the frame ``name`` (a link, an attached body or its subframe)."""
     link, in_link = state.frame_link(name)
     return link, Pose(*(np.asarray(part, float) for part in pose)) * in_link.inverse() if link != name else pose
 
 
 def ik(
-    scene_or_model: Union[_core.PlanningScene, _core.RobotModel],
+    scene_or_model: _core.PlanningScene | _core.RobotModel,
     group: str,
-    pose: Union[AnyPose, Mapping[str, AnyPose]],
+    pose: AnyPose | Mapping[str, AnyPose],
     *,
     link: str = "",
-    seed: Union[_core.RobotState, Sequence[float], None] = None,
+    seed: _core.RobotState | Sequence[float] | None = None,
     timeout: float = 0.005,
     tolerance: float = 1e-5,
     position_only: bool = False,
     avoid_collisions: bool = False,
-    constraints: Optional[Any] = None,
-    consistency: Optional[Sequence[float]] = None,
-    valid: Optional[Callable[[np.ndarray], bool]] = None,
+    constraints: Any | None = None,
+    consistency: Sequence[float] | None = None,
+    valid: Callable[[np.ndarray], bool] | None = None,
     solutions: int = 1,
     return_approximate: bool = False,
-    random_seed: Optional[int] = None,
+    random_seed: int | None = None,
     max_restarts: int = -1,
 ) -> IkResult:
     """Joint values that bring a link to a pose.

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Mapping, Optional
+from collections.abc import Mapping
+from typing import Any
 
 from motion import _core
 from motion.files import FindPackage, resolve
@@ -11,10 +12,10 @@ from motion.files import find_package as below_ros_package_path
 
 def load_model(
     urdf: str,
-    srdf: Optional[str] = None,
+    srdf: str | None = None,
     *,
-    joint_limits: Optional[Mapping[str, Any]] = None,
-    find_package: Optional[FindPackage] = None,
+    joint_limits: Mapping[str, Any] | None = None,
+    find_package: FindPackage | None = None,
     meshes: bool = True,
 ) -> _core.RobotModel:
     """The robot that the texts describe.
@@ -37,9 +38,9 @@ def load_model(
     return _core._load_model(urdf, srdf or "", by_variable(limits), lambda uri: resolve(uri, package), meshes)
 
 
-def by_variable(limits: Mapping[str, Any], above: str = "") -> Dict[str, Dict[str, Any]]:
+def by_variable(limits: Mapping[str, Any], above: str = "") -> dict[str, dict[str, Any]]:
     """The tables of joint_limits.yaml by variable name: ``{"base": {"x": {...}}}`` is ``{"base/x": {...}}``."""
-    found: Dict[str, Dict[str, Any]] = {}
+    found: dict[str, dict[str, Any]] = {}
     for name, values in limits.items():
         if not isinstance(values, Mapping):
             continue

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Callable, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -48,7 +48,7 @@ class _Trapeze:
         self.t_cruise = max(0.0, (length - 0.5 * top * (self.t_up + self.t_down)) / top) if top > 0 else 0.0
         self.duration = self.t_up + self.t_cruise + self.t_down
 
-    def at(self, t: float) -> Tuple[float, float, float]:
+    def at(self, t: float) -> tuple[float, float, float]:
         """(way, speed, acceleration) after t s."""
         left = self.duration - t
         if t <= 0 or left <= 0:
@@ -67,7 +67,7 @@ class _Trapeze:
         return np.append(steps, self.duration)
 
 
-def _scalings(request: MotionRequest) -> Tuple[float, float]:
+def _scalings(request: MotionRequest) -> tuple[float, float]:
     scalings = request.velocity_scaling, request.acceleration_scaling
     for value in scalings:
         if not 0.0001 <= value <= 1.0:
@@ -136,7 +136,7 @@ def _tool(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRe
     return _Tool(position.link, in_link, Pose(point, turn.quaternion))
 
 
-def slerp(a: Pose, b: Pose) -> Tuple[float, Callable[[float], np.ndarray]]:
+def slerp(a: Pose, b: Pose) -> tuple[float, Callable[[float], np.ndarray]]:
     """(angle between, quaternion at a share of the way)."""
     qa, qb = np.asarray(a.quaternion), np.asarray(b.quaternion)
     cosine = float(np.dot(qa, qb))
@@ -153,7 +153,7 @@ def slerp(a: Pose, b: Pose) -> Tuple[float, Callable[[float], np.ndarray]]:
     return 2 * half, at
 
 
-def _joint_limits(scene: _core.PlanningScene, group: str, unset: float) -> Tuple[np.ndarray, np.ndarray]:
+def _joint_limits(scene: _core.PlanningScene, group: str, unset: float) -> tuple[np.ndarray, np.ndarray]:
     names = scene.model.group(group).variables
     limits = [scene.model.variable_limits(name) for name in names]
     for name, limit in zip(names, limits):
@@ -302,7 +302,7 @@ def _lin(scene: _core.PlanningScene, start: _core.RobotState, request: MotionReq
     )
 
 
-def _circle(start: np.ndarray, goal: np.ndarray, point: np.ndarray, kind: str) -> Tuple[float, Callable[[float], np.ndarray]]:
+def _circle(start: np.ndarray, goal: np.ndarray, point: np.ndarray, kind: str) -> tuple[float, Callable[[float], np.ndarray]]:
     """(length, position at a share) of the arc through an interim point, or the shorter one about a centre."""
     if kind == "interim":
         a, b = point - start, goal - start
@@ -366,10 +366,7 @@ _MOTIONS = {"PTP": _ptp, "LIN": _lin, "CIRC": _circ}
 
 
 def pilz_plan(
-    scene: _core.PlanningScene,
-    request: MotionRequest,
-    cancel: Optional[_core.CancelToken] = None,
-    limits: CartesianLimits = CartesianLimits(),
+    scene: _core.PlanningScene, request: MotionRequest, cancel: _core.CancelToken | None = None, limits: CartesianLimits = CartesianLimits()
 ) -> PlanResult:
     """A timed trajectory without a search: ``request.planner`` is PTP, LIN or CIRC.
 

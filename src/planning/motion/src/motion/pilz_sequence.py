@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Callable, List, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from motion.planning import MotionRequest, PlanResult
 from motion.pose import Pose
 from motion.trajectory import Trajectory
 
-Planner = Callable[[_core.PlanningScene, MotionRequest, Optional[_core.CancelToken]], PlanResult]
+Planner = Callable[[_core.PlanningScene, MotionRequest, _core.CancelToken | None], PlanResult]
 
 
 @dataclass
@@ -24,10 +24,10 @@ class SequenceResult:
 
     status: str
     message: str = ""
-    trajectories: List[Trajectory] = field(default_factory=list)
+    trajectories: list[Trajectory] = field(default_factory=list)
     planning_time: float = 0.0
-    warnings: List[str] = field(default_factory=list)
-    contacts: List[_core.Contact] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+    contacts: list[_core.Contact] = field(default_factory=list)
 
     @property
     def code(self) -> int:
@@ -71,10 +71,10 @@ def _blend(scene: _core.PlanningScene, first: Trajectory, second: Trajectory, li
 
 def pilz_sequence(
     scene: _core.PlanningScene,
-    items: Sequence[Tuple[MotionRequest, float]],
-    cancel: Optional[_core.CancelToken] = None,
+    items: Sequence[tuple[MotionRequest, float]],
+    cancel: _core.CancelToken | None = None,
     limits: CartesianLimits = CartesianLimits(),
-    plan: Optional[Planner] = None,
+    plan: Planner | None = None,
 ) -> SequenceResult:
     """Motions one after the other, each from where the one before ends.
 
@@ -96,7 +96,7 @@ def pilz_sequence(
     return result
 
 
-def _radii(model: _core.RobotModel, items: Sequence[Tuple[MotionRequest, float]], warnings: List[str]) -> List[float]:
+def _radii(model: _core.RobotModel, items: Sequence[tuple[MotionRequest, float]], warnings: list[str]) -> list[float]:
     """The blend radii that count.
 
     :raises _Refused: what cannot be, before anything is planned.
@@ -119,9 +119,9 @@ def _radii(model: _core.RobotModel, items: Sequence[Tuple[MotionRequest, float]]
 
 def _plan_all(
     scene: _core.PlanningScene,
-    items: Sequence[Tuple[MotionRequest, float]],
+    items: Sequence[tuple[MotionRequest, float]],
     radii: Sequence[float],
-    cancel: Optional[_core.CancelToken],
+    cancel: _core.CancelToken | None,
     plan: Planner,
     result: SequenceResult,
 ) -> None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from motion.pilz import with_auxiliary_point
 from motion.planning import MotionRequest, PlanResult, plan
 from motion.timing import limit_cartesian_speed, limit_jerk, time_parameterize
 
-Planner = Callable[[_core.PlanningScene, MotionRequest, Optional[_core.CancelToken]], PlanResult]
+Planner = Callable[[_core.PlanningScene, MotionRequest, _core.CancelToken | None], PlanResult]
 _PREFIX = "default_planner_request_adapters/"
 
 
@@ -32,7 +33,7 @@ def _with_start_before(result: PlanResult, start: _core.RobotState, most: float)
         mean = trajectory.duration / max(1, len(trajectory) - 1)
         times = np.concatenate([[0.0], trajectory.times - trajectory.times[0] + (min(most, mean) if mean > 0 else most)])
 
-    def with_rest(rows: Optional[np.ndarray]) -> Optional[np.ndarray]:
+    def with_rest(rows: np.ndarray | None) -> np.ndarray | None:
         return None if rows is None else np.vstack([np.zeros(rows.shape[1]), rows])
 
     longer = trajectory.replaced(
@@ -66,12 +67,12 @@ class Pipeline:
         )
     ]
 
-    ADAPTERS: List[str] = []  #: names of all adapters, without their prefix; from their table below
+    ADAPTERS: list[str] = []  #: names of all adapters, without their prefix; from their table below
 
-    def __init__(self, adapters: Sequence[str] = tuple(NOETIC_ADAPTERS), params: Optional[Mapping[str, Any]] = None):
-        self.params: Dict[str, Any] = dict(params or {})
-        self.warnings: List[str] = []
-        self.adapters: List[str] = []
+    def __init__(self, adapters: Sequence[str] = tuple(NOETIC_ADAPTERS), params: Mapping[str, Any] | None = None):
+        self.params: dict[str, Any] = dict(params or {})
+        self.warnings: list[str] = []
+        self.adapters: list[str] = []
         for name in adapters:
             short = name.rpartition("/")[2]
             if short in _ADAPTERS:
@@ -87,7 +88,7 @@ class Pipeline:
         return value
 
     def generate(
-        self, scene: _core.PlanningScene, request: MotionRequest, cancel: Optional[_core.CancelToken] = None, planner: Planner = plan
+        self, scene: _core.PlanningScene, request: MotionRequest, cancel: _core.CancelToken | None = None, planner: Planner = plan
     ) -> PlanResult:
         """Plan, time and check again. Never raises for what the request says: see the result's status."""
 
@@ -95,7 +96,7 @@ class Pipeline:
             if index == len(self.adapters):
                 return planner
 
-            def call(scene: _core.PlanningScene, request: MotionRequest, cancel: Optional[_core.CancelToken]) -> PlanResult:
+            def call(scene: _core.PlanningScene, request: MotionRequest, cancel: _core.CancelToken | None) -> PlanResult:
                 return _ADAPTERS[self.adapters[index]](self, inner(index + 1), scene, request, cancel)
 
             return call

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from motion.pose import Pose
 from motion.trajectory import Trajectory
 
 # MoveItErrorCodes as upstream's OMPL interface gives them.
-CODES: Dict[str, int] = {
+CODES: dict[str, int] = {
     "solved": 1,
     "approximate": -1,
     "timeout": -6,
@@ -77,16 +77,16 @@ class MotionRequest:
 
     group: str
     goals: Sequence[_core.Constraints] = ()
-    start: Optional[_core.RobotState] = None
-    path_constraints: Optional[_core.Constraints] = None
+    start: _core.RobotState | None = None
+    path_constraints: _core.Constraints | None = None
     planner: str = ""
     planner_params: Mapping[str, object] = field(default_factory=dict)
     planning_time: float = 5.0
     attempts: int = 1
     velocity_scaling: float = 1.0
     acceleration_scaling: float = 1.0
-    workspace: Optional[Tuple[Sequence[float], Sequence[float]]] = None
-    seed: Optional[int] = None
+    workspace: tuple[Sequence[float], Sequence[float]] | None = None
+    seed: int | None = None
     simplify: bool = True
     interpolate: bool = True
     hybridize: bool = True
@@ -97,7 +97,7 @@ class MotionRequest:
     max_goal_samples: int = 10
     enforce_joint_space: bool = False
     threads: int = 0
-    auxiliary: Optional[AuxiliaryPoint] = None
+    auxiliary: AuxiliaryPoint | None = None
     cartesian_link: str = ""
     cartesian_speed: float = 0.0
 
@@ -117,18 +117,18 @@ class PlanResult:
 
     status: str
     message: str = ""
-    trajectory: Optional[Trajectory] = None
-    start: Optional[_core.RobotState] = None
+    trajectory: Trajectory | None = None
+    start: _core.RobotState | None = None
     planner: str = ""
     planning_time: float = 0.0
     simplify_time: float = 0.0
     states: int = 0
     attempts: int = 0
     goals: int = 0
-    warnings: List[str] = field(default_factory=list)
-    added_prefix: List[int] = field(default_factory=list)
-    invalid: List[int] = field(default_factory=list)
-    contacts: List[_core.Contact] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+    added_prefix: list[int] = field(default_factory=list)
+    invalid: list[int] = field(default_factory=list)
+    contacts: list[_core.Contact] = field(default_factory=list)
 
     @property
     def code(self) -> int:
@@ -159,7 +159,7 @@ def pose_goal(
 
 
 def joint_goal(
-    model: _core.RobotModel, group: str, values: Union[Mapping[str, float], Sequence[float]], tolerance: float = 1e-4
+    model: _core.RobotModel, group: str, values: Mapping[str, float] | Sequence[float], tolerance: float = 1e-4
 ) -> _core.Constraints:
     """Joint values: a mapping of variables, or all of the group in its order."""
     if not isinstance(values, Mapping):
@@ -216,7 +216,7 @@ def _refusal(error: _core.MotionError) -> str:
     return "invalid_request"
 
 
-def plan(scene: _core.PlanningScene, request: MotionRequest, cancel: Optional[_core.CancelToken] = None) -> PlanResult:
+def plan(scene: _core.PlanningScene, request: MotionRequest, cancel: _core.CancelToken | None = None) -> PlanResult:
     """A path from the start to one of the goals that touches nothing. Never raises for what a request says: see status.
 
     A planner looks at states that are `longest_valid_segment_fraction` apart, and a path may cut a corner between them.

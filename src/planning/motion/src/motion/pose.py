@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, Sequence
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,11 +19,11 @@ class Pose(NamedTuple):
     quaternion: np.ndarray
 
     @staticmethod
-    def identity() -> "Pose":
+    def identity() -> Pose:
         return Pose(np.zeros(3), np.array([0.0, 0.0, 0.0, 1.0]))
 
     @staticmethod
-    def from_rpy(xyz: Sequence[float], rpy: Sequence[float]) -> "Pose":
+    def from_rpy(xyz: Sequence[float], rpy: Sequence[float]) -> Pose:
         """:param rpy: turns about the fixed axes x, y, z in this order, rad (the rule of URDF)."""
         (cr, cp, cy), (sr, sp, sy) = np.cos(np.asarray(rpy) / 2), np.sin(np.asarray(rpy) / 2)
         return Pose(
@@ -31,7 +32,7 @@ class Pose(NamedTuple):
         )
 
     @staticmethod
-    def from_matrix(matrix: np.ndarray) -> "Pose":
+    def from_matrix(matrix: np.ndarray) -> Pose:
         """:param matrix: (4, 4) homogeneous."""
         m = np.asarray(matrix, float)
         # The largest of the four squares is safe to divide by.
@@ -79,11 +80,11 @@ class Pose(NamedTuple):
         r = self.rotation
         return np.array([np.arctan2(r[2, 1], r[2, 2]), np.arctan2(-r[2, 0], np.hypot(r[2, 1], r[2, 2])), np.arctan2(r[1, 0], r[0, 0])])
 
-    def inverse(self) -> "Pose":
+    def inverse(self) -> Pose:
         x, y, z, w = self.quaternion
         return Pose(-self.rotation.T @ np.asarray(self.position), np.array([-x, -y, -z, w]))
 
-    def __mul__(self, other: "Pose") -> "Pose":  # type: ignore[override]
+    def __mul__(self, other: Pose) -> Pose:  # type: ignore[override]
         """The pose of what is at `other` in this frame. A pair or a (3,) point will do as well."""
         if len(other) == 3:
             return self.rotation @ np.asarray(other, float) + self.position

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import List, Tuple
-
 import numpy as np
 
 from motion import _core
@@ -14,7 +12,7 @@ _JERK = 100.0  # rad/s^3 where a joint has no limit, as upstream
 _UNSET = 1.0  # rad/s, rad/s^2 (m for sliding joints) where the robot says nothing, as upstream
 
 
-def timing_methods() -> List[str]:
+def timing_methods() -> list[str]:
     """The names that time_parameterize understands."""
     return list(_METHODS)
 
@@ -32,9 +30,9 @@ def above_zero(name: str, what: str, most: float) -> None:
 
 def _limits(
     trajectory: Trajectory, velocity_scaling: float, acceleration_scaling: float, scale_unset: bool
-) -> Tuple[np.ndarray, np.ndarray]:
-    velocity: List[float] = []
-    acceleration: List[float] = []
+) -> tuple[np.ndarray, np.ndarray]:
+    velocity: list[float] = []
+    acceleration: list[float] = []
     for name in trajectory.variables:
         limits = trajectory.model.variable_limits(name)
         for has, most, scaling, into, what in (
@@ -137,7 +135,7 @@ def _accelerations(times: np.ndarray, points: np.ndarray, speeds: np.ndarray) ->
     )
 
 
-def _motion(times: np.ndarray, points: np.ndarray, speeds: np.ndarray, at: np.ndarray) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _motion(times: np.ndarray, points: np.ndarray, speeds: np.ndarray, at: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Integral of the positions since the first point, positions and velocities (m, n) of cubic splines at times ``at``; the
     joints stand still before and after."""
     step, way = np.diff(times)[:, None], np.diff(points, axis=0)

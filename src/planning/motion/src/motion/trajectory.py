@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List, Optional
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,13 +27,13 @@ class Trajectory:
         group: str,
         start: _core.RobotState,
         positions: ArrayLike,
-        times: Optional[ArrayLike] = None,
-        velocities: Optional[ArrayLike] = None,
-        accelerations: Optional[ArrayLike] = None,
+        times: ArrayLike | None = None,
+        velocities: ArrayLike | None = None,
+        accelerations: ArrayLike | None = None,
     ):
         self.model = model
         self.group = group
-        self.variables: List[str] = model.group(group).variables
+        self.variables: list[str] = model.group(group).variables
         size = len(self.variables)
         self.positions = _rows(positions, size, "positions")
         count = len(self.positions)
@@ -80,7 +80,7 @@ class Trajectory:
         owners = {v: j for j in group.active_joints for v in self.model.joint(j).variables}
         return np.array([self.model.joint(owners[v]).type == "continuous" for v in self.variables], bool)
 
-    def unwind(self, reference: Optional[_core.RobotState] = None) -> "Trajectory":
+    def unwind(self, reference: _core.RobotState | None = None) -> Trajectory:
         """Takes the jumps by a turn out of continuous joints, in place; the first point comes nearest to ``reference``."""
         positions = self.positions
         turning = self._continuous()
@@ -94,9 +94,9 @@ class Trajectory:
             positions[:, turning] = np.vstack([first, first + np.cumsum(steps, axis=0)])
         return self
 
-    def replaced(self, **fields: object) -> "Trajectory":
+    def replaced(self, **fields: object) -> Trajectory:
         """A copy with other positions, times, velocities or accelerations."""
-        values: Dict[str, Any] = {
+        values: dict[str, Any] = {
             "positions": self.positions,
             "times": self.times,
             "velocities": self.velocities,
@@ -106,7 +106,7 @@ class Trajectory:
         }
         return Trajectory(self.model, self.group, **values)
 
-    def reversed(self) -> "Trajectory":
+    def reversed(self) -> Trajectory:
         """The same way back in the same time."""
         times = None if self.times is None else (self.times[-1] - self.times)[::-1]
         return self.replaced(
@@ -117,13 +117,13 @@ class Trajectory:
             start=self.state(len(self) - 1) if len(self) else self._start,
         )
 
-    def append(self, other: "Trajectory") -> "Trajectory":
+    def append(self, other: Trajectory) -> Trajectory:
         """This motion and then the other; its first point is left out if it is this one's last."""
         if other.group != self.group or other.model is not self.model:
             raise _core.InvalidInputError(f"a trajectory of '{other.group}' cannot follow one of '{self.group}'")
         skip = int(bool(len(self)) and bool(len(other)) and np.abs(self.positions[-1] - other.positions[0]).max() < 1e-6)
 
-        def joined(mine: Optional[np.ndarray], theirs: Optional[np.ndarray], shift: float = 0.0) -> Optional[np.ndarray]:
+        def joined(mine: np.ndarray | None, theirs: np.ndarray | None, shift: float = 0.0) -> np.ndarray | None:
             return None if mine is None or theirs is None else np.concatenate([mine, theirs[skip:] + shift])
 
         shift = 0.0 if self.times is None or not len(self.times) else float(self.times[-1])
@@ -134,7 +134,7 @@ class Trajectory:
             accelerations=joined(self.accelerations, other.accelerations),
         )
 
-    def joint_limits_exceeded(self, tolerance: float = 1e-3) -> List[str]:
+    def joint_limits_exceeded(self, tolerance: float = 1e-3) -> list[str]:
         """One line for each joint that leaves its limits of position, velocity or acceleration."""
         said = []
         for index, name in enumerate(self.variables):
@@ -160,7 +160,7 @@ class Trajectory:
         return f"<trajectory of '{self.group}', {len(self)} points{timed}>"
 
 
-def _rows(values: ArrayLike, size: int, what: str, count: Optional[int] = None) -> np.ndarray:
+def _rows(values: ArrayLike, size: int, what: str, count: int | None = None) -> np.ndarray:
     rows = np.array(values, float).reshape(-1, size) if np.size(values) == 0 else np.array(values, float)
     if rows.ndim != 2 or rows.shape[1] != size or (count is not None and len(rows) != count) or not np.isfinite(rows).all():
         wanted = f"({'k' if count is None else count}, {size})"

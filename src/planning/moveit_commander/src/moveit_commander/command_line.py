@@ -6,7 +6,6 @@ import argparse
 import os
 import readline
 import sys
-from typing import Dict, List, Optional
 
 import rospy
 
@@ -26,11 +25,11 @@ _HEADER, _PLAIN = "\033[95m", "\033[0m"
 class Completer:
     """Completes commands and what follows them."""
 
-    def __init__(self, options: Dict[str, List[str]]):
+    def __init__(self, options: dict[str, list[str]]):
         self.options = options
-        self._matches: List[str] = []
+        self._matches: list[str] = []
 
-    def complete(self, text: str, state: int) -> Optional[str]:
+    def complete(self, text: str, state: int) -> str | None:
         """The ``state``-th completion of ``text``, for readline."""
         if state == 0:
             words = readline.get_line_buffer().split()
@@ -40,7 +39,7 @@ class Completer:
         return self._matches[state] + " " if state < len(self._matches) else None
 
 
-def main(arguments: Optional[List[str]] = None) -> int:
+def main(arguments: list[str] | None = None) -> int:
     """Read commands until the end of the input; the exit code."""
     parser = argparse.ArgumentParser(prog="moveit_commander_cmdline.py", description="Command Line Interface to MoveIt")
     parser.add_argument("-i", "--interactive", action="store_true", help="read commands from the terminal (default)")

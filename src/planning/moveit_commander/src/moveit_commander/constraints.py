@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import List
-
 from moveit_msgs.msg import Constraints
 from moveit_ros_warehouse.location import connect
 from moveit_ros_warehouse.storage import StorageError
@@ -27,7 +25,7 @@ class StoredConstraints:
         except StorageError as error:
             raise MoveItCommanderException(str(error)) from error
 
-    def names(self) -> List[str]:
+    def names(self) -> list[str]:
         """All names; those that were saved for no robot in particular as well."""
         return sorted({*self._constraints.names(**self._owners), *self._constraints.names_without_owner()})
 

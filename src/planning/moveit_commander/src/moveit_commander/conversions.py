@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from typing import List, Sequence
+from collections.abc import Sequence
 
 import rospy
 from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion, Transform, Vector3
@@ -24,7 +24,7 @@ def msg_from_string(msg, data: bytes) -> None:
     msg.deserialize(data)
 
 
-def pose_to_list(pose_msg: Pose) -> List[float]:
+def pose_to_list(pose_msg: Pose) -> list[float]:
     """[x, y, z, qx, qy, qz, qw] of a Pose."""
     at, turn = pose_msg.position, pose_msg.orientation
     return [at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w]
@@ -51,7 +51,7 @@ def list_to_pose_stamped(pose_list: Sequence[float], target_frame: str) -> PoseS
     return message
 
 
-def transform_to_list(trf_msg: Transform) -> List[float]:
+def transform_to_list(trf_msg: Transform) -> list[float]:
     """[x, y, z, qx, qy, qz, qw] of a Transform."""
     at, turn = trf_msg.translation, trf_msg.rotation
     return [at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from typing import List, Optional, Sequence, Tuple
+from collections.abc import Sequence
 
 import rospy
 from moveit_core.errors import code_name
@@ -47,10 +47,10 @@ class GroupRequests:
         self.planner_id = ""
         self.pipeline_id = ""
         self.velocity, self.acceleration = robot_model.scaling_factors(session.description)
-        self.start_state: Optional[RobotState] = None
-        self.path_constraints: Optional[Constraints] = None
-        self.trajectory_constraints: Optional[TrajectoryConstraints] = None
-        self.workspace: Tuple[float, ...] = (0.0,) * 6  # low x, y, z, high x, y, z
+        self.start_state: RobotState | None = None
+        self.path_constraints: Constraints | None = None
+        self.trajectory_constraints: TrajectoryConstraints | None = None
+        self.workspace: tuple[float, ...] = (0.0,) * 6  # low x, y, z, high x, y, z
         self.replan = False
         self.look = False
         self.replan_delay = 2.0
@@ -59,8 +59,8 @@ class GroupRequests:
         self.end_effector = ""
         self._move = Action(session.name("move_group"), MoveGroupAction)
         self._execute = Action(session.name("execute_trajectory"), ExecuteTrajectoryAction)
-        self._pick: Optional[Action] = None
-        self._place: Optional[Action] = None
+        self._pick: Action | None = None
+        self._place: Action | None = None
         self._stop = rospy.Publisher(session.name("trajectory_execution_event"), String, queue_size=1)
         self._attach = rospy.Publisher(session.name("attached_collision_object"), AttachedCollisionObject, queue_size=10)
 
@@ -184,9 +184,7 @@ class GroupRequests:
         node = self.session.name("move_group").rstrip("/")
         return rospy.get_param(f"{node}/default_planning_pipeline", "")
 
-    def cartesian(
-        self, waypoints: Sequence, step: float, jump: float, avoid: bool, constraints: Optional[Constraints], frame: str, link: str
-    ):
+    def cartesian(self, waypoints: Sequence, step: float, jump: float, avoid: bool, constraints: Constraints | None, frame: str, link: str):
         """The response of compute_cartesian_path; None if it does not answer."""
         request = GetCartesianPathRequest(
             group_name=self.group,
@@ -215,7 +213,7 @@ class GroupRequests:
 
     def detach(self, name: str, links: Sequence[str]) -> bool:
         """Ask move_group to detach an object, those of a link, or all."""
-        targets: List[AttachedCollisionObject] = []
+        targets: list[AttachedCollisionObject] = []
         if name and self.session.model.has_link(name):
             targets.append(AttachedCollisionObject(link_name=name))
         elif name:

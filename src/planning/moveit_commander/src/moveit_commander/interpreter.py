@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import time
-from typing import Callable, Dict, List, Optional, Tuple
+from collections.abc import Callable
 
 import rospy
 from geometry_msgs.msg import PoseStamped
@@ -28,7 +28,7 @@ class MoveGroupInfoLevel:
     DEBUG = 5
 
 
-Answer = Tuple[int, str]
+Answer = tuple[int, str]
 _OK = (MoveGroupInfoLevel.DEBUG, "OK")
 _HELP = """Known commands:
   help                             show this text
@@ -90,7 +90,7 @@ class MoveGroupCommandInterpreter:
     }
 
     def __init__(self) -> None:
-        self._gdict: Dict[str, MoveGroupCommander] = {}
+        self._gdict: dict[str, MoveGroupCommander] = {}
         self._group_name = ""
         self._prev_group_name = ""
         self._planning_scene_interface = PlanningSceneInterface()
@@ -98,7 +98,7 @@ class MoveGroupCommandInterpreter:
         self._last_plan = None
         self._trace = False
 
-    def get_active_group(self) -> Optional[MoveGroupCommander]:
+    def get_active_group(self) -> MoveGroupCommander | None:
         return self._gdict.get(self._group_name)
 
     def get_loaded_groups(self):
@@ -110,7 +110,7 @@ class MoveGroupCommandInterpreter:
         if not words:
             return _OK
         words[0] = {"which": "id", "groups": "use"}.get(words[0].lower(), words[0].lower())
-        generic: Dict[str, Callable[[List[str]], Answer]] = {
+        generic: dict[str, Callable[[list[str]], Answer]] = {
             "use": self._use,
             "trace": self._set_trace,
             "load": self._load,
@@ -134,10 +134,10 @@ class MoveGroupCommandInterpreter:
 
     # --- for all groups ---
 
-    def _help(self, _words: List[str]) -> Answer:
+    def _help(self, _words: list[str]) -> Answer:
         return (MoveGroupInfoLevel.INFO, self.get_help())
 
-    def _use(self, words: List[str]) -> Answer:
+    def _use(self, words: list[str]) -> Answer:
         if len(words) == 1:
             return (MoveGroupInfoLevel.INFO, "\n".join(self.get_loaded_groups()))
         name = self._prev_group_name if words[1] == "previous" else words[1]
@@ -151,13 +151,13 @@ class MoveGroupCommandInterpreter:
         self._prev_group_name, self._group_name = self._group_name, name
         return _OK
 
-    def _set_trace(self, words: List[str]) -> Answer:
+    def _set_trace(self, words: list[str]) -> Answer:
         if len(words) == 1:
             return (MoveGroupInfoLevel.INFO, "trace is on" if self._trace else "trace is off")
         self._trace = words[1].lower() == "on"
         return _OK
 
-    def _load(self, words: List[str]) -> Answer:
+    def _load(self, words: list[str]) -> Answer:
         if len(words) > 2:
             return (MoveGroupInfoLevel.WARN, "Unable to parse load command")
         name = words[1] if len(words) == 2 else self.DEFAULT_FILENAME
@@ -176,7 +176,7 @@ class MoveGroupCommandInterpreter:
                 return (MoveGroupInfoLevel.WARN, f"Error at {name}:{number}:  {line}\n{text}")
         return _OK
 
-    def _save(self, words: List[str]) -> Answer:
+    def _save(self, words: list[str]) -> Answer:
         if len(words) > 2:
             return (MoveGroupInfoLevel.WARN, "Unable to parse save command")
         name = words[1] if len(words) == 2 else self.DEFAULT_FILENAME
@@ -212,7 +212,7 @@ class MoveGroupCommandInterpreter:
         return (MoveGroupInfoLevel.WARN, f"Unknown command: '{cmdorig}'")
 
     @staticmethod
-    def _assignment(g: MoveGroupCommander, line: str) -> Optional[Answer]:
+    def _assignment(g: MoveGroupCommander, line: str) -> Answer | None:
         known = g.get_remembered_joint_values()
         copy = re.match(r"^(\w+)\s*=\s*(\w+)$", line)
         if copy and copy.group(2) in known:
@@ -441,7 +441,7 @@ class MoveGroupCommandInterpreter:
     def get_help(self) -> str:
         return _HELP
 
-    def get_keywords(self) -> Dict[str, List[str]]:
+    def get_keywords(self) -> dict[str, list[str]]:
         """What may follow each command, for completion."""
         group = self.get_active_group()
         known = list(group.get_remembered_joint_values()) if group is not None else []
@@ -468,7 +468,7 @@ class MoveGroupCommandInterpreter:
             "planner",
             "rotate",
         )
-        keywords: Dict[str, List[str]] = {name: [] for name in alone}
+        keywords: dict[str, list[str]] = {name: [] for name in alone}
         directions = ["up", "down", "left", "right", "backward", "forward"]
         keywords.update(go=directions + ["random"] + named, plan=["random"] + named, record=known, show=known)
         keywords.update(delete=known, use=self._robot.get_group_names(), allow=["replanning", "looking"])

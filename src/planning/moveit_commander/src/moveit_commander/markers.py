@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Dict, List, Optional, Sequence, Tuple
+from collections.abc import Sequence
 
 import lenient_xml
 import motion
@@ -21,7 +21,7 @@ _GREY = ColorRGBA(0.5, 0.5, 0.5, 1.0)
 def robot_markers(description: RobotDescription, state: motion.RobotState, *args) -> MarkerArray:
     """Markers of the visual shapes, in the planning frame; for ``args`` see RobotCommander.get_robot_markers."""
     model, links = description.model, list(description.model.links)
-    values: Optional[Dict[str, float]] = None
+    values: dict[str, float] | None = None
     if args and isinstance(args[0], RobotState):
         states.apply_robot_state(None, state, args[0])
     elif args and isinstance(args[0], dict):
@@ -44,7 +44,7 @@ def robot_markers(description: RobotDescription, state: motion.RobotState, *args
     return message
 
 
-def _visuals(urdf: str, link: str) -> List[Tuple[motion.Pose, Marker]]:
+def _visuals(urdf: str, link: str) -> list[tuple[motion.Pose, Marker]]:
     root = lenient_xml.fromstring(urdf)
     colours = {entry.get("name"): _colour(entry) for entry in root.findall("material")}
     found = []
@@ -59,7 +59,7 @@ def _visuals(urdf: str, link: str) -> List[Tuple[motion.Pose, Marker]]:
     return found
 
 
-def _shape(geometry) -> Optional[Marker]:
+def _shape(geometry) -> Marker | None:
     if geometry is None or not len(geometry):
         return None
     shape, marker = geometry[0], Marker(action=Marker.ADD)
@@ -80,7 +80,7 @@ def _shape(geometry) -> Optional[Marker]:
     return marker
 
 
-def _colour(material) -> Optional[ColorRGBA]:
+def _colour(material) -> ColorRGBA | None:
     colour = material.find("color")
     return ColorRGBA(*_numbers(colour.get("rgba"), (0.5, 0.5, 0.5, 1.0))) if colour is not None else None
 
@@ -91,6 +91,6 @@ def _origin(element) -> motion.Pose:
     return motion.Pose.from_rpy(_numbers(element.get("xyz"), (0.0,) * 3), _numbers(element.get("rpy"), (0.0,) * 3))
 
 
-def _numbers(text: Optional[str], default: Sequence[float]) -> Tuple[float, ...]:
+def _numbers(text: str | None, default: Sequence[float]) -> tuple[float, ...]:
     values = tuple(float(value) for value in (text or "").split())
     return values if len(values) == len(default) else tuple(default)

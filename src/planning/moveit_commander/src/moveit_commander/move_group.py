@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+from collections.abc import Sequence
+from typing import Any
 
 import genpy
 import motion
@@ -74,7 +75,7 @@ class MoveGroupCommander(TargetCommands):
             *((settings.joint_tolerance, settings.position_tolerance, settings.orientation_tolerance) if settings else ()),
         )
         self._requests = GroupRequests(self._session, name, self._targets)
-        self._remembered: Dict[str, List[float]] = {}
+        self._remembered: dict[str, list[float]] = {}
         self._reference = self._model.frame
         self._eef = self._group.tip_link or ""
         self._requests.wait(wait_for_servers)
@@ -85,11 +86,11 @@ class MoveGroupCommander(TargetCommands):
     def get_name(self) -> str:
         return self._name
 
-    def get_active_joints(self) -> List[str]:
+    def get_active_joints(self) -> list[str]:
         """Joints that can be commanded: no fixed or mimic ones."""
         return list(self._group.active_joints)
 
-    def get_joints(self) -> List[str]:
+    def get_joints(self) -> list[str]:
         """All joints of the group."""
         return list(self._group.joints)
 
@@ -130,12 +131,12 @@ class MoveGroupCommander(TargetCommands):
         link = self._link(end_effector_link, "There is no end effector to get the pose of")
         return conversions.list_to_pose_stamped(self._current_pose(link), self._model.frame)
 
-    def get_current_rpy(self, end_effector_link: str = "") -> List[float]:
+    def get_current_rpy(self, end_effector_link: str = "") -> list[float]:
         """[roll, pitch, yaw] of a link, in the planning frame, radians."""
         link = self._link(end_effector_link, "There is no end effector to get the rpy of")
         return list(euler_from_quaternion(self._current_pose(link)[3:]))
 
-    def get_random_joint_values(self) -> List[float]:
+    def get_random_joint_values(self) -> list[float]:
         """Values within the limits."""
         state = self._model.state()
         state.randomize(self._name)
@@ -170,7 +171,7 @@ class MoveGroupCommander(TargetCommands):
 
     # --- tolerances ---
 
-    def get_goal_tolerance(self) -> Tuple[float, float, float]:
+    def get_goal_tolerance(self) -> tuple[float, float, float]:
         """(joint, position, orientation)."""
         return self._targets.joint_tolerance, self._targets.position_tolerance, self._targets.orientation_tolerance
 
@@ -209,14 +210,14 @@ class MoveGroupCommander(TargetCommands):
     def allow_replanning(self, value: bool) -> None:
         self._requests.replan = bool(value)
 
-    def get_known_constraints(self) -> List[str]:
+    def get_known_constraints(self) -> list[str]:
         """Names of the constraints that the warehouse has for this group; see :meth:`set_constraints_database`."""
         return self._warehouse.names() if self._warehouse else []
 
     def get_path_constraints(self) -> Constraints:
         return self._requests.path_constraints or Constraints()
 
-    def set_path_constraints(self, value: Union[Constraints, str, None]) -> None:
+    def set_path_constraints(self, value: Constraints | str | None) -> None:
         """Constraints that hold all along the path, or their name in the warehouse; None clears them."""
         if value is not None and not isinstance(value, Constraints):
             if self._warehouse is None:
@@ -234,7 +235,7 @@ class MoveGroupCommander(TargetCommands):
     def get_trajectory_constraints(self) -> TrajectoryConstraints:
         return self._requests.trajectory_constraints or TrajectoryConstraints()
 
-    def set_trajectory_constraints(self, value: Optional[TrajectoryConstraints]) -> None:
+    def set_trajectory_constraints(self, value: TrajectoryConstraints | None) -> None:
         if value is not None and not isinstance(value, TrajectoryConstraints):
             raise MoveItCommanderException(f"Unable to set trajectory constraints {value}")
         self._requests.trajectory_constraints = value
@@ -329,7 +330,7 @@ class MoveGroupCommander(TargetCommands):
         else:
             self.set_joint_value_target(joints)
 
-    def plan(self, joints=None) -> Tuple[bool, RobotTrajectory, float, MoveItErrorCodes]:
+    def plan(self, joints=None) -> tuple[bool, RobotTrajectory, float, MoveItErrorCodes]:
         """(success, trajectory, planning time in s, error code); scripts for Melodic may take it for the trajectory."""
         self._take_target(joints)
         result = self._requests.plan()
@@ -361,8 +362,8 @@ class MoveGroupCommander(TargetCommands):
         eef_step: float,
         jump_threshold=0.0,
         avoid_collisions: bool = True,
-        path_constraints: Optional[Constraints] = None,
-    ) -> Tuple[RobotTrajectory, float]:
+        path_constraints: Constraints | None = None,
+    ) -> tuple[RobotTrajectory, float]:
         """Straight lines of the end effector through ``waypoints`` (in the pose reference frame), a point every
         ``eef_step`` metres:
         (trajectory, fraction that could be followed); the fraction is -1.0 on an error.
@@ -411,7 +412,7 @@ class MoveGroupCommander(TargetCommands):
         states.apply_robot_state(None, state, message)
         return state
 
-    def get_jacobian_matrix(self, joint_values: Sequence[float], reference_point: Optional[Sequence[float]] = None) -> np.ndarray:
+    def get_jacobian_matrix(self, joint_values: Sequence[float], reference_point: Sequence[float] | None = None) -> np.ndarray:
         """The (6, n) Jacobian of the end effector at ``joint_values``, rows v and w."""
         state = self._model.state()
         state.set_group(self._name, np.asarray(joint_values, dtype=float))
@@ -444,7 +445,7 @@ class MoveGroupCommander(TargetCommands):
         """Detach the objects of a link, an object, or all of this group's links. True: the request was sent."""
         return self._requests.detach(name, self._group.links)
 
-    def pick(self, object_name: str, grasp: Union[Grasp, Sequence[Grasp]] = (), plan_only: bool = False) -> int:
+    def pick(self, object_name: str, grasp: Grasp | Sequence[Grasp] = (), plan_only: bool = False) -> int:
         """Pick an object; the error code."""
         return self._requests.pick(object_name, [grasp] if isinstance(grasp, Grasp) else list(grasp), plan_only)
 

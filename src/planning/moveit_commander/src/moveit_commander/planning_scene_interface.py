@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from typing import Dict, List, Optional, Sequence
+from collections.abc import Sequence
 
 import motion
 import rospy
@@ -98,7 +98,7 @@ class PlanningSceneInterface:
 
     # --- attaching ---
 
-    def attach_object(self, object, link: Optional[str] = None, touch_links: Optional[Sequence[str]] = None) -> None:
+    def attach_object(self, object, link: str | None = None, touch_links: Sequence[str] | None = None) -> None:
         """Attach a CollisionObject, an AttachedCollisionObject, or the object of the scene that has a name."""
         if isinstance(object, str):
             object = CollisionObject(id=object)
@@ -116,21 +116,21 @@ class PlanningSceneInterface:
         pose=None,
         filename: str = "",
         size: Sequence[float] = (1, 1, 1),
-        touch_links: Optional[Sequence[str]] = None,
+        touch_links: Sequence[str] | None = None,
     ) -> None:
         item = self.make_mesh(name, pose, filename, size) if pose is not None and filename else name
         self.attach_object(item, link, touch_links)
 
     def attach_box(
-        self, link: str, name: str, pose=None, size: Sequence[float] = (1, 1, 1), touch_links: Optional[Sequence[str]] = None
+        self, link: str, name: str, pose=None, size: Sequence[float] = (1, 1, 1), touch_links: Sequence[str] | None = None
     ) -> None:
         self.attach_object(self.make_box(name, pose, size) if pose is not None else name, link, touch_links)
 
-    def attach_sphere(self, link: str, name: str, pose=None, radius: float = 1, touch_links: Optional[Sequence[str]] = None) -> None:
+    def attach_sphere(self, link: str, name: str, pose=None, radius: float = 1, touch_links: Sequence[str] | None = None) -> None:
         self.attach_object(self.make_sphere(name, pose, radius) if pose is not None else name, link, touch_links)
 
     def attach_cylinder(
-        self, link: str, name: str, pose=None, height: float = 1, radius: float = 1, touch_links: Optional[Sequence[str]] = None
+        self, link: str, name: str, pose=None, height: float = 1, radius: float = 1, touch_links: Sequence[str] | None = None
     ) -> None:
         self.attach_object(self.make_cylinder(name, pose, height, radius) if pose is not None else name, link, touch_links)
 
@@ -141,11 +141,11 @@ class PlanningSceneInterface:
         self.remove_attached_object()
         self.remove_world_object()
 
-    def remove_world_object(self, name: Optional[str] = None) -> None:
+    def remove_world_object(self, name: str | None = None) -> None:
         """Remove an object, or all."""
         self._submit(CollisionObject(id=name or "", operation=CollisionObject.REMOVE))
 
-    def remove_attached_object(self, link: Optional[str] = None, name: Optional[str] = None) -> None:
+    def remove_attached_object(self, link: str | None = None, name: str | None = None) -> None:
         """Detach an object, those of a link, or all; they stay in the world."""
         message = AttachedCollisionObject(link_name=link or "")
         message.object.id, message.object.operation = name or "", CollisionObject.REMOVE
@@ -153,17 +153,17 @@ class PlanningSceneInterface:
 
     # --- asking ---
 
-    def _world(self, geometry: bool = True) -> List[CollisionObject]:
+    def _world(self, geometry: bool = True) -> list[CollisionObject]:
         bits = PlanningSceneComponents.WORLD_OBJECT_GEOMETRY if geometry else PlanningSceneComponents.WORLD_OBJECT_NAMES
         return self.get_planning_scene(bits).world.collision_objects
 
-    def get_known_object_names(self, with_type: bool = False) -> List[str]:
+    def get_known_object_names(self, with_type: bool = False) -> list[str]:
         """Objects of the world; ``with_type``: only those of a known type."""
         return [item.id for item in self._world(geometry=False) if not with_type or item.type.key]
 
     def get_known_object_names_in_roi(
         self, minx: float, miny: float, minz: float, maxx: float, maxy: float, maxz: float, with_type: bool = False
-    ) -> List[str]:
+    ) -> list[str]:
         """Objects of which all shapes have their origin in a box of the planning frame."""
         names = []
         for item in self._world():
@@ -180,14 +180,14 @@ class PlanningSceneInterface:
                 names.append(item.id)
         return names
 
-    def get_object_poses(self, object_ids: Sequence[str]) -> Dict[str, Pose]:
+    def get_object_poses(self, object_ids: Sequence[str]) -> dict[str, Pose]:
         return {item.id: item.pose for item in self._world() if item.id in object_ids}
 
-    def get_objects(self, object_ids: Sequence[str] = ()) -> Dict[str, CollisionObject]:
+    def get_objects(self, object_ids: Sequence[str] = ()) -> dict[str, CollisionObject]:
         """Those named, or all."""
         return {item.id: item for item in self._world() if not object_ids or item.id in object_ids}
 
-    def get_attached_objects(self, object_ids: Sequence[str] = ()) -> Dict[str, AttachedCollisionObject]:
+    def get_attached_objects(self, object_ids: Sequence[str] = ()) -> dict[str, AttachedCollisionObject]:
         """Those named, or all."""
         scene = self.get_planning_scene(PlanningSceneComponents.ROBOT_STATE_ATTACHED_OBJECTS)
         return {
@@ -283,7 +283,7 @@ def _set_default(matrix: AllowedCollisionMatrix, obj: str, allow: bool) -> None:
         matrix.default_entry_values.append(allow)
 
 
-def _set_allowed(matrix: AllowedCollisionMatrix, obj: str, other: Optional[str] = None, allow: bool = True) -> None:
+def _set_allowed(matrix: AllowedCollisionMatrix, obj: str, other: str | None = None, allow: bool = True) -> None:
     """Allow (or not) collisions between ``obj`` and ``other``, or between ``obj`` and everything."""
     if other is None:
         _set_default(matrix, obj, allow)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Dict, List, Optional
-
 import motion
 import rospy
 from geometry_msgs.msg import PoseStamped
@@ -28,7 +26,7 @@ class RobotCommander:
     class Joint:
         """One joint of the robot."""
 
-        def __init__(self, robot: "RobotCommander", name: str):
+        def __init__(self, robot: RobotCommander, name: str):
             self._robot = robot
             self._name = name
 
@@ -66,13 +64,13 @@ class RobotCommander:
             commander.set_joint_value_target(self._name, position)
             return commander.go(wait=wait)
 
-        def _limits(self) -> List[List[float]]:
+        def _limits(self) -> list[list[float]]:
             return [[limit.min_position, limit.max_position] for limit in self._robot._model.joint(self._name).limits]
 
     class Link:
         """One link of the robot."""
 
-        def __init__(self, robot: "RobotCommander", name: str):
+        def __init__(self, robot: RobotCommander, name: str):
             self._robot = robot
             self._name = name
 
@@ -89,7 +87,7 @@ class RobotCommander:
         self._ns = ns
         self._session = session(robot_description, ns)
         self._model = self._session.model
-        self._groups: Dict[str, MoveGroupCommander] = {}
+        self._groups: dict[str, MoveGroupCommander] = {}
 
     @property
     def model(self) -> motion.RobotModel:
@@ -116,15 +114,15 @@ class RobotCommander:
     def get_root_link(self) -> str:
         return self._model.root_link
 
-    def get_active_joint_names(self, group: Optional[str] = None) -> List[str]:
+    def get_active_joint_names(self, group: str | None = None) -> list[str]:
         """Joints that move, mimic ones left out; of a group or of the robot."""
         return list(self._checked(group).active_joints if group is not None else self._model.active_joints)
 
-    def get_joint_names(self, group: Optional[str] = None) -> List[str]:
+    def get_joint_names(self, group: str | None = None) -> list[str]:
         """All joints of a group or of the robot."""
         return list(self._checked(group).joints if group is not None else self._model.joints)
 
-    def get_link_names(self, group: Optional[str] = None) -> List[str]:
+    def get_link_names(self, group: str | None = None) -> list[str]:
         """Links of a group or of the robot."""
         return list(self._checked(group).links if group is not None else self._model.links)
 
@@ -133,22 +131,22 @@ class RobotCommander:
             raise MoveItCommanderException(f"There is no group named {group}")
         return self._model.group(group)
 
-    def get_group_names(self) -> List[str]:
+    def get_group_names(self) -> list[str]:
         return list(self._model.groups)
 
     def get_current_state(self) -> RobotState:
         """The whole robot now."""
         return states.robot_state_message(self._state())
 
-    def get_current_variable_values(self) -> Dict[str, float]:
+    def get_current_variable_values(self) -> dict[str, float]:
         return {name: float(value) for name, value in self._state().as_dict().items()}
 
-    def get_joint(self, name: str) -> "RobotCommander.Joint":
+    def get_joint(self, name: str) -> RobotCommander.Joint:
         if not self._model.has_joint(name):
             raise MoveItCommanderException(f"There is no joint named {name}")
         return self.Joint(self, name)
 
-    def get_link(self, name: str) -> "RobotCommander.Link":
+    def get_link(self, name: str) -> RobotCommander.Link:
         if not self._model.has_link(name):
             raise MoveItCommanderException(f"There is no link named {name}")
         return self.Link(self, name)
@@ -163,7 +161,7 @@ class RobotCommander:
     def has_group(self, name: str) -> bool:
         return self._model.has_group(name)
 
-    def get_default_owner_group(self, joint_name: str) -> Optional[str]:
+    def get_default_owner_group(self, joint_name: str) -> str | None:
         """The group with the fewest links that has the joint; None if there is none."""
         owners = [name for name in self._model.groups if joint_name in self._model.group(name).joints]
         return min(owners, key=lambda name: len(self._model.group(name).links), default=None)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import time
-from typing import List, Optional
 
 import rospy
 
-_arguments: Optional[List[str]] = None
+_arguments: list[str] | None = None
 
 
-def roscpp_initialize(args: List[str]) -> None:
+def roscpp_initialize(args: list[str]) -> None:
     """Accepted before or after ``rospy.init_node``, once or several times. Without any ``rospy.init_node``, the first
     client
     starts a node itself, with these arguments."""
@@ -25,10 +24,10 @@ def roscpp_shutdown() -> None:
 class RosInitializer:
     """roscpp_initialize and roscpp_shutdown as a context."""
 
-    def __init__(self, args: List[str]):
+    def __init__(self, args: list[str]):
         roscpp_initialize(args)
 
-    def __enter__(self) -> "RosInitializer":
+    def __enter__(self) -> RosInitializer:
         return self
 
     def __exit__(self, *_error) -> None:

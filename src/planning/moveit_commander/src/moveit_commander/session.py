@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import threading
 import time
-from typing import Dict, Optional, Tuple
 
 import actionlib
 import motion
@@ -23,7 +22,7 @@ from .roscpp_initializer import ensure_node
 
 #: wall s: a goal that comes to move_group this soon after a stop may have been sent before it
 _STOP_HOLDS = 0.1
-_sessions: Dict[Tuple[str, str], "Session"] = {}
+_sessions: dict[tuple[str, str], Session] = {}
 _lock = threading.Lock()
 
 
@@ -37,8 +36,8 @@ class Session:
         except robot_model.DescriptionError as error:
             raise RuntimeError(str(error)) from error
         self.model: motion.RobotModel = self.description.model
-        self._monitor: Optional[CurrentStateMonitor] = None
-        self._listener: Optional[tf2_ros.TransformListener] = None
+        self._monitor: CurrentStateMonitor | None = None
+        self._listener: tf2_ros.TransformListener | None = None
         self._stopped = -_STOP_HOLDS
 
     def name(self, relative: str) -> str:
@@ -61,7 +60,7 @@ class Session:
                 self._monitor = CurrentStateMonitor(self.model, self._frames(), self.name("joint_states"))
             return self._monitor
 
-    def _frames(self) -> Optional[tf2_ros.Buffer]:
+    def _frames(self) -> tf2_ros.Buffer | None:
         """TF, which says where a planar or floating base stands; None for robots without one."""
         if not any(self.model.joint(name).type in ("planar", "floating") for name in self.model.active_joints):
             return None
@@ -69,7 +68,7 @@ class Session:
         self._listener = tf2_ros.TransformListener(buffer)
         return buffer
 
-    def state(self, timeout: float = 1.0) -> Optional[motion.RobotState]:
+    def state(self, timeout: float = 1.0) -> motion.RobotState | None:
         """The state now; None (and an error line saying why) when none newer than this call comes within ``timeout``
         wall s."""
         monitor, now = self.monitor, rospy.Time.now()
@@ -113,7 +112,7 @@ class Action:
     def __init__(self, name: str, kind: type):
         self.name = name
         self._client = actionlib.ActionClient(name, kind)
-        self._goal: Optional[actionlib.ClientGoalHandle] = None
+        self._goal: actionlib.ClientGoalHandle | None = None
 
     def connected(self) -> bool:
         """Whether a server is there."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Dict, List, Optional, Sequence, Union
+from collections.abc import Sequence
 
 import motion
 import numpy as np
@@ -28,11 +28,11 @@ class TargetCommands:
     _group: motion.Group
     _name: str
     _targets: Targets
-    _remembered: Dict[str, List[float]]
+    _remembered: dict[str, list[float]]
     _reference: str
     _eef: str
 
-    def get_current_joint_values(self) -> List[float]:
+    def get_current_joint_values(self) -> list[float]:
         """In the group's order; [] when no state newer than now comes within a second."""
         state = self._session.state()
         return [] if state is None else [float(value) for value in state.get_group(self._name)]
@@ -48,19 +48,19 @@ class TargetCommands:
                 raise MoveItCommanderException(f"The robot '{self._model.name}' has no link '{link}', and it holds {holds}")
         return link
 
-    def _state(self, frame: str) -> Optional[motion.RobotState]:
+    def _state(self, frame: str) -> motion.RobotState | None:
         """The present state, in which ``frame`` may be a thing that is held or a subframe of it; None: none comes."""
         state = self._session.state()
         return state if state is None or self._model.has_link(frame) else self._session.hold(state)
 
-    def _current_pose(self, link: str) -> List[float]:
+    def _current_pose(self, link: str) -> list[float]:
         state = self._state(link)
         if state is None or not state.has_frame(link):
             return [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
         pose = state.pose(link)
         return [float(value) for value in (*pose.position, *pose.quaternion)]
 
-    def get_joint_value_target(self) -> List[float]:
+    def get_joint_value_target(self) -> list[float]:
         return [float(value) for value in self._targets.state.get_group(self._name)]
 
     def set_joint_value_target(self, arg1, arg2=None, arg3=None) -> None:
@@ -100,7 +100,7 @@ class TargetCommands:
         else:
             raise MoveItCommanderException(f"Unsupported argument of type {type(arg1)}")
 
-    def _named_values(self, joint: str, value) -> Dict[str, float]:
+    def _named_values(self, joint: str, value) -> dict[str, float]:
         if not self._model.has_joint(joint):
             raise MoveItCommanderException(f"Error setting joint target. The robot has no joint '{joint}'")
         variables = list(self._model.joint(joint).variables)
@@ -109,7 +109,7 @@ class TargetCommands:
             raise MoveItCommanderException(f"Error setting joint target. Joint '{joint}' has {len(variables)} values, not {len(values)}")
         return dict(zip(variables, values))
 
-    def _set_joints(self, values: Dict[str, float]) -> None:
+    def _set_joints(self, values: dict[str, float]) -> None:
         try:
             numbers = {str(name): float(value) for name, value in values.items()}
         except (TypeError, ValueError) as error:
@@ -122,7 +122,7 @@ class TargetCommands:
         if not self._targets.set_joints(numbers):
             raise MoveItCommanderException(_BOUNDS)
 
-    def _set_from_pose(self, pose: Union[Pose, PoseStamped], *options) -> None:
+    def _set_from_pose(self, pose: Pose | PoseStamped, *options) -> None:
         link, approximate = "", False
         for option in options:
             if isinstance(option, str):
@@ -226,7 +226,7 @@ class TargetCommands:
         self._targets.state.randomize()
         self._targets.kind = targets.JOINT
 
-    def get_named_targets(self) -> List[str]:
+    def get_named_targets(self) -> list[str]:
         """Names that :meth:`set_named_target` knows: of the SRDF, and remembered ones."""
         return [*self._group.named_states, *(name for name in self._remembered if name not in self._group.named_states)]
 
@@ -243,7 +243,7 @@ class TargetCommands:
                 f"targets: {', '.join(self.get_named_targets()) or 'none'}"
             )
 
-    def get_named_target_values(self, target: str) -> Dict[str, float]:
+    def get_named_target_values(self, target: str) -> dict[str, float]:
         """Joint values of a named target; {} if there is none of that name."""
         if target in self._remembered:
             return dict(zip(self._group.variables, self._remembered[target]))
@@ -252,11 +252,11 @@ class TargetCommands:
             return {}
         return {joint: float(values[0]) for joint, values in self._group.named_state(target).items() if len(values) == 1}
 
-    def remember_joint_values(self, name: str, values: Optional[Sequence[float]] = None) -> None:
+    def remember_joint_values(self, name: str, values: Sequence[float] | None = None) -> None:
         """Give values (default: the present ones) a name."""
         self._remembered[name] = [float(value) for value in (self.get_current_joint_values() if values is None else values)]
 
-    def get_remembered_joint_values(self) -> Dict[str, List[float]]:
+    def get_remembered_joint_values(self) -> dict[str, list[float]]:
         return {name: list(values) for name, values in self._remembered.items()}
 
     def forget_joint_values(self, name: str) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Dict, List, Sequence
+from collections.abc import Sequence
 
 import motion
 import rospy
@@ -28,7 +28,7 @@ class Targets:
         self._group = group
         self.kind = JOINT
         self.state = model.state()
-        self.poses: Dict[str, List[PoseStamped]] = {}
+        self.poses: dict[str, list[PoseStamped]] = {}
         self.joint_tolerance = joint_tolerance
         self.position_tolerance = position_tolerance
         self.orientation_tolerance = orientation_tolerance
@@ -51,7 +51,7 @@ class Targets:
         """The first target pose of ``link``; an empty one if there is none."""
         return self.poses[link][0] if self.poses.get(link) else PoseStamped()
 
-    def constraints(self) -> List[Constraints]:
+    def constraints(self) -> list[Constraints]:
         """The goal_constraints of a request: alternatives."""
         if self.kind == JOINT:
             return [self._joint_goal()]

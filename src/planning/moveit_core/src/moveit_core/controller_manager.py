@@ -10,7 +10,7 @@ from __future__ import annotations
 import enum
 import threading
 from abc import ABC, abstractmethod
-from typing import Dict, List, Optional, Sequence
+from collections.abc import Sequence
 
 from moveit_msgs.msg import RobotTrajectory
 
@@ -47,7 +47,7 @@ class ControllerHandle(ABC):
         """Stop what was sent."""
 
     @abstractmethod
-    def wait(self, timeout: Optional[float] = None) -> bool:
+    def wait(self, timeout: float | None = None) -> bool:
         """Wait (wall seconds; None: for ever) until the trajectory has ended."""
 
     @property
@@ -65,18 +65,18 @@ class ControllerManager(ABC):
         self.namespace = namespace
 
     @abstractmethod
-    def controllers(self) -> List[str]:
+    def controllers(self) -> list[str]:
         """Names of all controllers."""
 
     @abstractmethod
-    def joints(self, controller: str) -> List[str]:
+    def joints(self, controller: str) -> list[str]:
         """Joints that a controller moves."""
 
     @abstractmethod
-    def handle(self, controller: str) -> Optional[ControllerHandle]:
+    def handle(self, controller: str) -> ControllerHandle | None:
         """How to reach a controller; None when it cannot be reached now."""
 
-    def active_controllers(self) -> List[str]:
+    def active_controllers(self) -> list[str]:
         """Controllers that take trajectories now."""
         return self.controllers()
 
@@ -98,7 +98,7 @@ class ControllerManager(ABC):
         """One line: which controllers there are, and where they were looked up."""
         return ", ".join(f"{name} ({', '.join(self.joints(name))})" for name in self.controllers()) or "none"
 
-    def limits(self, controller: str) -> Dict[str, float]:
+    def limits(self, controller: str) -> dict[str, float]:
         """``scaling`` and ``margin`` of the allowed duration, where this controller has its own."""
         return {}
 
@@ -126,7 +126,7 @@ class Completion:
             self._done.set()
             return True
 
-    def wait(self, timeout: Optional[float] = None) -> bool:
+    def wait(self, timeout: float | None = None) -> bool:
         return self._done.wait(timeout)
 
     @property

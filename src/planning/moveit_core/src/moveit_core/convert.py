@@ -7,7 +7,7 @@ line.
 from __future__ import annotations
 
 import math
-from typing import Callable, Iterable, List, Sequence, Tuple
+from collections.abc import Callable, Iterable, Sequence
 
 import motion
 import numpy as np
@@ -25,7 +25,7 @@ def strip(frame: str) -> str:
     return frame[1:] if frame.startswith("/") else frame
 
 
-def finite(values: Iterable[float], what: str) -> Tuple[float, ...]:
+def finite(values: Iterable[float], what: str) -> tuple[float, ...]:
     """``values`` as a tuple.
 
     :raises ValueError: one of them is NaN or infinite.
@@ -129,7 +129,7 @@ def plane(message: Plane):
     return motion.Plane(*coefficients)
 
 
-def shapes(message, owner: str) -> Tuple[list, List[motion.Pose]]:
+def shapes(message, owner: str) -> tuple[list, list[motion.Pose]]:
     """Shapes and their poses of a CollisionObject or BoundingVolume, primitives first, then meshes, then planes.
 
     Missing poses are identities.

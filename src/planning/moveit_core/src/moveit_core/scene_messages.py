@@ -3,7 +3,7 @@ and diffs."""
 
 from __future__ import annotations
 
-from typing import Callable, Iterable, List, Optional
+from collections.abc import Callable, Iterable
 
 import motion
 from geometry_msgs.msg import TransformStamped
@@ -359,7 +359,7 @@ def _type(message: CollisionObject) -> str:
     return "\t".join((message.type.key, message.type.db)) if message.type.key or message.type.db else ""
 
 
-def _touch(message: AttachedCollisionObject) -> List[str]:
+def _touch(message: AttachedCollisionObject) -> list[str]:
     return sorted({*message.touch_links, message.link_name})
 
 
@@ -441,12 +441,12 @@ def octomap_message(scene) -> OctomapWithPose:
     return message
 
 
-def colour_messages(scene) -> List[ObjectColor]:
+def colour_messages(scene) -> list[ObjectColor]:
     """Colours that were given to objects."""
     return [ObjectColor(name, ColorRGBA(*(float(v) for v in rgba))) for name, rgba in sorted(scene.colors.items())]
 
 
-def transform_messages(scene) -> List[TransformStamped]:
+def transform_messages(scene) -> list[TransformStamped]:
     """Frames known from outside, in upstream's (reversed) notation."""
     messages = []
     for frame, pose in sorted(scene.transforms.items()):
@@ -456,7 +456,7 @@ def transform_messages(scene) -> List[TransformStamped]:
     return messages
 
 
-def scene_message(scene, components: Optional[int] = None) -> PlanningScene:
+def scene_message(scene, components: int | None = None) -> PlanningScene:
     """The scene as a message.
 
     :param components: bits of PlanningSceneComponents; None or 0 asks for everything.

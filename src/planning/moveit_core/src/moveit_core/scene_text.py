@@ -8,7 +8,7 @@ ends it. Files of before Noetic have neither object poses nor subframes. Metres.
 from __future__ import annotations
 
 import math
-from typing import Iterator, List, Sequence, Tuple
+from collections.abc import Iterator, Sequence
 
 from geometry_msgs.msg import Point, Pose, Quaternion
 from moveit_msgs.msg import CollisionObject, ObjectColor, PlanningScene
@@ -45,13 +45,13 @@ def _numbers(values: Sequence[float]) -> str:
     return " ".join(f"{value:.9g}" for value in values)
 
 
-def _pose_lines(pose: Pose) -> List[str]:
+def _pose_lines(pose: Pose) -> list[str]:
     at, turn = pose.position, pose.orientation
     rotation = (turn.x, turn.y, turn.z, turn.w)
     return [_numbers((at.x, at.y, at.z)), _numbers(rotation if any(rotation) else (0, 0, 0, 1))]
 
 
-def _shape_lines(item: CollisionObject) -> Iterator[Tuple[List[str], Pose]]:
+def _shape_lines(item: CollisionObject) -> Iterator[tuple[list[str], Pose]]:
     def pose(poses, index):
         return poses[index] if index < len(poses) else Pose()
 
@@ -98,7 +98,7 @@ def read(text: str, frame: str = "") -> PlanningScene:
             scene.object_colors.append(ObjectColor(item.id, ColorRGBA(*colour)))
 
 
-def _read_shape(reader: "_Reader", item: CollisionObject) -> None:
+def _read_shape(reader: _Reader, item: CollisionObject) -> None:
     kind = reader.word("a shape")
     if kind in _KINDS:
         number, order = _KINDS[kind]
@@ -149,7 +149,7 @@ class _Reader:
             raise self.problem(f"the text ends where {what} is expected")
         return self._text[start:end]
 
-    def floats(self, count: int, what: str) -> List[float]:
+    def floats(self, count: int, what: str) -> list[float]:
         words = [self.word(what) for _ in range(count)]
         try:
             values = [float(word) for word in words]

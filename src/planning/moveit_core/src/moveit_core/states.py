@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Callable, List, Optional
+from collections.abc import Callable
 
 import motion
 import numpy as np
@@ -28,7 +28,7 @@ def is_empty(message: RobotState) -> bool:
     )
 
 
-def apply_robot_state(scene, state: motion.RobotState, message: RobotState, attach: Optional[Callable] = None) -> None:
+def apply_robot_state(scene, state: motion.RobotState, message: RobotState, attach: Callable | None = None) -> None:
     """Merge a RobotState message into ``state``.
 
     Poses of floating and planar joints are given in the frame of ``multi_dof_joint_state``'s header, which ``scene`` (None: the robot's
@@ -102,7 +102,7 @@ def multi_dof_pose(state: motion.RobotState, joint: str) -> motion.Pose:
     return motion.Pose(np.array((x, y, 0.0)), np.array((0.0, 0.0, np.sin(theta / 2), np.cos(theta / 2))))
 
 
-def _multi_dof_joints(model) -> List[str]:
+def _multi_dof_joints(model) -> list[str]:
     return [name for name in model.active_joints if model.joint(name).type in ("planar", "floating")]
 
 
@@ -124,7 +124,7 @@ def robot_state_message(state: motion.RobotState, attached: bool = True, velocit
     return message
 
 
-def one_variable_joints(model) -> List[str]:
+def one_variable_joints(model) -> list[str]:
     """Revolute, continuous and prismatic joints, mimic ones too, in the model's order."""
     return [name for name in model.joints if model.joint(name).type in ("revolute", "continuous", "prismatic")]
 
@@ -143,7 +143,7 @@ def attached_message(body: motion.AttachedBody) -> AttachedCollisionObject:
     return message
 
 
-def fill_type(item: CollisionObject, kind: Optional[str]) -> None:
+def fill_type(item: CollisionObject, kind: str | None) -> None:
     """Write the type that a scene keeps of an object into a CollisionObject."""
     if kind:
         item.type = ObjectType(*kind.split("\t", 1))
@@ -156,7 +156,7 @@ def fill_subframes(item: CollisionObject, subframes) -> None:
         item.subframe_poses.append(convert.pose_message(where))
 
 
-def trajectory_message(trajectory: Optional[motion.Trajectory]) -> RobotTrajectory:
+def trajectory_message(trajectory: motion.Trajectory | None) -> RobotTrajectory:
     """A trajectory as a message: joints in the order of the group, frame the model's, stamp 0. None gives an empty
     one."""
     message = RobotTrajectory()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Dict, Optional, Sequence
+from collections.abc import Sequence
 
 import rospy
 from moveit_core.controller_manager import Completion, ControllerHandle, ExecutionStatus
@@ -27,7 +27,7 @@ class FakeHandle(ControllerHandle):
         self._rate = rate
         self._completion = Completion()
         self._stop = threading.Event()
-        self._thread: Optional[threading.Thread] = None
+        self._thread: threading.Thread | None = None
 
     def send(self, trajectory: RobotTrajectory) -> bool:
         self.cancel()
@@ -54,7 +54,7 @@ class FakeHandle(ControllerHandle):
         self._completion.finish(ExecutionStatus.PREEMPTED)
         return True
 
-    def wait(self, timeout: Optional[float] = None) -> bool:
+    def wait(self, timeout: float | None = None) -> bool:
         return self._completion.wait(timeout)
 
     @property
@@ -138,7 +138,7 @@ class FakeControllerManager(ListedControllers):
 
     def _initial(self) -> None:
         """Publish the poses that ``initial`` names, so that the robot has a state before it moves."""
-        values: Dict[str, float] = {}
+        values: dict[str, float] = {}
         state = self.model.state()
         entries = rospy.get_param(self.namespace + "initial", [])
         for entry in entries if isinstance(entries, list) else ():

@@ -8,7 +8,6 @@ import os
 import socket
 import time
 from dataclasses import dataclass
-from typing import Dict, List, Optional
 
 import motion
 import numpy as np
@@ -50,7 +49,7 @@ class Executor:
         self._pipelines = {name: self._pipeline(name, planners) for name, planners in options.pipelines.items()}
         self._scene = robot_model.prepare_scene(self._description)
 
-    def _pipeline(self, name: str, planners: List[str]) -> Pipeline:
+    def _pipeline(self, name: str, planners: list[str]) -> Pipeline:
         namespace = f"~{name}/"
         if not rospy.has_param(namespace + "planning_plugin"):
             if rospy.has_param(f"~planning_pipelines/{name}/planning_plugin"):
@@ -80,7 +79,7 @@ class Executor:
 
     # --- problems ---
 
-    def load(self, warehouse: Optional[Warehouse]) -> List[Problem]:
+    def load(self, warehouse: Warehouse | None) -> list[Problem]:
         """The problems: stored goals, queries and trajectory constraints with every start and path constraint.
 
         :param warehouse: needed where the options name something that is stored.
@@ -108,7 +107,7 @@ class Executor:
             )
         return found
 
-    def combine_poses(self) -> List[Problem]:
+    def combine_poses(self) -> list[Problem]:
         """From each of the predefined poses to each other.
 
         :raises OptionsError: fewer than two of them exist.
@@ -153,7 +152,7 @@ class Executor:
         SceneEditor(self._scene, rospy.logwarn).planning_scene(message)
 
     @staticmethod
-    def _stored(warehouse: Optional[Warehouse], what: str, pattern: str) -> Dict[str, object]:
+    def _stored(warehouse: Warehouse | None, what: str, pattern: str) -> dict[str, object]:
         if not pattern:
             return {}
         collection = getattr(warehouse, what)
@@ -162,7 +161,7 @@ class Executor:
             rospy.logwarn("No stored %s fit '%s'; there are: %s", what.replace("_", " "), pattern, ", ".join(collection.names()) or "none")
         return {name: collection.load(name) for name in names}
 
-    def _queries(self, warehouse: Optional[Warehouse]) -> List[str]:
+    def _queries(self, warehouse: Warehouse | None) -> list[str]:
         if not self.options.queries or warehouse is None:
             return []
         return warehouse.requests.names(self.options.queries, scene=self.options.scene)
@@ -203,7 +202,7 @@ class Executor:
         return goal
 
     @staticmethod
-    def _combined(name: str, request: MotionPlanRequest, starts, paths) -> List[Problem]:
+    def _combined(name: str, request: MotionPlanRequest, starts, paths) -> list[Problem]:
         found = []
         for start, state in (starts or {"": None}).items():
             if start == name:  # from a goal to itself
@@ -219,9 +218,9 @@ class Executor:
 
     # --- runs ---
 
-    def run(self, problems: List[Problem]) -> List[str]:
+    def run(self, problems: list[Problem]) -> list[str]:
         """Run everything; the log files, one for each problem."""
-        files: List[str] = []
+        files: list[str] = []
         for number, problem in enumerate(problems, 1):
             rospy.loginfo("Benchmarking query '%s' (%d of %d)", problem.name, number, len(problems))
             setup = f"Motion plan request:\n{problem.request}\nPlanning scene: \n{scene_message(self._scene)}"
@@ -239,7 +238,7 @@ class Executor:
             files.append(self._write(entry))
         return files
 
-    def _runs(self, pipeline: Pipeline, planner: str, problem: Problem) -> List[log.Run]:
+    def _runs(self, pipeline: Pipeline, planner: str, problem: Problem) -> list[log.Run]:
         request = copy.deepcopy(problem.request)
         request.planner_id = planner
         runs, trajectories, times = [], [], []
@@ -277,7 +276,7 @@ class Executor:
         return file
 
 
-def open_warehouse(options: Options) -> Optional[Warehouse]:
+def open_warehouse(options: Options) -> Warehouse | None:
     """The warehouse, where the options name something that is stored."""
     stored = (options.scene, options.start_states, options.goal_constraints, options.path_constraints, options.trajectory_constraints)
     return connect(options.host) if any(stored) else None

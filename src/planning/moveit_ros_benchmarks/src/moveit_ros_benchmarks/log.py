@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Dict, List
 
-Run = Dict[str, str]  # "time REAL": "0.1"
+Run = dict[str, str]  # "time REAL": "0.1"
 
 
 @dataclass
@@ -20,7 +19,7 @@ class Log:
     runs: int
     duration: float = 0.0
     version: str = "1.1.14"
-    planners: Dict[str, List[Run]] = field(default_factory=dict)
+    planners: dict[str, list[Run]] = field(default_factory=dict)
 
 
 def write(log: Log) -> str:

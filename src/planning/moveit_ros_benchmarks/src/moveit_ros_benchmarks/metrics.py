@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import List, Optional
-
 import motion
 import numpy as np
 
@@ -41,7 +39,7 @@ def smoothness(trajectory: motion.Trajectory) -> float:
     return total / max(1, len(positions))
 
 
-def of_run(scene: motion.PlanningScene, result: Optional[motion.PlanResult], took: float, planning: float) -> Run:
+def of_run(scene: motion.PlanningScene, result: motion.PlanResult | None, took: float, planning: float) -> Run:
     """The properties of one run, by the names of the log. :param took: s, of the whole request."""
     solved = bool(result)
     run = {"time REAL": f"{took:.9g}", "solved BOOLEAN": str(int(solved))}
@@ -64,7 +62,7 @@ def of_run(scene: motion.PlanningScene, result: Optional[motion.PlanResult], too
     return run
 
 
-def add_similarity(runs: List[Run], trajectories: List[Optional[motion.Trajectory]]) -> None:
+def add_similarity(runs: list[Run], trajectories: list[motion.Trajectory | None]) -> None:
     """How far each path is from the others, on average, by way points: average_waypoint_distance."""
     solved = {i: trajectory for i, trajectory in enumerate(trajectories) if trajectory is not None and len(trajectory)}
     for i, trajectory in solved.items():

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import configparser
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Sequence, Tuple
+from typing import Any
 
 import yaml
 from moveit_core.errors import MoveItError
@@ -37,11 +38,11 @@ class Options:
     goal_constraints: str = ""
     path_constraints: str = ""
     trajectory_constraints: str = ""
-    predefined_poses: List[str] = field(default_factory=list)
+    predefined_poses: list[str] = field(default_factory=list)
     predefined_poses_group: str = ""
     goal_offset: Sequence[float] = (0.0,) * 6
     workspace: Any = None
-    pipelines: Dict[str, List[str]] = field(default_factory=dict)
+    pipelines: dict[str, list[str]] = field(default_factory=dict)
 
 
 def read(config: Any, where: str) -> Options:
@@ -87,14 +88,14 @@ def read(config: Any, where: str) -> Options:
     return options
 
 
-def _table(config: Dict[str, Any], key: str, where: str) -> Dict[str, Any]:
+def _table(config: dict[str, Any], key: str, where: str) -> dict[str, Any]:
     value = config.get(key) or {}
     if not isinstance(value, dict):
         raise OptionsError(f"{where}/{key} is '{str(value)[:40]}', where a table is expected")
     return value
 
 
-def _number(table: Dict[str, Any], key: str, default: float, where: str, least: float = -1e9) -> float:
+def _number(table: dict[str, Any], key: str, default: float, where: str, least: float = -1e9) -> float:
     value = table.get(key, default)
     if not is_number(value, least) or value >= 1e9:
         raise OptionsError(
@@ -103,7 +104,7 @@ def _number(table: Dict[str, Any], key: str, default: float, where: str, least: 
     return float(value)
 
 
-def _pipelines(entries: Any, where: str) -> Dict[str, List[str]]:
+def _pipelines(entries: Any, where: str) -> dict[str, list[str]]:
     found = {}
     for entry in entries if isinstance(entries, list) else []:
         planners = entry.get("planners") if isinstance(entry, dict) else None
@@ -132,7 +133,7 @@ def load(file: str) -> Options:
 
 def _old(content: str, file: str) -> Options:
     parser = configparser.ConfigParser(strict=False, interpolation=None, inline_comment_prefixes=("#",))
-    names: List[Tuple[str, List[str]]] = []
+    names: list[tuple[str, list[str]]] = []
     lines = []
     for line in content.splitlines():  # sections of one name, one a plug-in, become sections of their own
         if line.strip().lower() == "[plugin]":
@@ -145,8 +146,8 @@ def _old(content: str, file: str) -> Options:
     for name, _ in names:
         kind = parser[name].get("name", "")
         pipelines.append({"name": "ompl" if "ompl" in kind.lower() else kind, "planners": parser[name].get("planners", "").split()})
-    numbers: Dict[str, Any] = {key: yaml.safe_load(scene[key]) for key in ("runs", "timeout") if key in scene}
-    parameters: Dict[str, Any] = {
+    numbers: dict[str, Any] = {key: yaml.safe_load(scene[key]) for key in ("runs", "timeout") if key in scene}
+    parameters: dict[str, Any] = {
         "name": scene.get("name", ""),
         "group": scene.get("group", ""),
         "queries": scene.get("query", ".*"),

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import sqlite3
 import sys
-from typing import List, Tuple
 
 import numpy as np
 
@@ -51,7 +50,7 @@ def store(base: sqlite3.Connection, entry: log.Log) -> None:
     base.commit()
 
 
-def _column(base: sqlite3.Connection, key: str, value: str) -> Tuple[str, str]:
+def _column(base: sqlite3.Connection, key: str, value: str) -> tuple[str, str]:
     """The column of a property, made where it is missing, and its value."""
     words, kind = key.split()[:-1], key.split()[-1]
     name = "".join(c if c.isalnum() else "_" for c in "_".join(words))
@@ -60,7 +59,7 @@ def _column(base: sqlite3.Connection, key: str, value: str) -> Tuple[str, str]:
     return name, value
 
 
-def summary(entry: log.Log) -> List[str]:
+def summary(entry: log.Log) -> list[str]:
     """A line for each planner: solved, time and length in the middle."""
     lines = [f"{entry.name}: {entry.runs} runs each"]
     for planner, runs in entry.planners.items():
@@ -73,7 +72,7 @@ def summary(entry: log.Log) -> List[str]:
     return lines
 
 
-def plot(entries: List[log.Log], file: str) -> None:
+def plot(entries: list[log.Log], file: str) -> None:
     """Box plots of the real-valued properties of all runs, a page each."""
     import matplotlib
 

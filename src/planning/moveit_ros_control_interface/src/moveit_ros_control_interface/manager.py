@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from typing import Any, Dict, List, Optional, Sequence
+from collections.abc import Sequence
+from typing import Any
 
 import rosgraph
 import rospy
@@ -27,13 +28,13 @@ def _handle_kind(controller_type: str):
 class ControlManager(ControllerManager):
     """The controllers of the controller_manager in ``~ros_control_namespace`` (default /)."""
 
-    def __init__(self, model, namespace: str = "~", control_namespace: Optional[str] = None):
+    def __init__(self, model, namespace: str = "~", control_namespace: str | None = None):
         super().__init__(model, namespace)
         given = rospy.get_param(namespace + "ros_control_namespace", "/") if control_namespace is None else control_namespace
         self._ns = "/" + given.strip("/") + ("/" if given.strip("/") else "")
-        self._known: Dict[str, Any] = {}
+        self._known: dict[str, Any] = {}
         self._read = 0.0
-        self._handles: Dict[str, ControllerHandle] = {}
+        self._handles: dict[str, ControllerHandle] = {}
         rospy.loginfo("Started moveit_ros_control_interface::MoveItControllerManager for namespace %s", self._ns)
 
     @property
@@ -64,19 +65,19 @@ class ControlManager(ControllerManager):
     def _full(self, name: str) -> str:
         return self._ns + name.lstrip("/")
 
-    def controllers(self) -> List[str]:
+    def controllers(self) -> list[str]:
         self._discover()
         return sorted(self._known)
 
-    def active_controllers(self) -> List[str]:
+    def active_controllers(self) -> list[str]:
         self._discover()
         return sorted(name for name, controller in self._known.items() if controller.state == "running")
 
-    def joints(self, controller: str) -> List[str]:
+    def joints(self, controller: str) -> list[str]:
         entry = self._known.get(controller)
         return sorted({joint for claimed in entry.claimed_resources for joint in claimed.resources}) if entry else []
 
-    def handle(self, controller: str) -> Optional[ControllerHandle]:
+    def handle(self, controller: str) -> ControllerHandle | None:
         self._discover()
         return self._handles.get(controller) if controller in self.active_controllers() else None
 
@@ -108,7 +109,7 @@ class MultiControlManager(ControllerManager):
 
     def __init__(self, model, namespace: str = "~"):
         super().__init__(model, namespace)
-        self._managers: Dict[str, ControlManager] = {}
+        self._managers: dict[str, ControlManager] = {}
         self._read = 0.0
 
     def _discover(self) -> None:
@@ -127,23 +128,23 @@ class MultiControlManager(ControllerManager):
                 if found not in self._managers:
                     self._managers[found] = ControlManager(self.model, self.namespace, found)
 
-    def _owner(self, controller: str) -> Optional[ControlManager]:
+    def _owner(self, controller: str) -> ControlManager | None:
         self._discover()
         return next((manager for manager in self._managers.values() if controller in manager.controllers()), None)
 
-    def controllers(self) -> List[str]:
+    def controllers(self) -> list[str]:
         self._discover()
         return sorted(name for manager in self._managers.values() for name in manager.controllers())
 
-    def active_controllers(self) -> List[str]:
+    def active_controllers(self) -> list[str]:
         self._discover()
         return sorted(name for manager in self._managers.values() for name in manager.active_controllers())
 
-    def joints(self, controller: str) -> List[str]:
+    def joints(self, controller: str) -> list[str]:
         owner = self._owner(controller)
         return owner.joints(controller) if owner else []
 
-    def handle(self, controller: str) -> Optional[ControllerHandle]:
+    def handle(self, controller: str) -> ControllerHandle | None:
         owner = self._owner(controller)
         return owner.handle(controller) if owner else None
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from typing import Callable, List, Sequence, Tuple
+from collections.abc import Callable, Sequence
 
 import motion
 import rospy
@@ -111,7 +111,7 @@ class _Manipulate(ActionCapability):
         """Plan the goal in ``scene``."""
         raise NotImplementedError
 
-    def effector(self, name: str, group: str) -> Tuple[str, str, str]:
+    def effector(self, name: str, group: str) -> tuple[str, str, str]:
         """(group of the arm, group of the hand, link) of an end effector, by its name or the arm that carries it.
 
         :raises PlanningError: there is none, or several.
@@ -223,7 +223,7 @@ class Pickup(_Manipulate):
             scene, goal, grasps, lambda grasp: self._task(scene, goal, grasp, (arm, hand, link), closer), result, "grasp"
         )
 
-    def _task(self, scene, goal, grasp: Grasp, effector: Tuple[str, str, str], closer: bool) -> Task:
+    def _task(self, scene, goal, grasp: Grasp, effector: tuple[str, str, str], closer: bool) -> Task:
         arm, hand, link = effector
         target = goal.target_name
         self.check(
@@ -266,7 +266,7 @@ class Pickup(_Manipulate):
             others if closer else None,
         )
 
-    def _attach(self, name: str, link: str, touch: List[str], grasp: Grasp) -> bool:
+    def _attach(self, name: str, link: str, touch: list[str], grasp: Grasp) -> bool:
         message = AttachedCollisionObject(link_name=link, touch_links=touch, detach_posture=grasp.pre_grasp_posture)
         message.object.id, message.object.operation = name, CollisionObject.ADD
         return self.context.monitor.process_attached(message)
@@ -330,7 +330,7 @@ class Place(_Manipulate):
         model = self.context.model
         return next((eef for eef in model.end_effectors if body.link == eef.parent_link or body.link in model.group(eef.group).links), None)
 
-    def _hand(self, goal, body) -> Tuple[str, str, str]:
+    def _hand(self, goal, body) -> tuple[str, str, str]:
         """The hand that holds the body."""
         model, group = self.context.model, goal.group_name
         eef = self._holder(body)
@@ -341,7 +341,7 @@ class Place(_Manipulate):
             raise PlanningError(MoveItErrorCodes.INVALID_GROUP_NAME, f"no end effector holds '{body.id}' (it hangs on '{body.link}')")
         return group, "", body.link
 
-    def _task(self, scene, goal, location: PlaceLocation, body, effector: Tuple[str, str, str]) -> Task:
+    def _task(self, scene, goal, location: PlaceLocation, body, effector: tuple[str, str, str]) -> Task:
         arm, hand, link = effector
         self.check(
             [(location.pre_place_approach, "pre_place_approach"), (location.post_place_retreat, "post_place_retreat")],

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Callable, Dict, List, Optional, Sequence, Tuple
 
 import motion
 import numpy as np
@@ -44,7 +44,7 @@ class Task:
     change: Callable[[motion.PlanningScene], None]
     effect: Callable[[], bool]
     #: what may touch while the hand comes as close to the target as it can; None: it stays at ``target``
-    allow_closer: Optional[Allow] = None
+    allow_closer: Allow | None = None
 
 
 @dataclass
@@ -61,7 +61,7 @@ class Settings:
 class Outcome:
     """Segments, or why there are none; ``reached``: how many of a way's parts could be planned."""
 
-    segments: List[Segment] = field(default_factory=list)
+    segments: list[Segment] = field(default_factory=list)
     code: int = MoveItErrorCodes.PLANNING_FAILED
     message: str = ""
     reached: int = -1
@@ -74,7 +74,7 @@ class Manipulation:
     """
 
     def __init__(
-        self, free_motion: Callable, time_limit: float, cancelled: Callable[[], bool] = lambda: False, settings: Optional[Settings] = None
+        self, free_motion: Callable, time_limit: float, cancelled: Callable[[], bool] = lambda: False, settings: Settings | None = None
     ):
         self._settings = settings or Settings()
         self._free_motion = free_motion
@@ -157,7 +157,7 @@ class Manipulation:
             return Outcome(code=free.code, message=free.message, reached=2)
         return Outcome(self._segments(scene, task, free.trajectory, approach, retreat), MoveItErrorCodes.SUCCESS)
 
-    def _retreat(self, scene, task: Task, state) -> Optional[motion.Trajectory]:
+    def _retreat(self, scene, task: Task, state) -> motion.Trajectory | None:
         after = self._loosened(scene, task.allow_retreat)
         after.set_state(state)
         task.change(after)
@@ -174,7 +174,7 @@ class Manipulation:
         rows = self._line(near, task, state, task.approach, _CLOSER)[0]
         return rows.positions[-2] if rows is not None and len(rows) > 1 else state.get_group(task.group)
 
-    def _straight(self, scene, task: Task, state, move: GripperTranslation, sign: float) -> Optional[motion.Trajectory]:
+    def _straight(self, scene, task: Task, state, move: GripperTranslation, sign: float) -> motion.Trajectory | None:
         """A straight motion of the hand from ``state``; None if not even the least distance can be gone."""
         distance = max(move.desired_distance, move.min_distance)
         if not moves(move) and distance <= 0:
@@ -182,7 +182,7 @@ class Manipulation:
         trajectory, gone = self._line(scene, task, state, move, sign * distance)
         return trajectory if trajectory is not None and gone >= move.min_distance - 1e-6 else None
 
-    def _line(self, scene, task: Task, state, move: GripperTranslation, distance: float) -> Tuple[Optional[motion.Trajectory], float]:
+    def _line(self, scene, task: Task, state, move: GripperTranslation, distance: float) -> tuple[motion.Trajectory | None, float]:
         """The hand's motion along the direction of ``move`` (against it below zero), and the metres that it gets."""
         direction = move.direction.vector
         vector = np.array((direction.x, direction.y, direction.z), dtype=float)
@@ -207,7 +207,7 @@ class Manipulation:
         return found.trajectory, found.fraction * abs(distance)
 
     @staticmethod
-    def _segments(scene, task: Task, free, approach, retreat) -> List[Segment]:
+    def _segments(scene, task: Task, free, approach, retreat) -> list[Segment]:
         segments = [Segment(free, "plan")]
         opening = gripper_motion(scene, scene.state, task.hand, task.open)
         if opening is not None:
@@ -261,7 +261,7 @@ def timed(model, trajectory: motion.Trajectory) -> motion.Trajectory:
     return motion.time_parameterize(model, trajectory, "iterative_parabolic", velocity_scaling=0.2, acceleration_scaling=0.2)
 
 
-def clamped(model, posture: JointTrajectory, point: int) -> Dict[str, float]:
+def clamped(model, posture: JointTrajectory, point: int) -> dict[str, float]:
     """Joint values of a posture's point, inside the limits: grippers are told to open or close as far as they can."""
     values = {}
     for name, value in zip(posture.joint_names, posture.points[point].positions):
@@ -272,7 +272,7 @@ def clamped(model, posture: JointTrajectory, point: int) -> Dict[str, float]:
     return values
 
 
-def gripper_motion(scene, before, hand: str, posture: JointTrajectory) -> Optional[motion.Trajectory]:
+def gripper_motion(scene, before, hand: str, posture: JointTrajectory) -> motion.Trajectory | None:
     """The trajectory of a posture, from the state ``before`` it; None when it moves nothing."""
     if not posture.points or not hand:
         return None

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import functools
-from typing import Any, Callable, List
+from collections.abc import Callable
+from typing import Any
 
 import actionlib
 import motion
@@ -68,7 +69,7 @@ def _tells_failure(response) -> bool:
     return bool(_holders_of_code(response)) or hasattr(response, "success") or hasattr(response, "valid")
 
 
-def _holders_of_code(response) -> List[Any]:
+def _holders_of_code(response) -> list[Any]:
     holders = (response, getattr(response, "motion_plan_response", None), getattr(response, "response", None))
     return [holder for holder in holders if hasattr(holder, "error_code")]
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Optional, Sequence
 
 import motion
 import rospy
@@ -27,9 +27,9 @@ class Context:
     description: RobotDescription
     monitor: SceneMonitor
     pipelines: Pipelines
-    execution: Optional[TrajectoryExecution]
-    plan_execution: Optional[PlanExecution]
-    display: "Display"
+    execution: TrajectoryExecution | None
+    plan_execution: PlanExecution | None
+    display: Display
     octomap: OccupancyMapMonitor
     debug: bool = False
 
@@ -37,9 +37,7 @@ class Context:
     def model(self) -> motion.RobotModel:
         return self.description.model
 
-    def plan(
-        self, scene: motion.PlanningScene, request: MotionPlanRequest, cancel: Optional[motion.CancelToken] = None
-    ) -> motion.PlanResult:
+    def plan(self, scene: motion.PlanningScene, request: MotionPlanRequest, cancel: motion.CancelToken | None = None) -> motion.PlanResult:
         """Plan with the pipeline that the request names, and show the result.
 
         :raises PlanningError: the request cannot be served.

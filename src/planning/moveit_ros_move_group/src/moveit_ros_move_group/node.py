@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from typing import List, Optional
 
 import motion
 import node_signals
@@ -41,7 +40,7 @@ _LAST = ("move_group/MoveGroupExecuteTrajectoryAction", "move_group/MoveGroupMov
 _GREEN, _CYAN, _BLUE, _PLAIN = "\033[32m", "\033[36m", "\033[34m", "\033[0m"
 
 
-def main(arguments: Optional[List[str]] = None) -> int:
+def main(arguments: list[str] | None = None) -> int:
     """Run the node until it is shut down; the exit code."""
     arguments = rospy.myargv() if arguments is None else arguments
     debug = any(argument.startswith("--debug") for argument in arguments[1:])
@@ -87,10 +86,10 @@ class MoveGroup:
             description, monitor, pipelines, execution, plan_execution, Display(description.model, debug), octomap, debug
         )
         self._map_services = [rospy.Service("~load_map", LoadMap, self._load_map), rospy.Service("~save_map", SaveMap, self._save_map)]
-        self.capabilities: List[Capability] = []
+        self.capabilities: list[Capability] = []
         self._load_capabilities()
 
-    def _wanted(self) -> List[str]:
+    def _wanted(self) -> list[str]:
         names = set(_DEFAULT) | set(_words(rospy.get_param("~capabilities", "")))
         for pipeline in self.context.pipelines.pipelines.values():
             names |= set(_words(rospy.get_param(pipeline.namespace + "capabilities", "")))
@@ -156,7 +155,7 @@ class MoveGroup:
         return True
 
 
-def _words(value) -> List[str]:
+def _words(value) -> list[str]:
     """Names of a parameter that holds them separated by blanks, or as a list."""
     return [str(entry) for entry in value] if isinstance(value, list) else str(value or "").split()
 

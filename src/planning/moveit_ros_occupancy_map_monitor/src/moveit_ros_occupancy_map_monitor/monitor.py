@@ -5,7 +5,8 @@ from __future__ import annotations
 import ctypes
 import threading
 import time
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from collections.abc import Callable
+from typing import Any
 
 import motion
 import numpy as np
@@ -40,14 +41,14 @@ class OccupancyMapMonitor:
         self.frame = str(rospy.get_param(namespace + "octomap_frame", "")).lstrip("/") or scene.model.frame
         #: m that sensors are believed to see where their own settings do not say
         self.max_range = _number(namespace + "max_range", np.inf)
-        self.updaters: List[OccupancyMapUpdater] = []
+        self.updaters: list[OccupancyMapUpdater] = []
         self._load(entries)
         scene.on_octomap_gone(self._forget)
         for updater in self.updaters:
             updater.start()
 
     @staticmethod
-    def _entries(namespace: str) -> List[Dict[str, Any]]:
+    def _entries(namespace: str) -> list[dict[str, Any]]:
         parameter = rospy.resolve_name(namespace + "sensors")
         entries = rospy.get_param(namespace + "sensors", None)
         if entries is not None and not isinstance(entries, list):
@@ -65,7 +66,7 @@ class OccupancyMapMonitor:
             rospy.loginfo("No 3D sensor plugin(s) defined for octomap updates")
         return usable
 
-    def _load(self, entries: List[Dict[str, Any]]) -> None:
+    def _load(self, entries: list[dict[str, Any]]) -> None:
         found = find_plugins("moveit_ros_occupancy_map_monitor")[0] if entries else {}
         for entry in entries:
             name = str(entry["sensor_plugin"])
@@ -143,10 +144,10 @@ class OccupancyMapMonitor:
             pose = self._transform(self.frame, rospy.Time(0), self._scene.model.frame)
         self._scene.set_octomap(tree, pose)
 
-    def _known(self, stamp: rospy.Time) -> List[Tuple[motion.Shape, motion.Pose]]:
+    def _known(self, stamp: rospy.Time) -> list[tuple[motion.Shape, motion.Pose]]:
         """Shapes and their poses in the map's frame: links where TF had them, what hangs on them, and objects."""
         scene, placed = self._scene.copy(), []
-        held: Dict[str, list] = {}
+        held: dict[str, list] = {}
         for body in scene.state.attached:
             held.setdefault(body.link, []).append(body)
         for name in scene.model.links:
@@ -166,7 +167,7 @@ class OccupancyMapMonitor:
                 ]
         return placed
 
-    def _transform(self, frame: str, stamp: rospy.Time, target: Optional[str] = None) -> motion.Pose:
+    def _transform(self, frame: str, stamp: rospy.Time, target: str | None = None) -> motion.Pose:
         target, frame = target or self.frame, frame.lstrip("/")
         if frame == target:
             return motion.Pose.identity()

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import threading
 from abc import ABC, abstractmethod
-from typing import Any, Dict
+from typing import Any
 
 import motion
 import rospy
@@ -34,7 +34,7 @@ class OccupancyMapUpdater(ABC):
     :raises UpdaterError: the settings cannot be used.
     """
 
-    def __init__(self, monitor, settings: Dict[str, Any]):
+    def __init__(self, monitor, settings: dict[str, Any]):
         self.monitor = monitor
         self._settings = settings
         self._gate = Spaced(self.number("max_update_rate", 0.0), strict=True)

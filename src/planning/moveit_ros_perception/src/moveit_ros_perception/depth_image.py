@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Optional, Sequence, Tuple
+from collections.abc import Sequence
 
 import numpy as np
 import rospy
@@ -31,7 +31,7 @@ def depths(message: Image) -> np.ndarray:
     return values
 
 
-def rays(values: np.ndarray, info: CameraInfo, skip: Tuple[int, int]) -> Tuple[np.ndarray, np.ndarray]:
+def rays(values: np.ndarray, info: CameraInfo, skip: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
     """Directions (n, 3) with z = 1 in the optical frame, and depths (n,), of pixels inside a margin of ``skip`` (vertical,
     horizontal) that have a depth; of very many only some.
 
@@ -69,7 +69,7 @@ class DepthImageUpdater(OccupancyMapUpdater):
             raise UpdaterError(f"clipping planes at {self.near:g} and {self.far:g} m, and {self.skip} skipped pixels make no sense")
         space = self.text("ns") + "/" if self.text("ns") else ""
         self._filtered = rospy.Publisher("~" + space + (self.text("filtered_cloud_topic") or "filtered_depth"), Image, queue_size=1)
-        self._info: Optional[CameraInfo] = None
+        self._info: CameraInfo | None = None
         self._info_topic = self._topic.rsplit("/", 1)[0] + "/camera_info"
         self._subscribers = [
             rospy.Subscriber(self._info_topic, CameraInfo, self._on_info, queue_size=1),
@@ -104,7 +104,7 @@ class DepthImageUpdater(OccupancyMapUpdater):
         if self._filtered.get_num_connections():
             self._publish(message, self._info.K, ends[labels == 0], values.shape)
 
-    def _publish(self, message: Image, k: Sequence[float], ends: np.ndarray, shape: Tuple[int, ...]) -> None:
+    def _publish(self, message: Image, k: Sequence[float], ends: np.ndarray, shape: tuple[int, ...]) -> None:
         image = np.zeros(shape, "<u2")
         u = np.rint(ends[:, 0] / ends[:, 2] * k[0] + k[2]).astype(int)
         v = np.rint(ends[:, 1] / ends[:, 2] * k[4] + k[5]).astype(int)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import threading
-from typing import Dict, List, Optional, Sequence
+from collections.abc import Sequence
 
 import motion
 import rosgraph
@@ -17,13 +17,13 @@ from plugin_loader import PluginClass, find_plugins
 _PLANNER = "planning_interface::PlannerManager"
 _ADAPTER = "planning_request_adapter::PlanningRequestAdapter"
 #: error code -> the library's word for it, the first of each
-_STATUS: Dict[int, str] = {}
+_STATUS: dict[int, str] = {}
 for _word, _code in motion.planning.CODES.items():
     _STATUS.setdefault(_code, _word)
 _STATUS[MoveItErrorCodes.PLANNING_FAILED] = "failed"
 
 
-def exported(kind: str) -> Dict[str, PluginClass]:
+def exported(kind: str) -> dict[str, PluginClass]:
     """All classes that packages export as planners (``planner``) or request adapters (``adapter``), by name."""
     base = {"planner": _PLANNER, "adapter": _ADAPTER}[kind]
     found, _problems = find_plugins("moveit_core")
@@ -56,12 +56,12 @@ class CompiledPipeline:
     def title(self) -> str:
         return self._pipeline.description or "compiled"
 
-    def planner_ids(self) -> List[str]:
+    def planner_ids(self) -> list[str]:
         """What the planner says it can do."""
         return list(self._pipeline.algorithms)
 
     def generate(
-        self, scene: motion.PlanningScene, message: MotionPlanRequest, cancel: Optional[motion.CancelToken] = None
+        self, scene: motion.PlanningScene, message: MotionPlanRequest, cancel: motion.CancelToken | None = None
     ) -> motion.PlanResult:
         """Plan with all adapters. Never raises for what a request says: see the result's status."""
         done = threading.Event()
@@ -81,7 +81,7 @@ class CompiledPipeline:
                 self._pipeline.terminate()  # again and again: the planner may not have begun yet
 
     def _result(
-        self, scene, message: MotionPlanRequest, response: MotionPlanResponse, added: Sequence[int], cancel: Optional[motion.CancelToken]
+        self, scene, message: MotionPlanRequest, response: MotionPlanResponse, added: Sequence[int], cancel: motion.CancelToken | None
     ) -> motion.PlanResult:
         start, code = scene.state, response.error_code.val
         if cancel is not None and cancel.cancelled:

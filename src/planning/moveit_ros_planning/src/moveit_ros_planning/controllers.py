@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from typing import Dict, List, Optional, Sequence, Set
+from collections.abc import Sequence
 
 import rospy
 from moveit_core.controller_manager import ControllerManager
@@ -20,7 +20,7 @@ _WORDS = {
 }
 
 
-def load_manager(model, namespace: str = "~") -> Optional[ControllerManager]:
+def load_manager(model, namespace: str = "~") -> ControllerManager | None:
     """The controller manager that ``~moveit_controller_manager`` names; None (and an error line) if there is none."""
     found, problems = find_plugins("moveit_core")
     parameter = rospy.resolve_name(namespace + "moveit_controller_manager")
@@ -78,7 +78,7 @@ class ControllerChoice:
         self._manager = manager
         self._manage = manage
 
-    def actuated(self, trajectory: RobotTrajectory) -> Set[str]:
+    def actuated(self, trajectory: RobotTrajectory) -> set[str]:
         """Joints of a trajectory that need a controller: not fixed, mimic or passive."""
         names = [*trajectory.joint_trajectory.joint_names, *trajectory.multi_dof_joint_trajectory.joint_names]
         return {name for name in names if self._model.has_joint(name) and self._is_actuated(self._model.joint(name))}
@@ -87,12 +87,12 @@ class ControllerChoice:
     def _is_actuated(joint) -> bool:
         return not joint.passive and joint.mimic is None and joint.type != "fixed"
 
-    def choose(self, wanted: Set[str], allowed: Sequence[str] = ()) -> List[str]:
+    def choose(self, wanted: set[str], allowed: Sequence[str] = ()) -> list[str]:
         """Names of the controllers that together move ``wanted``; empty if none do."""
         names = sorted(allowed or self._manager.controllers())
         joints = {name: set(self._manager.joints(name)) for name in names}
         useful = [name for name in names if joints[name] & wanted]
-        fallback: List[str] = []
+        fallback: list[str] = []
         for count in range(1, len(useful) + 1):
             options = [list(option) for option in itertools.combinations(useful, count) if self._covers(option, joints, wanted)]
             options.sort(key=lambda option: self._rank(option, joints))
@@ -105,15 +105,15 @@ class ControllerChoice:
         return fallback
 
     @staticmethod
-    def _covers(option: Sequence[str], joints: Dict[str, Set[str]], wanted: Set[str]) -> bool:
-        covered: Set[str] = set()
+    def _covers(option: Sequence[str], joints: dict[str, set[str]], wanted: set[str]) -> bool:
+        covered: set[str] = set()
         for name in option:
             if covered & joints[name]:
                 return False
             covered |= joints[name]
         return wanted <= covered
 
-    def _rank(self, option: Sequence[str], joints: Dict[str, Set[str]]):
+    def _rank(self, option: Sequence[str], joints: dict[str, set[str]]):
         return (
             -sum(self._manager.is_default(name) for name in option),
             sum(len(joints[name]) for name in option),

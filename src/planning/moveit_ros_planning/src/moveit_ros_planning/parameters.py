@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict
+from typing import Any
 
 import rospy
 from moveit_core.errors import one_line
 from node_signals.parameters import is_number
 
 
-def table(name: str) -> Dict[str, Any]:
+def table(name: str) -> dict[str, Any]:
     """The parameter ``name`` as a table; empty when it is none."""
     value = rospy.get_param(name, {})
     if isinstance(value, dict):
@@ -18,13 +18,13 @@ def table(name: str) -> Dict[str, Any]:
     return {}
 
 
-def joint_limits(name: str) -> Dict[str, Dict[str, Any]]:
+def joint_limits(name: str) -> dict[str, dict[str, Any]]:
     """The usable part of joint_limits.yaml: a table of numbers and has_... flags for each joint, or ``joint/variable``."""
     return _limits(name, table(name))
 
 
-def _limits(name: str, entries: Dict[str, Any]) -> Dict[str, Dict[str, Any]]:
-    usable: Dict[str, Dict[str, Any]] = {}
+def _limits(name: str, entries: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    usable: dict[str, dict[str, Any]] = {}
     for joint, entry in entries.items():
         if not isinstance(entry, dict):
             rospy.logerr(

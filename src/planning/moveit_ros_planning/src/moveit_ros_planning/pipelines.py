@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Dict, List, Optional
-
 import rospy
 from moveit_core.errors import PlanningError
 from moveit_msgs.msg import MoveItErrorCodes
@@ -17,8 +15,8 @@ class Pipelines:
 
     def __init__(self, description: RobotDescription, namespace: str = "~"):
         self.default = ""
-        self.pipelines: Dict[str, Pipeline] = {}
-        self.refused: Dict[str, str] = {}
+        self.pipelines: dict[str, Pipeline] = {}
+        self.refused: dict[str, str] = {}
         names = self._configured(namespace)
         wanted = rospy.get_param(namespace + "default_planning_pipeline", None)
         self.default = self._default(wanted, names)
@@ -39,7 +37,7 @@ class Pipelines:
             rospy.set_param(namespace + "default_planning_pipeline", self.default)
 
     @staticmethod
-    def _configured(namespace: str) -> List[str]:
+    def _configured(namespace: str) -> list[str]:
         entries = rospy.get_param(namespace + "planning_pipelines", {})
         if not isinstance(entries, dict):
             rospy.logerr(
@@ -55,7 +53,7 @@ class Pipelines:
         return names
 
     @staticmethod
-    def _default(wanted: Optional[str], names: List[str]) -> str:
+    def _default(wanted: str | None, names: list[str]) -> str:
         if wanted in names:
             return wanted
         if wanted:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, Callable, Dict, List, Optional
+from typing import Any
 
 import motion
 import rospy
@@ -54,10 +55,10 @@ class Segment:
     ``effect`` is called when it has ended well, and returns False to stop; ``monitor``: stop when the scene gets in
     the way."""
 
-    trajectory: Optional[motion.Trajectory]
+    trajectory: motion.Trajectory | None
     description: str = "plan"
-    effect: Optional[Callable[[], bool]] = None
-    allowed: Optional[Callable[[motion.AllowedCollisionMatrix], None]] = None
+    effect: Callable[[], bool] | None = None
+    allowed: Callable[[motion.AllowedCollisionMatrix], None] | None = None
     monitor: bool = True
 
 
@@ -67,9 +68,9 @@ class Plan:
 
     code: int = 0
     message: str = ""
-    segments: List[Segment] = field(default_factory=list)
+    segments: list[Segment] = field(default_factory=list)
     planning_time: float = 0.0
-    executed: Optional[RobotTrajectory] = None
+    executed: RobotTrajectory | None = None
 
 
 class Stop(threading.Event):
@@ -90,7 +91,7 @@ class PlanExecution:
     def __init__(self, monitor: SceneMonitor, execution: TrajectoryExecution, namespace: str = "~"):
         self._monitor = monitor
         self._execution = execution
-        self.config: Dict[str, Any] = {}
+        self.config: dict[str, Any] = {}
         self._server = Server(namespace + "plan_execution", _PARAMETERS, self._reconfigure)
         self._sensing = Server(namespace + "sense_for_plan", _SENSING, lambda config, level: None)
 
@@ -106,7 +107,7 @@ class PlanExecution:
         attempts: int = 0,
         delay: float = 0.0,
         before: Callable[[], None] = lambda: None,
-        stops: Optional[int] = None,
+        stops: int | None = None,
     ) -> Plan:
         """Plan with ``make(scene)`` and execute; with ``replan``, again after failures that planning again may mend.
 
@@ -143,7 +144,7 @@ class PlanExecution:
             rospy.logerr("Planning failed: %s", error)
             return Plan(MoveItErrorCodes.FAILURE, str(error))
 
-    def execute(self, plan: Plan, diff: Optional[PlanningScene], stop: Stop, stops: Optional[int] = None) -> None:
+    def execute(self, plan: Plan, diff: PlanningScene | None, stop: Stop, stops: int | None = None) -> None:
         """Execute the segments of ``plan``, write the outcome into it; for ``stops`` see TrajectoryExecution.start."""
         run = _Run(self._monitor, self._execution, plan, diff, stop, stops)
         recorder = _Recorder(self._monitor, float(self.config["record_trajectory_state_frequency"]))
@@ -158,7 +159,7 @@ class PlanExecution:
 class _Run:
     """One execution of a plan, watched."""
 
-    def __init__(self, monitor: SceneMonitor, execution: TrajectoryExecution, plan: Plan, diff, stop: Stop, stops: Optional[int]):
+    def __init__(self, monitor: SceneMonitor, execution: TrajectoryExecution, plan: Plan, diff, stop: Stop, stops: int | None):
         self._monitor = monitor
         self._execution = execution
         self._plan = plan
@@ -166,7 +167,7 @@ class _Run:
         self._stop = stop
         self._stops = stops
         self._changed = threading.Event()
-        self._bad: Optional[str] = None
+        self._bad: str | None = None
         self._effect_failed = False
 
     def go(self) -> None:
@@ -284,7 +285,7 @@ class _Recorder:
                 due = now + 1.0 / rate
             time.sleep(0.002)
 
-    def end(self) -> Optional[RobotTrajectory]:
+    def end(self) -> RobotTrajectory | None:
         """The recorded trajectory of all joints; None if nothing was recorded."""
         self._end.set()
         if self._thread is None:

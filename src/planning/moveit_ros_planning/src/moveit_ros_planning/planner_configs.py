@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import threading
-from typing import Any, Dict, List, Sequence, Tuple
+from collections.abc import Sequence
+from typing import Any
 
 import motion
 import rospy
@@ -32,7 +33,7 @@ class PlannerConfigs:
     def __init__(self, model: motion.RobotModel, namespace: str):
         self._lock = threading.Lock()
         self._namespace = namespace
-        self._configs: Dict[str, Dict[str, str]] = {}
+        self._configs: dict[str, dict[str, str]] = {}
         shared = rospy.get_param(namespace + "planner_configs", {})
         self._shared = shared if isinstance(shared, dict) else {}
         if not isinstance(shared, dict):
@@ -62,7 +63,7 @@ class PlannerConfigs:
             if config:
                 self._configs[f"{group}[{name}]"] = config
 
-    def _config(self, group: str, name: str, common: Dict[str, str]) -> Dict[str, str]:
+    def _config(self, group: str, name: str, common: dict[str, str]) -> dict[str, str]:
         entry = self._shared.get(name)
         if not isinstance(entry, dict):
             rospy.logerr(
@@ -79,12 +80,12 @@ class PlannerConfigs:
             return {}
         return {**common, **{str(key): as_text(value) for key, value in entry.items()}}
 
-    def names(self) -> List[str]:
+    def names(self) -> list[str]:
         """All names, sorted."""
         with self._lock:
             return sorted(self._configs)
 
-    def find(self, group: str, planner_id: str) -> Tuple[str, Dict[str, str]]:
+    def find(self, group: str, planner_id: str) -> tuple[str, dict[str, str]]:
         """(name, settings) for a request; an unknown planner is told, and the group's default is used."""
         with self._lock:
             name = group
@@ -103,7 +104,7 @@ class PlannerConfigs:
                     name = group
             return name, dict(self._configs.get(name, {"type": _DEFAULT}))
 
-    def get(self, group: str, config: str) -> Dict[str, str]:
+    def get(self, group: str, config: str) -> dict[str, str]:
         """Settings for get_planner_params: of the planner, overlaid by those of ``group[config]``."""
         with self._lock:
             settings = {str(key): as_text(value) for key, value in self._shared.get(config, {}).items()} if config else {}

@@ -4,9 +4,10 @@ messages."""
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from copy import deepcopy
 from dataclasses import replace
-from typing import Any, Callable, Dict, List, Optional, Set, Tuple
+from typing import Any
 
 import motion
 import rospy
@@ -58,8 +59,8 @@ class Pipeline:
         parameters = rospy.get_param(namespace.rstrip("/"), {})
         parameters = parameters if isinstance(parameters, dict) else {}
         adapters = str(parameters.get("request_adapters", "")).split()
-        self.config: Dict[str, Any] = {parameter.name: parameter.default for parameter in _PARAMETERS}
-        self._told: Set[str] = set()
+        self.config: dict[str, Any] = {parameter.name: parameter.default for parameter in _PARAMETERS}
+        self._told: set[str] = set()
         self.compiled = self._compiled(adapters)
         if self.compiled is not None:
             rospy.loginfo("Using planning interface '%s' (compiled)", self.title)
@@ -77,7 +78,7 @@ class Pipeline:
         for adapter in self._adapters.adapters:
             rospy.loginfo("Using planning request adapter '%s'", adapter)
 
-    def _compiled(self, adapters: List[str]) -> Optional[CompiledPipeline]:
+    def _compiled(self, adapters: list[str]) -> CompiledPipeline | None:
         """The pipeline as C++, where its planner or one of its adapters is another package's; else None."""
         known = {name.rpartition("/")[2] for name in motion.Pipeline.ADAPTERS}
         own = self.plugin == _OMPL or self.is_pilz
@@ -101,14 +102,14 @@ class Pipeline:
     def _reconfigure(self, config, _level) -> None:
         self.config = config
 
-    def planner_ids(self) -> List[str]:
+    def planner_ids(self) -> list[str]:
         """What query_planner_interface lists."""
         if self.compiled is not None:
             return self.compiled.planner_ids()
         return ["CIRC", "LIN", "PTP"] if self.is_pilz else self.configs.names()
 
     def generate(
-        self, scene: motion.PlanningScene, message: MotionPlanRequest, cancel: Optional[motion.CancelToken] = None
+        self, scene: motion.PlanningScene, message: MotionPlanRequest, cancel: motion.CancelToken | None = None
     ) -> motion.PlanResult:
         """Plan, with all adapters; the result's trajectory is timed.
 
@@ -137,7 +138,7 @@ class Pipeline:
             log("No motion plan for group '%s': %s (%s, after %.3f s)", message.group_name, result.message, code_name(result.code), took)
         return result
 
-    def _warn(self, warnings: List[str]) -> None:
+    def _warn(self, warnings: list[str]) -> None:
         for warning in warnings:
             if warning not in self._told:
                 self._told.add(warning)
@@ -186,7 +187,7 @@ class Pipeline:
         self._check_group(group)
         self._warn(self._unused(message))
         start = self._start(scene, message)
-        fields: Dict[str, Any] = {}
+        fields: dict[str, Any] = {}
         if self.is_pilz:
             message, fields["auxiliary"] = _points(message)
         goals = self._goals(scene, message)
@@ -211,7 +212,7 @@ class Pipeline:
             **fields,
         )
 
-    def _unused(self, message: MotionPlanRequest) -> List[str]:
+    def _unused(self, message: MotionPlanRequest) -> list[str]:
         """A line for each thing that the request says and nobody here looks at."""
         lines = [
             f"the request has {name}, which planner '{self.title}' does not use: they are ignored"
@@ -237,8 +238,8 @@ class Pipeline:
                 f"the robot '{self.model.name}' has no group '{group}'; it has: " + (", ".join(self.model.groups) or "none"),
             )
 
-    def _planner_fields(self, settings: Dict[str, str]) -> Dict[str, Any]:
-        fields: Dict[str, Any] = {
+    def _planner_fields(self, settings: dict[str, str]) -> dict[str, Any]:
+        fields: dict[str, Any] = {
             "simplify": self.config["simplify_solutions"],
             "maximum_waypoint_distance": self.config["maximum_waypoint_distance"],
             "minimum_waypoint_count": self.config["minimum_waypoint_count"],
@@ -290,7 +291,7 @@ class Pipeline:
             raise PlanningError(MoveItErrorCodes.INVALID_ROBOT_STATE, f"start state: {error}") from error
         return state
 
-    def _goals(self, scene, message: MotionPlanRequest) -> List[motion.Constraints]:
+    def _goals(self, scene, message: MotionPlanRequest) -> list[motion.Constraints]:
         goals = [self._constraints(scene, goal, MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS) for goal in message.goal_constraints]
         goals = [goal for goal in goals if not goal.empty()]
         if not goals:
@@ -328,7 +329,7 @@ class Pipeline:
                 limit,
             )
 
-    def _loosen(self, group: str, goals: List[motion.Constraints]) -> None:
+    def _loosen(self, group: str, goals: list[motion.Constraints]) -> None:
         """Where kinematics.yaml says position_only_ik, a pose goal is its position: such an arm cannot keep the rest."""
         settings = self._description.kinematics.get(group)
         if settings is None or not settings.position_only:
@@ -359,7 +360,7 @@ class Pipeline:
             raise PlanningError(MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS, str(error)) from error
 
 
-def _points(message: MotionPlanRequest) -> Tuple[MotionPlanRequest, Optional[motion.AuxiliaryPoint]]:
+def _points(message: MotionPlanRequest) -> tuple[MotionPlanRequest, motion.AuxiliaryPoint | None]:
     """The request as industrial motions read it, and the auxiliary point of a circle: of a region only its pose matters.
 
     :raises PlanningError: CIRC without one.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any
 
 import motion
 import rospkg
@@ -30,7 +30,7 @@ class Kinematics:
     orientation_tolerance: float = 1e-3
     position_only: bool = False
     epsilon: float = 1e-5
-    links: List[str] = field(default_factory=list)
+    links: list[str] = field(default_factory=list)
     resolution: float = 0.1
 
 
@@ -40,7 +40,7 @@ class RobotDescription:
 
     name: str
     model: motion.RobotModel
-    kinematics: Dict[str, Kinematics]
+    kinematics: dict[str, Kinematics]
     urdf: str
     srdf: str
 
@@ -48,7 +48,7 @@ class RobotDescription:
         """Parameter ``key`` below ``<name>_planning``."""
         return rospy.get_param(f"{self.name}_planning/{key}", default)
 
-    def solved_parts(self, group: str) -> List[str]:
+    def solved_parts(self, group: str) -> list[str]:
         """Groups with a kinematics solver whose joints are all among those of ``group``, itself left out."""
         whole = set(self.model.group(group).active_joints)
         return [name for name in self.kinematics if name != group and whole.issuperset(self.model.group(name).active_joints)]
@@ -63,7 +63,7 @@ def resolve(name: str) -> str:
 
 
 def load(
-    name: str = "robot_description", meshes: bool = True, own_namespace: Optional[str] = "~", compiled_solvers: bool = False
+    name: str = "robot_description", meshes: bool = True, own_namespace: str | None = "~", compiled_solvers: bool = False
 ) -> RobotDescription:
     """Read a robot from the parameter server.
 
@@ -108,14 +108,14 @@ class Packages:
     def __init__(self) -> None:
         self._rospack = rospkg.RosPack()
 
-    def directory(self, name: str) -> Optional[str]:
+    def directory(self, name: str) -> str | None:
         try:
             return self._rospack.get_path(name)
         except rospkg.ResourceNotFound:
             return None
 
 
-def _kinematics(where: str, model: motion.RobotModel, own_namespace: Optional[str]) -> Dict[str, Kinematics]:
+def _kinematics(where: str, model: motion.RobotModel, own_namespace: str | None) -> dict[str, Kinematics]:
     shared = table(f"{where}_kinematics")
     result = {}
     for group in model.groups:
@@ -153,7 +153,7 @@ def _kinematics(where: str, model: motion.RobotModel, own_namespace: Optional[st
     return result
 
 
-def _group_kinematics(where: str, entry: Dict[str, Any]) -> Kinematics:
+def _group_kinematics(where: str, entry: dict[str, Any]) -> Kinematics:
     def read(key: str, default: float) -> float:
         return number_or(f"{where}/{key}", entry.get(key, default), default)
 
@@ -194,7 +194,7 @@ def prepare_scene(description: RobotDescription) -> motion.PlanningScene:
     return scene
 
 
-def _numbers(description: RobotDescription, key: str, model) -> Dict[str, float]:
+def _numbers(description: RobotDescription, key: str, model) -> dict[str, float]:
     values = description.planning(key, {})
     if not isinstance(values, dict):
         return {}
@@ -224,7 +224,7 @@ def _collision_operations(description: RobotDescription, scene) -> None:
         scene.set_acm(matrix)
 
 
-def scaling_factors(description: RobotDescription) -> Tuple[float, float]:
+def scaling_factors(description: RobotDescription) -> tuple[float, float]:
     """Default velocity and acceleration scaling of clients."""
     return (
         _planning_number(description, "default_velocity_scaling_factor", 0.1),

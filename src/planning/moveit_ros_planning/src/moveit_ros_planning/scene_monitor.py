@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import threading
 import time
-from typing import AbstractSet, Callable, List, Optional, Set
+from collections.abc import Callable
+from collections.abc import Set as AbstractSet
 
 import motion
 import rospy
@@ -48,7 +49,7 @@ class SceneMonitor:
         self._scene = prepare_scene(description)
         self._acm_of_model = self._scene.acm
         self._pending = _Pending()
-        self._callbacks: List[Callable[[int], None]] = []
+        self._callbacks: list[Callable[[int], None]] = []
         self._octomap_gone: Callable[[], None] = lambda: None
         options = f"{namespace}planning_scene_monitor_options/"
         self.name = rospy.get_param(options + "name", "planning_scene_monitor")
@@ -93,7 +94,7 @@ class SceneMonitor:
 
     # --- for requests ---
 
-    def copy(self, diff: Optional[PlanningScene] = None) -> motion.PlanningScene:
+    def copy(self, diff: PlanningScene | None = None) -> motion.PlanningScene:
         """A scene of the caller's own with the present state and transforms, and ``diff`` applied (whatever its
         is_diff says)."""
         with self._lock:
@@ -119,7 +120,7 @@ class SceneMonitor:
             state.attach(body)
         return state
 
-    def wait_for_state(self, timeout: float = 1.0, since: Optional[rospy.Time] = None) -> bool:
+    def wait_for_state(self, timeout: float = 1.0, since: rospy.Time | None = None) -> bool:
         """Wait for joint states stamped now or later (wall seconds); says why when none come."""
         since = rospy.Time.now() if since is None else since
         if self.states.wait_for_current(since, timeout):
@@ -200,7 +201,7 @@ class SceneMonitor:
         with self._lock:
             return self._scene.name
 
-    def topics(self) -> List[str]:
+    def topics(self) -> list[str]:
         """What the monitor listens to."""
         return [self.states.topic, *(subscriber.resolved_name for subscriber in self._subscribers)]
 
@@ -258,7 +259,7 @@ class SceneMonitor:
 
     # --- publishing ---
 
-    def next_message(self, full: bool, kinds: int) -> Optional[PlanningScene]:
+    def next_message(self, full: bool, kinds: int) -> PlanningScene | None:
         """What is to be published now: the whole scene, or what changed since the last call; None if nothing did."""
         with self._lock:
             pending, self._pending = self._pending, _Pending()
@@ -275,7 +276,7 @@ class _Pending:
 
     def __init__(self) -> None:
         self.kinds = 0
-        self.objects: Set[str] = set()
+        self.objects: set[str] = set()
         self.whole = False
 
     def add(self, kinds: int, objects, whole: bool) -> None:
@@ -357,7 +358,7 @@ class ScenePublisher:
             self._wake.clear()
 
 
-def _frames(buffer) -> List[str]:
+def _frames(buffer) -> list[str]:
     """Names of all frames that TF knows."""
     text = buffer.all_frames_as_yaml()
     try:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Dict, List
-
 import rosgraph
 import rospy
 from moveit_core.errors import one_line
@@ -29,7 +27,7 @@ def use_compiled(description) -> None:
         _group(description, group, names, exported)
 
 
-def _group(description, group: str, names: List[str], exported: Dict[str, PluginClass]) -> None:
+def _group(description, group: str, names: list[str], exported: dict[str, PluginClass]) -> None:
     reasons = []
     for name in names:
         plugin = exported.get(name)

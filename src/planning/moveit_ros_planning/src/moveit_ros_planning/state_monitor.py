@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from typing import Callable, Dict, List, Optional, Sequence, Set
+from collections.abc import Callable, Sequence
 
 import motion
 import numpy as np
@@ -30,10 +30,10 @@ class CurrentStateMonitor:
         self._lock = threading.Lock()
         self._news = threading.Condition(self._lock)
         self._state = model.state()
-        self._stamps: Dict[str, rospy.Time] = {}
-        self._told: Set[str] = set()
+        self._stamps: dict[str, rospy.Time] = {}
+        self._told: set[str] = set()
         self._dynamics = dynamics
-        self._callbacks: List[Callable[[], None]] = []
+        self._callbacks: list[Callable[[], None]] = []
         single = set(states.one_variable_joints(model))
         self._single = {name for name in single if model.joint(name).mimic is None}
         self._index = {name: model.variable_index(name) for name in self._single}
@@ -121,7 +121,7 @@ class CurrentStateMonitor:
             self._look_up_multi_dof()
             return self._state.copy()
 
-    def _look_up_multi_dof(self) -> Dict[str, str]:
+    def _look_up_multi_dof(self) -> dict[str, str]:
         """Take the joints with several variables from TF; for each that cannot be, why."""
         failed = {}
         for name in self._multi if self._buffer is not None else ():
@@ -137,13 +137,13 @@ class CurrentStateMonitor:
             self._stamps[name] = found.header.stamp
         return failed
 
-    def missing(self, since: Optional[rospy.Time] = None, group: str = "") -> List[str]:
+    def missing(self, since: rospy.Time | None = None, group: str = "") -> list[str]:
         """Joints never heard of, or (``since``) not newer than that; of one group or of the whole robot."""
         wanted = self._wanted(group)
         with self._lock:
             return [name for name in wanted if name not in self._stamps or (since is not None and self._stamps[name] < since)]
 
-    def _frames_missing(self, group: str) -> Dict[str, str]:
+    def _frames_missing(self, group: str) -> dict[str, str]:
         """Joints with several variables that TF has never told of, and why, but for those that were waited for already."""
         names = self._model.group(group).active_joints if group else self._multi
         with self._lock:
@@ -151,12 +151,12 @@ class CurrentStateMonitor:
             known = {*self._stamps, *self._told}
             return {name: why for name, why in failed.items() if name in names and name not in known}
 
-    def _wanted(self, group: str) -> List[str]:
+    def _wanted(self, group: str) -> list[str]:
         names = self._model.group(group).active_joints if group else self._model.active_joints
         passive = set(self._model.passive_joints)
         return [name for name in names if name in self._single and name not in passive]
 
-    def wait_for_current(self, since: Optional[rospy.Time] = None, timeout: float = 1.0, group: str = "") -> bool:
+    def wait_for_current(self, since: rospy.Time | None = None, timeout: float = 1.0, group: str = "") -> bool:
         """Wait until every joint was heard of at ``since`` (default: now) or later; ``timeout`` in wall seconds.
 
         Joints that nobody publishes are waited for once and told of; from then on they have their default values, and
@@ -183,7 +183,7 @@ class CurrentStateMonitor:
             with self._lock:
                 self._news.wait(min(left, 0.05))
 
-    def _excuse(self, late: List[str]) -> bool:
+    def _excuse(self, late: list[str]) -> bool:
         """Whether ``late`` are joints never heard of, which are told of once, while the others are current."""
         if any(name in self._stamps for name in late):
             return False
@@ -203,7 +203,7 @@ class CurrentStateMonitor:
                 self._news.wait(min(left, 0.05))
         return True
 
-    def explain(self, timeout: float = 1.0, since: Optional[rospy.Time] = None) -> str:
+    def explain(self, timeout: float = 1.0, since: rospy.Time | None = None) -> str:
         """Why the state is not current: which joints are missing or old, who publishes, whose clock is another."""
         since = rospy.Time.now() if since is None else since
         text = f"Didn't receive robot state (joint angles) with recent timestamp within {timeout:g} seconds. "
@@ -236,14 +236,14 @@ class CurrentStateMonitor:
             f"ROS across multiple machines"
         )
 
-    def _publishers(self) -> Optional[List[str]]:
+    def _publishers(self) -> list[str] | None:
         try:
             published = rosgraph.Master(rospy.get_name()).getSystemState()[0]
         except (OSError, rosgraph.MasterException):
             return None
         return sorted(next((nodes for topic, nodes in published if topic == self.topic), []))
 
-    def _other_topics(self) -> List[str]:
+    def _other_topics(self) -> list[str]:
         """Where joint states are published instead; not what move_group pretends for a joint_state_publisher."""
         master = rosgraph.Master(rospy.get_name())
         try:
@@ -254,6 +254,6 @@ class CurrentStateMonitor:
         return sorted(topic for topic in states & published if not topic.endswith("/fake_controller_joint_states"))
 
 
-def _names(names: List[str]) -> str:
+def _names(names: list[str]) -> str:
     shown = ", ".join(f"'{name}'" for name in names[:6])
     return ("joint " if len(names) == 1 else "joints ") + shown + (f" and {len(names) - 6} more" if len(names) > 6 else "")

@@ -6,9 +6,10 @@ import bisect
 import math
 import threading
 import time
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple
+from typing import Any
 
 import rospy
 from dynamic_parameters import Parameter, Server
@@ -75,9 +76,9 @@ class ExecutionError(MoveItError):
 class _Step:
     """One trajectory of an execution: its controllers and their shares."""
 
-    controllers: List[str]
-    parts: List[RobotTrajectory]
-    times: List[float]
+    controllers: list[str]
+    parts: list[RobotTrajectory]
+    times: list[float]
 
 
 class TrajectoryExecution:
@@ -92,16 +93,16 @@ class TrajectoryExecution:
         self.monitor = state_monitor
         self.namespace = namespace
         self._lock = threading.Lock()
-        self._running: Optional[Execution] = None
+        self._running: Execution | None = None
         #: how often it was said to stop; who has seen it change is not to start a motion
         self.stops = 0
         self._last_stop = (-math.inf, rospy.Time())  # when it came: monotonic and ROS time
-        self._on_stop: List[Callable[[], None]] = []
-        self.config: Dict[str, Any] = {}
+        self._on_stop: list[Callable[[], None]] = []
+        self.config: dict[str, Any] = {}
         self._server = Server(namespace + "trajectory_execution", _PARAMETERS, self._reconfigure)
         manage = bool(rospy.get_param(namespace + "moveit_manage_controllers", False))
         rospy.loginfo("MoveIt %s allowed to manage controllers", "is" if manage else "is not")
-        self.manager: Optional[ControllerManager] = load_manager(model, namespace)
+        self.manager: ControllerManager | None = load_manager(model, namespace)
         self.choice = ControllerChoice(model, self.manager, manage) if self.manager else None
         self._subscriber = rospy.Subscriber("trajectory_execution_event", String, self._on_event, queue_size=100)
         if self.manager:
@@ -155,8 +156,8 @@ class TrajectoryExecution:
             self._on_stop.remove(call)
 
     def start(
-        self, trajectories: Sequence[RobotTrajectory], on_segment: Optional[Callable[[int], bool]] = None, stops: Optional[int] = None
-    ) -> "Execution":
+        self, trajectories: Sequence[RobotTrajectory], on_segment: Callable[[int], bool] | None = None, stops: int | None = None
+    ) -> Execution:
         """Start to execute trajectories one after the other.
 
         :param on_segment: called with the index of each that has ended well; False stops.
@@ -227,7 +228,7 @@ class TrajectoryExecution:
             self._check_times([point.time_from_start.to_sec() for point in points])
 
     @staticmethod
-    def _check_numbers(number: int, names: Sequence[str], what: str, values: Sequence, numbers: Optional[Sequence[float]] = None) -> None:
+    def _check_numbers(number: int, names: Sequence[str], what: str, values: Sequence, numbers: Sequence[float] | None = None) -> None:
         if len(values) != len(names):
             raise ExecutionError(f"Wrong trajectory: point {number} has {len(values)} {what} for {len(names)} joints")
         if not all(map(math.isfinite, values if numbers is None else numbers)):
@@ -243,12 +244,12 @@ class TrajectoryExecution:
     def _takes_no_time(trajectory: RobotTrajectory) -> bool:
         return trajectory.joint_trajectory.header.stamp.is_zero() and states.duration(trajectory) == 0.0
 
-    def tolerance(self, joint: str, table: Optional[dict] = None) -> float:
+    def tolerance(self, joint: str, table: dict | None = None) -> float:
         """Allowed distance of ``joint`` from a trajectory's first point; 0 switches the check off."""
         table = self._tolerances() if table is None else table
         return table.get(joint, float(self.config["allowed_start_tolerance"]))
 
-    def _tolerances(self) -> Dict[str, float]:
+    def _tolerances(self) -> dict[str, float]:
         table = rospy.get_param(self.namespace + "trajectory_execution/joints_allowed_start_tolerance", {})
         result = {}
         for name, value in table.items() if isinstance(table, dict) else ():
@@ -304,15 +305,15 @@ class Execution:
     """One run of trajectories, in a thread of its own. ``status``, ``reason`` (one line), :meth:`wait`,
     :meth:`stop`."""
 
-    def __init__(self, owner: TrajectoryExecution, steps: List[_Step], on_segment: Optional[Callable[[int], bool]]):
+    def __init__(self, owner: TrajectoryExecution, steps: list[_Step], on_segment: Callable[[int], bool] | None):
         self._owner = owner
         self._steps = steps
         self._on_segment = on_segment
         self._lock = threading.Lock()
         self._stopped = threading.Event()
         self._finished = threading.Event()
-        self._handles: List[ControllerHandle] = []
-        self._where: Tuple[int, Optional[rospy.Time]] = (-1, None)
+        self._handles: list[ControllerHandle] = []
+        self._where: tuple[int, rospy.Time | None] = (-1, None)
         self.status = ExecutionStatus.RUNNING
         self.reason = ""
 
@@ -327,7 +328,7 @@ class Execution:
     def done(self) -> bool:
         return self._finished.is_set()
 
-    def wait(self, timeout: Optional[float] = None) -> bool:
+    def wait(self, timeout: float | None = None) -> bool:
         """Wait for the end; ``timeout`` in wall seconds."""
         return self._finished.wait(timeout)
 
@@ -346,7 +347,7 @@ class Execution:
         for handle in self._handles:
             handle.cancel()
 
-    def expected_index(self) -> Tuple[int, int]:
+    def expected_index(self) -> tuple[int, int]:
         """(trajectory, way point) where the robot should be now; (-1, -1) before the start."""
         step, since = self._where
         if step < 0 or since is None:
@@ -355,7 +356,7 @@ class Execution:
 
     def _run(self) -> None:
         status = ExecutionStatus.SUCCEEDED
-        last: Optional[_Step] = None
+        last: _Step | None = None
         try:
             for index, step in enumerate(self._steps):
                 status, last = self._execute(index, step), step

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Callable, Iterable, List, Sequence, Tuple, Type, TypeVar, Union
+from collections.abc import Callable, Iterable, Sequence
+from typing import TypeVar
 
 import rospy
 from geometry_msgs.msg import Pose, PoseStamped
@@ -32,7 +33,7 @@ _SAME = frozenset(
 )
 
 
-def _message(kind: Type[Message], data: bytes) -> Message:
+def _message(kind: type[Message], data: bytes) -> Message:
     found = kind()
     conversions.msg_from_string(found, data)
     return found
@@ -66,7 +67,7 @@ class MoveGroupInterface:
 
     # --- the group and its state ---
 
-    def get_variables(self) -> List[str]:
+    def get_variables(self) -> list[str]:
         """As joints are named that have one variable."""
         return [str(name) for name in self._group._group.variables]
 
@@ -94,11 +95,11 @@ class MoveGroupInterface:
     def set_start_state(self, state: bytes) -> None:
         self._group.set_start_state(_message(RobotState, state))
 
-    def get_current_pose(self, end_effector_link: str = "") -> List[float]:
+    def get_current_pose(self, end_effector_link: str = "") -> list[float]:
         """[x, y, z, qx, qy, qz, qw]."""
         return conversions.pose_to_list(self._group.get_current_pose(end_effector_link).pose)
 
-    def get_random_pose(self, end_effector_link: str = "") -> List[float]:
+    def get_random_pose(self, end_effector_link: str = "") -> list[float]:
         return conversions.pose_to_list(self._group.get_random_pose(end_effector_link).pose)
 
     # --- targets ---
@@ -161,7 +162,7 @@ class MoveGroupInterface:
     def construct_motion_plan_request(self) -> bytes:
         return msg_to_string(self._group.construct_motion_plan_request())
 
-    def plan(self) -> Tuple[bytes, bytes, float]:
+    def plan(self) -> tuple[bytes, bytes, float]:
         """(error code, trajectory, planning time in s)."""
         _success, trajectory, seconds, code = self._group.plan()
         return msg_to_string(code), msg_to_string(trajectory), seconds
@@ -178,7 +179,7 @@ class MoveGroupInterface:
     def async_execute(self, trajectory: bytes) -> bool:
         return self._group.execute(_message(RobotTrajectory, trajectory), wait=False)
 
-    def compute_cartesian_path(self, waypoints: Sequence[Sequence[float]], eef_step: float, *options) -> Tuple[bytes, float]:
+    def compute_cartesian_path(self, waypoints: Sequence[Sequence[float]], eef_step: float, *options) -> tuple[bytes, float]:
         """(trajectory, fraction); ``options`` are, as the version has it, the jump threshold or not, whether to avoid
         collisions, and perhaps path constraints."""
         poses = [conversions.list_to_pose(pose) for pose in waypoints]
@@ -200,14 +201,14 @@ class MoveGroupInterface:
 
     # --- objects ---
 
-    def pick(self, name: str, grasps: Union[bytes, Sequence[bytes], bool] = (), plan_only: bool = False) -> int:
+    def pick(self, name: str, grasps: bytes | Sequence[bytes] | bool = (), plan_only: bool = False) -> int:
         """With move_group's own grasps, one, or several; the error code."""
         if isinstance(grasps, bool):
             return self._group.pick(name, [], grasps)
         given = [grasps] if isinstance(grasps, bytes) else grasps
         return self._group.pick(name, [_message(Grasp, grasp) for grasp in given], plan_only)
 
-    def place(self, name: str, location: Union[bytes, Sequence[float], bool, None] = None, plan_only: bool = False) -> bool:
+    def place(self, name: str, location: bytes | Sequence[float] | bool | None = None, plan_only: bool = False) -> bool:
         """Anywhere, at a PlaceLocation, or at [x, y, z, qx, qy, qz, qw] in the pose reference frame."""
         if isinstance(location, bool):
             return self._group.place(name, None, location)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Dict, Iterable, List
+from collections.abc import Iterable
 
 from moveit_commander import planning_scene_interface
 from moveit_commander.conversions import msg_from_string, msg_to_string
@@ -15,21 +15,21 @@ class PlanningSceneInterface:
     def __init__(self, ns: str = ""):
         self._scene = planning_scene_interface.PlanningSceneInterface(ns)
 
-    def get_known_object_names(self, with_type: bool = False) -> List[str]:
+    def get_known_object_names(self, with_type: bool = False) -> list[str]:
         return self._scene.get_known_object_names(with_type)
 
     def get_known_object_names_in_roi(
         self, minx: float, miny: float, minz: float, maxx: float, maxy: float, maxz: float, with_type: bool = False
-    ) -> List[str]:
+    ) -> list[str]:
         return self._scene.get_known_object_names_in_roi(minx, miny, minz, maxx, maxy, maxz, with_type)
 
-    def get_object_poses(self, object_ids: Iterable[str]) -> Dict[str, bytes]:
+    def get_object_poses(self, object_ids: Iterable[str]) -> dict[str, bytes]:
         return _serialised(self._scene.get_object_poses(list(object_ids)))
 
-    def get_objects(self, object_ids: Iterable[str] = ()) -> Dict[str, bytes]:
+    def get_objects(self, object_ids: Iterable[str] = ()) -> dict[str, bytes]:
         return _serialised(self._scene.get_objects(list(object_ids)))
 
-    def get_attached_objects(self, object_ids: Iterable[str] = ()) -> Dict[str, bytes]:
+    def get_attached_objects(self, object_ids: Iterable[str] = ()) -> dict[str, bytes]:
         return _serialised(self._scene.get_attached_objects(list(object_ids)))
 
     def get_planning_scene(self, components: int) -> bytes:
@@ -46,5 +46,5 @@ class PlanningSceneInterface:
         return True
 
 
-def _serialised(messages: dict) -> Dict[str, bytes]:
+def _serialised(messages: dict) -> dict[str, bytes]:
     return {name: msg_to_string(message) for name, message in messages.items()}

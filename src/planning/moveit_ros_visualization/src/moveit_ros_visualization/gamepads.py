@@ -5,7 +5,7 @@ Controls have the names of a PlayStation's pad. A pad is told by how many axes a
 
 from __future__ import annotations
 
-from typing import Dict, NamedTuple, Optional, Tuple
+from typing import NamedTuple
 
 import numpy as np
 from sensor_msgs.msg import Joy
@@ -16,9 +16,9 @@ STILL = 0.1  # of a stick's way that counts as none
 class Pad(NamedTuple):
     """Where the controls are: numbers of buttons, (axis, least value) for what is an axis, and the left stick's axes."""
 
-    buttons: Dict[str, int]
-    axes: Dict[str, Tuple[int, float]]
-    stick: Tuple[int, int] = (0, 1)  # to the left, forward
+    buttons: dict[str, int]
+    axes: dict[str, tuple[int, float]]
+    stick: tuple[int, int] = (0, 1)  # to the left, forward
 
 
 class Controls(NamedTuple):
@@ -28,11 +28,11 @@ class Controls(NamedTuple):
     stick: np.ndarray
 
 
-def _numbered(names: str, numbers: str) -> Dict[str, int]:
+def _numbered(names: str, numbers: str) -> dict[str, int]:
     return {name: int(number) for name, number in zip(names.split(), numbers.split())}
 
 
-def _cross(sideways: int, along: int, left: float, up: float) -> Dict[str, Tuple[int, float]]:
+def _cross(sideways: int, along: int, left: float, up: float) -> dict[str, tuple[int, float]]:
     return {"left": (sideways, left), "right": (sideways, -left), "up": (along, up), "down": (along, -up)}
 
 
@@ -41,7 +41,7 @@ _XBOX = Pad(_numbered(_FACE, "2 1 3 0 4 5 6 7"), {**_cross(6, 7, 0.1, 0.1), "L2"
 _PS3 = "select start square triangle circle cross up down left right L1 R1 L2 R2"
 
 #: (axes, buttons) of the message -> pad
-PADS: Dict[Tuple[int, int], Pad] = {
+PADS: dict[tuple[int, int], Pad] = {
     (8, 11): _XBOX,
     (27, 19): Pad(_numbered(_PS3, "0 3 15 12 13 14 4 6 7 5 10 11 8 9"), {}),
     (20, 17): Pad(
@@ -59,7 +59,7 @@ PADS: Dict[Tuple[int, int], Pad] = {
 }
 
 
-def read(message: Joy) -> Optional[Controls]:
+def read(message: Joy) -> Controls | None:
     """The controls of a message; None if its pad is not known."""
     pad = PADS.get((len(message.axes), len(message.buttons)))
     if pad is None:

@@ -11,7 +11,7 @@ triangle, cross (Y, A)   the next and the last tip of the group; select, start: 
 from __future__ import annotations
 
 import threading
-from typing import Any, Dict, FrozenSet, List, Optional
+from typing import Any
 from xml.etree import ElementTree
 
 import lenient_xml
@@ -41,7 +41,7 @@ def main() -> int:
     return 0
 
 
-def groups_with_solver() -> List[str]:
+def groups_with_solver() -> list[str]:
     """Planning groups whose inverse kinematics is configured, as the SRDF orders them."""
     try:
         root = lenient_xml.fromstring(rospy.get_param("robot_description_semantic", "<robot/>"))
@@ -56,12 +56,12 @@ class Joystick:
 
     def __init__(self, link: str):
         self._link, self._group = link, 0
-        self._markers: Dict[str, PoseStamped] = {}  # by link
-        self._goal: Optional[PoseStamped] = None  # where it was sent last
-        self._before: FrozenSet[Any] = frozenset()
+        self._markers: dict[str, PoseStamped] = {}  # by link
+        self._goal: PoseStamped | None = None  # where it was sent last
+        self._before: frozenset[Any] = frozenset()
         self._time = self._moved = rospy.Time()
         self._lock = threading.Lock()
-        self._poses: Dict[str, rospy.Publisher] = {}
+        self._poses: dict[str, rospy.Publisher] = {}
         self._commands = {
             name: rospy.Publisher("/rviz/moveit/" + name, Empty, queue_size=5) for name in ("plan", "execute", "update_start_state")
         }

@@ -8,7 +8,7 @@ import os
 import re
 import threading
 import time
-from typing import Callable, List, Optional
+from collections.abc import Callable
 
 import motion
 import node_signals
@@ -305,7 +305,7 @@ def _publisher(topic: str, kind: type) -> rospy.Publisher:
     return publisher
 
 
-def _broadcast(arguments, warehouse: Warehouse) -> Optional[int]:
+def _broadcast(arguments, warehouse: Warehouse) -> int | None:
     if not (arguments.scene or arguments.constraint or arguments.state):
         rospy.logfatal("say what to publish: --scene NAME, --constraint NAME or --state NAME (regular expressions; --help)")
         return 1
@@ -327,7 +327,7 @@ def _broadcast(arguments, warehouse: Warehouse) -> Optional[int]:
     return 0
 
 
-def _matching(collection, pattern: str, title: str) -> List[str]:
+def _matching(collection, pattern: str, title: str) -> list[str]:
     names = collection.names(pattern)
     if not names:
         rospy.logwarn("no %s fits '%s'; there are: %s", title, pattern, ", ".join(collection.names()) or "none")

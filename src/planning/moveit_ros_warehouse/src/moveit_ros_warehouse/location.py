@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os
 import time
-from typing import Optional
 
 import rospkg
 import rospy
@@ -32,7 +31,7 @@ def _find(name: str):
     return None if found is None else rospy.get_param(found, None)
 
 
-def database_file(host: str = "", patience: Optional[float] = None) -> str:
+def database_file(host: str = "", patience: float | None = None) -> str:
     """The file for this node: ``~database_path``; ``host``, if it is a path; ``warehouse_host``, if ``warehouse_plugin``
     is that of SQLite; that of the running server; and where no warehouse is configured, one in ~/.ros.
 
@@ -61,7 +60,7 @@ def database_file(host: str = "", patience: Optional[float] = None) -> str:
     )
 
 
-def connect(host: str = "", patience: Optional[float] = None) -> Warehouse:
+def connect(host: str = "", patience: float | None = None) -> Warehouse:
     """The warehouse of this node.
 
     :raises StorageError: there is none, or its file cannot be used.

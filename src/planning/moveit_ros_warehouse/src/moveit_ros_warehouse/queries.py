@@ -8,8 +8,8 @@ Metres and radians, in the model frame; r, p, y are turns about the moving axes 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import Dict, Iterable, List, Sequence, Tuple
 
 from geometry_msgs.msg import Pose
 from moveit_msgs.msg import BoundingVolume, Constraints, OrientationConstraint, PositionConstraint, RobotState
@@ -22,8 +22,8 @@ class Queries:
     """What a file holds: joint values of start states, and goals: (link, xyz, rpy), by name."""
 
     scene: str
-    starts: Dict[str, Dict[str, float]] = field(default_factory=dict)
-    goals: Dict[str, Tuple[str, Sequence[float], Sequence[float]]] = field(default_factory=dict)
+    starts: dict[str, dict[str, float]] = field(default_factory=dict)
+    goals: dict[str, tuple[str, Sequence[float], Sequence[float]]] = field(default_factory=dict)
 
 
 def write(queries: Queries) -> str:
@@ -68,14 +68,14 @@ def read(text: str) -> Queries:
     return queries
 
 
-def _start(queries: Queries, lines: List[str], first: int) -> None:
+def _start(queries: Queries, lines: list[str], first: int) -> None:
     values = queries.starts.setdefault(lines[0] if lines else "", {})
     for number, line in enumerate(lines[1:], first + 1):
         joint, _, value = (part.strip() for part in line.partition("="))
         values[joint] = _floats([value], 1, number, line)[0]
 
 
-def _goal(queries: Queries, lines: List[str], first: int) -> None:
+def _goal(queries: Queries, lines: list[str], first: int) -> None:
     if len(lines) < 3 or lines[0] != "link_constraint":
         raise ValueError(f"line {first}: a goal begins with 'link_constraint', its name and its link, not '{' '.join(lines)[:40]}'")
     found = {}
@@ -89,7 +89,7 @@ def _goal(queries: Queries, lines: List[str], first: int) -> None:
     queries.goals[lines[1]] = (lines[2], found["xyz"], found["rpy"])
 
 
-def _floats(words: Iterable[str], count: int, number: int, line: str) -> List[float]:
+def _floats(words: Iterable[str], count: int, number: int, line: str) -> list[float]:
     try:
         values = [float(word) for word in words]
     except ValueError:
@@ -127,6 +127,6 @@ def goal_of(constraints: Constraints):
     return None
 
 
-def start_of(state: RobotState) -> Dict[str, float]:
+def start_of(state: RobotState) -> dict[str, float]:
     """Joint values of a state."""
     return dict(zip(state.joint_state.name, state.joint_state.position))

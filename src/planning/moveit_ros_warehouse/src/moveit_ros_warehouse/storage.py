@@ -8,7 +8,7 @@ import re
 import sqlite3
 import struct
 import threading
-from typing import Any, List, Optional
+from typing import Any
 
 import genpy
 from moveit_core.errors import MoveItError
@@ -95,7 +95,7 @@ class Warehouse:
         name = self.add_request(scene, request)
         self.results.save(f"{name}#{len(self.results_of(scene, name))}", result, scene=scene)
 
-    def results_of(self, scene: str, request: str) -> List[RobotTrajectory]:
+    def results_of(self, scene: str, request: str) -> list[RobotTrajectory]:
         """The trajectories that were kept for a request."""
         names = [name for name in self.results.names(scene=scene) if name.rpartition("#")[0] == request]
         return [self.results.load(name, scene=scene) for name in sorted(names, key=lambda name: int(name.rpartition("#")[2]))]
@@ -164,7 +164,7 @@ class Collection:
         where, values = self._where(owners)
         return self._warehouse.run(f"SELECT 1 FROM {self._table} WHERE name = ?{where}", name, *values).fetchone() is not None
 
-    def names(self, pattern: Optional[str] = None, **owners: str) -> List[str]:
+    def names(self, pattern: str | None = None, **owners: str) -> list[str]:
         """Names in order; ``pattern``: a regular expression that the whole name fits.
 
         :raises StorageError: the pattern is no regular expression.
@@ -179,7 +179,7 @@ class Collection:
             raise StorageError(f"'{pattern[:40]}' is no regular expression: {error}") from error
         return [name for name in found if fits(name)]
 
-    def names_without_owner(self) -> List[str]:
+    def names_without_owner(self) -> list[str]:
         """Names of what was saved without saying whose it is, in order."""
         none = " AND ".join(f"{owner} = ''" for owner in self._owners)
         return [row[0] for row in self._warehouse.run(f"SELECT name FROM {self._table} WHERE {none or 1} ORDER BY name")]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from typing import Any, Dict, Optional
+from typing import Any
 
 import actionlib
 import rospy
@@ -37,12 +37,12 @@ class ActionHandle(ControllerHandle):
     action: Any = None
     kind = ""
 
-    def __init__(self, name: str, topic: str, entry: Dict[str, Any]):
+    def __init__(self, name: str, topic: str, entry: dict[str, Any]):
         super().__init__(name)
         self.topic = topic
         self._entry = entry
         self._completion = Completion()
-        self._goal: Optional[actionlib.ClientGoalHandle] = None
+        self._goal: actionlib.ClientGoalHandle | None = None
         self._client = actionlib.ActionClient(topic, self.action)
         threading.Thread(target=self._announce, name=f"waiting for {topic}", daemon=True).start()
 
@@ -117,7 +117,7 @@ class ActionHandle(ControllerHandle):
                 self._goal.cancel()
         return True
 
-    def wait(self, timeout: Optional[float] = None) -> bool:
+    def wait(self, timeout: float | None = None) -> bool:
         completion = self._completion
         if completion.wait(timeout):
             return True

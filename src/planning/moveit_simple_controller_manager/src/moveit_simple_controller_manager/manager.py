@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List, Optional
+from typing import Any
 
 import rospy
 from moveit_core.controller_manager import ControllerHandle, ControllerManager
@@ -13,7 +13,7 @@ from .actions import FollowJointTrajectoryHandle, GripperCommandHandle
 HANDLES = {"FollowJointTrajectory": FollowJointTrajectoryHandle, "GripperCommand": GripperCommandHandle}
 
 
-def read_controller_list(namespace: str, required=("name", "joints")) -> List[Dict[str, Any]]:
+def read_controller_list(namespace: str, required=("name", "joints")) -> list[dict[str, Any]]:
     """The usable entries of ``controller_list``; what is wrong with others is told, one line each."""
     parameter = rospy.resolve_name(namespace + "controller_list")
     entries = rospy.get_param(namespace + "controller_list", None)
@@ -55,20 +55,20 @@ class ListedControllers(ControllerManager):
 
     def __init__(self, model, namespace: str = "~"):
         super().__init__(model, namespace)
-        self._entries: Dict[str, Dict[str, Any]] = {}
-        self._handles: Dict[str, ControllerHandle] = {}
+        self._entries: dict[str, dict[str, Any]] = {}
+        self._handles: dict[str, ControllerHandle] = {}
 
-    def add(self, entry: Dict[str, Any], handle: ControllerHandle) -> None:
+    def add(self, entry: dict[str, Any], handle: ControllerHandle) -> None:
         self._entries[entry["name"]] = entry
         self._handles[entry["name"]] = handle
 
-    def controllers(self) -> List[str]:
+    def controllers(self) -> list[str]:
         return sorted(self._handles)
 
-    def joints(self, controller: str) -> List[str]:
+    def joints(self, controller: str) -> list[str]:
         return self._entries[controller]["joints"]
 
-    def handle(self, controller: str) -> Optional[ControllerHandle]:
+    def handle(self, controller: str) -> ControllerHandle | None:
         return self._handles.get(controller)
 
     def is_default(self, controller: str) -> bool:
@@ -89,7 +89,7 @@ class SimpleControllerManager(ListedControllers):
             self.add(entry, HANDLES[kind](entry["name"], topic, entry))
         rospy.loginfo("Returned %d controllers in list", len(self._handles))
 
-    def limits(self, controller: str) -> Dict[str, float]:
+    def limits(self, controller: str) -> dict[str, float]:
         entry, result = self._entries[controller], {}
         for key, short in (("allowed_execution_duration_scaling", "scaling"), ("allowed_goal_duration_margin", "margin")):
             if isinstance(entry.get(key), (int, float)):

@@ -10,7 +10,7 @@ As upstream's module::
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from typing import Any, Dict, List, Optional, Tuple, Type, TypeVar, cast
+from typing import Any, TypeVar, cast
 
 _Robot = TypeVar("_Robot", bound="Robot")
 
@@ -26,8 +26,8 @@ class Element:
     """
 
     _tag = ""
-    _attributes: Tuple[Tuple[str, bool, str], ...] = ()
-    _children: Tuple[Tuple[str, Type["Element"], str], ...] = ()
+    _attributes: tuple[tuple[str, bool, str], ...] = ()
+    _children: tuple[tuple[str, type[Element], str], ...] = ()
 
     @classmethod
     def from_xml(cls, node: ET.Element):
@@ -56,7 +56,7 @@ class Element:
     def _loaded(self) -> None:
         """After the element was read."""
 
-    def to_xml(self, tag: Optional[str] = None) -> ET.Element:
+    def to_xml(self, tag: str | None = None) -> ET.Element:
         """The element as XML."""
         node = ET.Element(tag or self._tag)
         for name, _, field in self._attributes:
@@ -83,7 +83,7 @@ class Link(Element):
 
     _tag, _attributes = "link", (("name", True, "name"),)
 
-    def __init__(self, name: Optional[str] = None):
+    def __init__(self, name: str | None = None):
         self.name = cast(str, name)
 
 
@@ -104,9 +104,9 @@ class JointVal(Element):
 
     _tag, _attributes = "joint", (("name", True, "name"), ("value", True, "value"))
 
-    def __init__(self, name: Optional[str] = None, value: Any = None):
+    def __init__(self, name: str | None = None, value: Any = None):
         self.name = cast(str, name)
-        self.value: List[float] = [] if value is None else value
+        self.value: list[float] = [] if value is None else value
 
     def _read(self, field: str, value: str) -> Any:
         if field != "value":
@@ -125,7 +125,7 @@ class Sphere(Element):
 
     _tag, _attributes = "sphere", (("center", True, "center"), ("radius", True, "radius"))
 
-    def __init__(self, center: Optional[str] = None, radius: float = 0.0):
+    def __init__(self, center: str | None = None, radius: float = 0.0):
         self.center = center
         self.radius = radius
 
@@ -146,11 +146,7 @@ class VirtualJoint(Element):
     )
 
     def __init__(
-        self,
-        name: Optional[str] = None,
-        child_link: Optional[str] = None,
-        parent_frame: Optional[str] = None,
-        joint_type: Optional[str] = None,
+        self, name: str | None = None, child_link: str | None = None, parent_frame: str | None = None, joint_type: str | None = None
     ):
         self.name = cast(str, name)
         self.child_link = cast(str, child_link)
@@ -179,7 +175,7 @@ class Chain(Element):
 
     _tag, _attributes = "chain", (("base_link", True, "base_link"), ("tip_link", True, "tip_link"))
 
-    def __init__(self, base_link: Optional[str] = None, tip_link: Optional[str] = None):
+    def __init__(self, base_link: str | None = None, tip_link: str | None = None):
         self.base_link = cast(str, base_link)
         self.tip_link = cast(str, tip_link)
 
@@ -195,9 +191,7 @@ class EndEffector(Element):
         ("parent_group", False, "parent_group"),
     )
 
-    def __init__(
-        self, name: Optional[str] = None, group: Optional[str] = None, parent_link: Optional[str] = None, parent_group: Optional[str] = None
-    ):
+    def __init__(self, name: str | None = None, group: str | None = None, parent_link: str | None = None, parent_group: str | None = None):
         self.name = cast(str, name)
         self.group = cast(str, group)
         self.parent_link = cast(str, parent_link)
@@ -210,7 +204,7 @@ class DisableCollisions(Element):
     _tag = "disable_collisions"
     _attributes = (("link1", True, "link1"), ("link2", True, "link2"), ("reason", False, "reason"))
 
-    def __init__(self, link1: Optional[str] = None, link2: Optional[str] = None, reason: Optional[str] = None):
+    def __init__(self, link1: str | None = None, link2: str | None = None, reason: str | None = None):
         self.link1 = cast(str, link1)
         self.link2 = cast(str, link2)
         self.reason = reason
@@ -221,12 +215,12 @@ class Group(Element):
 
     _tag, _attributes = "group", (("name", True, "name"),)
 
-    def __init__(self, name: Optional[str] = None):
+    def __init__(self, name: str | None = None):
         self.name = cast(str, name)
-        self.links: List[Link] = []
-        self.joints: List[Joint] = []
-        self.chains: List[Chain] = []
-        self.groups: List[Group] = []
+        self.links: list[Link] = []
+        self.joints: list[Joint] = []
+        self.chains: list[Chain] = []
+        self.groups: list[Group] = []
         self.subgroups = self.groups
 
 
@@ -239,9 +233,9 @@ class GroupState(Element):
     _tag, _attributes = "group_state", (("name", True, "name"), ("group", True, "group"))
     _children = (("joint", JointVal, "joints"),)
 
-    def __init__(self, name: Optional[str] = None, group: Optional[str] = None):
+    def __init__(self, name: str | None = None, group: str | None = None):
         self.name = cast(str, name)
-        self.joints: List[JointVal] = []
+        self.joints: list[JointVal] = []
         self.group = cast(str, group)
 
 
@@ -251,9 +245,9 @@ class LinkSphereApproximation(Element):
     _tag, _attributes = "link_sphere_approximation", (("link", True, "link"),)
     _children = (("sphere", Sphere, "spheres"),)
 
-    def __init__(self, link: Optional[str] = None):
+    def __init__(self, link: str | None = None):
         self.link = cast(str, link)
-        self.spheres: List[Sphere] = []
+        self.spheres: list[Sphere] = []
 
 
 class Robot(Element):
@@ -270,17 +264,17 @@ class Robot(Element):
         ("link_sphere_approximation", LinkSphereApproximation, "link_sphere_approximations"),
     )
 
-    def __init__(self, name: Optional[str] = None):
+    def __init__(self, name: str | None = None):
         self.name = name
-        self.groups: List[Group] = []
-        self.group_states: List[GroupState] = []
-        self.end_effectors: List[EndEffector] = []
-        self.virtual_joints: List[VirtualJoint] = []
-        self.disable_collisionss: List[DisableCollisions] = []
-        self.passive_joints: List[PassiveJoint] = []
-        self.link_sphere_approximations: List[LinkSphereApproximation] = []
-        self.group_map: Dict[str, Group] = {}
-        self.group_state_map: Dict[str, GroupState] = {}
+        self.groups: list[Group] = []
+        self.group_states: list[GroupState] = []
+        self.end_effectors: list[EndEffector] = []
+        self.virtual_joints: list[VirtualJoint] = []
+        self.disable_collisionss: list[DisableCollisions] = []
+        self.passive_joints: list[PassiveJoint] = []
+        self.link_sphere_approximations: list[LinkSphereApproximation] = []
+        self.group_map: dict[str, Group] = {}
+        self.group_state_map: dict[str, GroupState] = {}
 
     def _loaded(self) -> None:
         self.group_map = {group.name: group for group in self.groups}
@@ -311,7 +305,7 @@ class Robot(Element):
         self.add_aggregate("link_sphere_approximation", link)
 
     @classmethod
-    def from_xml_string(cls: Type[_Robot], text) -> _Robot:
+    def from_xml_string(cls: type[_Robot], text) -> _Robot:
         """Read a document.
 
         :raises ParseError: not XML, not a robot, or an attribute is missing.
@@ -325,13 +319,13 @@ class Robot(Element):
         return cls.from_xml(root)
 
     @classmethod
-    def from_xml_file(cls, path: str) -> "Robot":
+    def from_xml_file(cls, path: str) -> Robot:
         """Read a file."""
         with open(path, encoding="utf-8") as file:
             return cls.from_xml_string(file.read())
 
     @classmethod
-    def from_parameter_server(cls, key: str = "robot_description_semantic") -> "Robot":
+    def from_parameter_server(cls, key: str = "robot_description_semantic") -> Robot:
         """Read the document that a parameter holds."""
         import rospy
 

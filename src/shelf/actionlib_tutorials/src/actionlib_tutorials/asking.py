@@ -1,6 +1,6 @@
 """What the clients share: a goal is sent, and how it ended is told."""
 
-from typing import Any, Optional
+from typing import Any
 
 import actionlib
 import rospy
@@ -9,7 +9,7 @@ from actionlib_msgs.msg import GoalStatus
 PATIENCE = 30.0  # s
 
 
-def ask(name: str, kind: type, goal: Any) -> Optional[actionlib.SimpleActionClient]:
+def ask(name: str, kind: type, goal: Any) -> actionlib.SimpleActionClient | None:
     """Send ``goal`` once the server is there; None if the node ends before."""
     client = actionlib.SimpleActionClient(name, kind)
     rospy.loginfo("Waiting for action server to start.")
@@ -20,7 +20,7 @@ def ask(name: str, kind: type, goal: Any) -> Optional[actionlib.SimpleActionClie
     return client
 
 
-def tell_state(client: Optional[actionlib.SimpleActionClient]) -> None:
+def tell_state(client: actionlib.SimpleActionClient | None) -> None:
     """How it ended, or that it did not within :data:`PATIENCE`."""
     if client is None:
         return

@@ -3,7 +3,6 @@
 import contextlib
 import math
 import random
-from typing import Optional
 
 import actionlib
 import node_signals
@@ -22,7 +21,7 @@ class Server:
     def __init__(self, name: str):
         self._name = name
         self._wanted = 0
-        self._feedback: Optional[AveragingFeedback] = None
+        self._feedback: AveragingFeedback | None = None
         self._sum = self._squares = 0.0
         self._server = actionlib.SimpleActionServer(name, AveragingAction, auto_start=False)
         self._lock = self._server.action_server.lock  # which is held where goals come in: another one would be taken in another order

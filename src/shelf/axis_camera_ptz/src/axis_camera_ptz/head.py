@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Dict, List, Tuple
+from typing import Any
 
 #: Parameters of the node with the values that they have when nothing is said; rad.
-DEFAULTS: Dict[str, Any] = {
+DEFAULTS: dict[str, Any] = {
     "ptz": False,
     "pan_joint": "pan",
     "tilt_joint": "tilt",
@@ -33,16 +33,16 @@ DEFAULTS: Dict[str, Any] = {
 class Head:
     """Where the head is to be. ``limits``: (least, most) of pan, tilt (rad) and zoom; ``inverted``: it hangs upside down."""
 
-    limits: Tuple[Tuple[float, float], Tuple[float, float], Tuple[float, float]]
+    limits: tuple[tuple[float, float], tuple[float, float], tuple[float, float]]
     inverted: bool = False
     pan: float = 0.0
     tilt: float = 0.0
     zoom: float = 0.0
 
     @classmethod
-    def from_parameters(cls, values: Dict[str, Any]) -> "Head":
+    def from_parameters(cls, values: dict[str, Any]) -> Head:
         """:raises ValueError: a limit is no number, or the least is above the most; one line that names it."""
-        limits: List[Tuple[float, float]] = []
+        limits: list[tuple[float, float]] = []
         for name in ("pan", "tilt", "zoom"):
             try:
                 least, most = (float(values[f"{end}_{name}_value"]) for end in ("min", "max"))

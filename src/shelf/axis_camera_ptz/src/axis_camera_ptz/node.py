@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from typing import Any, Dict, Optional
+from typing import Any
 
 import node_signals
 import rospy
@@ -17,11 +17,11 @@ from axis_camera_ptz.head import DEFAULTS, Head
 class Node:
     """:param values: parameters, see :data:`axis_camera_ptz.head.DEFAULTS`. :param messages: the module robotnik_msgs.msg."""
 
-    def __init__(self, values: Dict[str, Any], messages: Any):
+    def __init__(self, values: dict[str, Any], messages: Any):
         self.values = values
         self.head = Head.from_parameters(values)
-        self.now: Dict[str, float] = {}
-        self.told: Optional[rospy.Time] = None
+        self.now: dict[str, float] = {}
+        self.told: rospy.Time | None = None
         self.state = messages.Axis
         self.states = rospy.Publisher("~camera_params", messages.Axis, queue_size=10)
         self.joints = [rospy.Publisher(values[f"{name}_joint_command"], Float64, queue_size=10) for name in ("pan", "tilt")]

@@ -1,4 +1,4 @@
-from typing import List, Optional, Sequence
+from collections.abc import Sequence
 
 class Complementary:
     """Orientation of a sensor in a world whose z is up; with a magnetic field its x is magnetic north.
@@ -9,16 +9,16 @@ class Complementary:
     :raises ValueError: a share that is none
     """
 
-    def __init__(self, gain_acc: float = ..., gain_mag: float = ..., adaptive: bool = ..., bias_alpha: Optional[float] = ...) -> None: ...
+    def __init__(self, gain_acc: float = ..., gain_mag: float = ..., adaptive: bool = ..., bias_alpha: float | None = ...) -> None: ...
     @property
-    def orientation(self) -> List[float]:
+    def orientation(self) -> list[float]:
         """w, x, y, z"""
     @property
-    def bias(self) -> List[float]:
+    def bias(self) -> list[float]:
         """rad/s"""
     @property
     def steady(self) -> bool:
         """Whether the last reading was of a sensor at rest."""
     def reset(self) -> None: ...
-    def update(self, acceleration: Sequence[float], rate: Sequence[float], field: Optional[Sequence[float]], dt: float) -> None:
+    def update(self, acceleration: Sequence[float], rate: Sequence[float], field: Sequence[float] | None, dt: float) -> None:
         """One reading: m/s^2, rad/s, magnetic field in any unit or None, s since the last one."""

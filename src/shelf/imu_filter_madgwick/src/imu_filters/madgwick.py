@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Optional
 
 from .rotation import Quaternion, Vector, added, advanced, conjugate, cross, product, turned, unit
 
@@ -23,7 +22,7 @@ class Madgwick:
         self.orientation: Quaternion = (1.0, 0.0, 0.0, 0.0)
         self.bias: Vector = (0.0, 0.0, 0.0)
 
-    def update(self, acceleration: Vector, rate: Vector, field: Optional[Vector], dt: float) -> None:
+    def update(self, acceleration: Vector, rate: Vector, field: Vector | None, dt: float) -> None:
         """One reading: m/s^2, rad/s, magnetic field in any unit or None, s since the last one."""
         q = self.orientation
         seen = unit(acceleration)

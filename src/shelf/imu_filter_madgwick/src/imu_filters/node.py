@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Optional, Tuple
 
 import message_filters
 import node_signals
@@ -21,7 +20,7 @@ QUEUE = 5
 _TOGETHER = 0.1  # s that a reading of the field may be from one of the accelerations
 
 
-def numbers(vector) -> Tuple[float, float, float]:
+def numbers(vector) -> tuple[float, float, float]:
     return vector.x, vector.y, vector.z
 
 
@@ -46,7 +45,7 @@ class Node:
         self._jump = rospy.Duration(_non_negative("time_jump_threshold"))
         self._reverse = rospy.get_param("~reverse_tf", False)
         self._tf = tf2_ros.TransformBroadcaster() if rospy.get_param("~publish_tf", self.publish_tf) else None
-        self._last: Optional[rospy.Time] = None
+        self._last: rospy.Time | None = None
         self._now = rospy.Time.now()
         name = rospy.resolve_name("imu")
         self._data = rospy.Publisher(f"{name}/data", Imu, queue_size=QUEUE)
@@ -66,7 +65,7 @@ class Node:
     def prepare(self, name: str, debug: bool) -> None:
         raise NotImplementedError
 
-    def answer(self, reading: Imu, field: Optional[tuple], dt: float):
+    def answer(self, reading: Imu, field: tuple | None, dt: float):
         raise NotImplementedError
 
     def reset(self) -> None:
@@ -75,7 +74,7 @@ class Node:
     def finish(self, message: Imu, orientation) -> None:
         """What else a filter changes in the message or publishes beside it."""
 
-    def _take(self, reading: Imu, mag: Optional[MagneticField] = None) -> None:
+    def _take(self, reading: Imu, mag: MagneticField | None = None) -> None:
         now = rospy.Time.now()
         if now + self._jump < self._now:
             rospy.logwarn("time jumped back by %.1f s: the filter starts anew", (self._now - now).to_sec())

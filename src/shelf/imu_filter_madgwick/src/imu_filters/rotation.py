@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import Optional, Tuple
 
-Vector = Tuple[float, float, float]
-Quaternion = Tuple[float, float, float, float]
+Vector = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
 
 
 def dot(a: Vector, b: Vector) -> float:
@@ -83,7 +82,7 @@ def roll_pitch_yaw(q: Quaternion) -> Vector:
     )
 
 
-def level_or_north(world: str, acceleration: Vector, field: Optional[Vector] = None) -> Optional[Quaternion]:
+def level_or_north(world: str, acceleration: Vector, field: Vector | None = None) -> Quaternion | None:
     """The orientation that one reading tells; None in free fall, or where the field is vertical.
 
     :param world: enu, nwu or ned: what the world's axes point to.

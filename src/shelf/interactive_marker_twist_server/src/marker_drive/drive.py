@@ -1,6 +1,6 @@
 """From a drag to velocities. No ROS in it."""
 
-from typing import Dict, Sequence, Tuple
+from collections.abc import Sequence
 
 from node_signals.parameters import is_number
 
@@ -15,7 +15,7 @@ class Drive:
 
     def __init__(self, parameters: dict):
         scales = parameters.get(_KEYS[0], 1.0)
-        self._linear: Dict[str, Tuple[float, float, float]] = {}
+        self._linear: dict[str, tuple[float, float, float]] = {}
         for axis in scales if isinstance(scales, dict) else "x":
             if axis not in ("x", "y", "z"):
                 raise ValueError(f"linear_scale has an axis {axis!r:.40}; there are x, y, z")

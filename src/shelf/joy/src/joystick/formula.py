@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import ast
 import operator
-from typing import Callable, Dict, Optional, Sequence, Tuple, cast
+from collections.abc import Callable, Sequence
+from typing import cast
 
-_OPERATORS: Dict[type, Callable] = {
+_OPERATORS: dict[type, Callable] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
     ast.Mult: operator.mul,
@@ -14,7 +15,7 @@ _OPERATORS: Dict[type, Callable] = {
     ast.BitXor: operator.xor,
     ast.USub: operator.neg,
 }
-_FUNCTIONS: Dict[str, Callable] = {"abs": abs, "max": max, "min": min}
+_FUNCTIONS: dict[str, Callable] = {"abs": abs, "max": max, "min": min}
 _LISTS = ("axes", "buttons")
 _LONGEST = 1000  # characters
 
@@ -55,7 +56,7 @@ class Formula:
             )
 
     @staticmethod
-    def _item(node: ast.expr) -> Optional[Tuple[str, int]]:
+    def _item(node: ast.expr) -> tuple[str, int] | None:
         """("axes", 1) of ``axes[1]``; None of anything else."""
         if (
             isinstance(node, ast.Subscript)
@@ -67,7 +68,7 @@ class Formula:
             return node.value.id, node.slice.value
         return None
 
-    def _value(self, node: ast.expr, lists: Dict[str, Sequence[float]]) -> float:
+    def _value(self, node: ast.expr, lists: dict[str, Sequence[float]]) -> float:
         if isinstance(node, ast.Constant):
             return cast(float, node.value)
         if isinstance(node, ast.BinOp):

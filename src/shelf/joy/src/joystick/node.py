@@ -7,7 +7,6 @@ import select
 import sys
 import time
 from fcntl import ioctl
-from typing import Optional
 
 import node_signals
 import rospy
@@ -87,7 +86,7 @@ def _relay(descriptor: int, state: State, publisher, rate: float, pause: float) 
             due, repeat = math.inf, now + period
 
 
-def _find(name: str) -> Optional[str]:
+def _find(name: str) -> str | None:
     """The device whose joystick calls itself so."""
     for path in sorted(glob.glob("/dev/input/js*")) if name else ():
         try:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from typing import List, Set
 
 import node_signals
 import rospy
@@ -20,7 +19,7 @@ class Remap:
 
     def __init__(self, axes: object, buttons: object):
         self.axes, self.buttons = _formulas("axes", axes), _formulas("buttons", buttons)
-        self._told: Set[str] = set()
+        self._told: set[str] = set()
 
     def message(self, seen: Joy) -> Joy:
         """The same moment; an entry that this joystick cannot give is 0, and told once."""
@@ -40,7 +39,7 @@ class Remap:
             return 0.0
 
 
-def _formulas(name: str, given: object) -> List[Formula]:
+def _formulas(name: str, given: object) -> list[Formula]:
     if not isinstance(given, list):
         raise ValueError(f"parameter ~mappings/{name} must be a list of formulas, not {given!r}")
     try:

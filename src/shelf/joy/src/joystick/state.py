@@ -1,7 +1,6 @@
 """Axes and buttons of a joystick, from the events of the kernel (linux/joystick.h). No ROS in it."""
 
 import struct
-from typing import List
 
 EVENT = struct.Struct("=IhBB")  # time in ms, value, type, number
 BUTTON, AXIS, INIT = 0x01, 0x02, 0x80
@@ -18,8 +17,8 @@ class State:
     def __init__(self, deadzone: float = 0.05, sticky: bool = False):
         if not 0 <= deadzone < 1:
             raise ValueError(f"deadzone must be from 0 to below 1, but is {deadzone}")
-        self.axes: List[float] = []
-        self.buttons: List[int] = []
+        self.axes: list[float] = []
+        self.buttons: list[int] = []
         self._deadzone, self._sticky = deadzone, sticky
 
     def take(self, value: int, kind: int, number: int) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from typing import Any, Tuple
+from typing import Any
 
 import PyKDL
 from urdf_parser_py.urdf import URDF, Joint, Pose
@@ -11,21 +11,21 @@ from urdf_parser_py.urdf import URDF, Joint, Pose
 _TURNS, _SLIDES = ("revolute", "continuous"), ("prismatic",)
 
 
-def treeFromFile(filename: str) -> Tuple[bool, PyKDL.Tree]:
+def treeFromFile(filename: str) -> tuple[bool, PyKDL.Tree]:
     """:raises urdf_parser_py.xml_reflection.ParseError, OSError: what cannot be read"""
     return treeFromUrdfModel(URDF.from_xml_file(filename))
 
 
-def treeFromParam(param: str) -> Tuple[bool, PyKDL.Tree]:
+def treeFromParam(param: str) -> tuple[bool, PyKDL.Tree]:
     """:raises KeyError: there is no such parameter"""
     return treeFromUrdfModel(URDF.from_parameter_server(param))
 
 
-def treeFromString(xml: str) -> Tuple[bool, PyKDL.Tree]:
+def treeFromString(xml: str) -> tuple[bool, PyKDL.Tree]:
     return treeFromUrdfModel(URDF.from_xml_string(xml))
 
 
-def treeFromUrdfModel(robot_model: URDF, quiet: bool = False) -> Tuple[bool, PyKDL.Tree]:
+def treeFromUrdfModel(robot_model: URDF, quiet: bool = False) -> tuple[bool, PyKDL.Tree]:
     """:param quiet: not a word about an inertia of the root link, which KDL leaves out"""
     root = robot_model.get_root()
     if robot_model.link_map[root].inertial and not quiet:

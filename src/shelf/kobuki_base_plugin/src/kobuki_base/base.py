@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from types import ModuleType
-from typing import Any, Optional, Set
+from typing import Any
 
 import rospy
 from gazebo_plugins.drives.wheels import Command
@@ -71,7 +71,7 @@ class Kobuki(ModelPlugin):
         self.command = Command(topics, f"{base}/commands/velocity")
         self.motors_on = True
         topics.subscriber(f"{base}/commands/reset_odometry", Empty, lambda _: setattr(self, "odometry_reset", True))
-        self.kobuki: Optional[ModuleType] = None
+        self.kobuki: ModuleType | None = None
         try:
             from kobuki_msgs import msg as kobuki
         except ImportError:
@@ -95,9 +95,9 @@ class Kobuki(ModelPlugin):
     def reset(self) -> None:
         self.command.clear()
         self.odometry_reset = True
-        self.was_pressed: Set[str] = set()
-        self.was_cliff: Set[str] = set()
-        self.was_dropped: Set[str] = set()
+        self.was_pressed: set[str] = set()
+        self.was_cliff: set[str] = set()
+        self.was_dropped: set[str] = set()
 
     def drive(self) -> None:
         late = (self.server.now() - self.command.received).to_sec() > self.timeout

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Dict, Set
 
 import numpy as np
 from ode_sim import math3
@@ -32,7 +31,7 @@ class Bumper:
         apart = {wheel.name for wheel in wheels}
         self._body = {collision.id for link in model.links.values() if link.name not in apart for collision in link.collisions.values()}
 
-    def pressed(self) -> Set[str]:
+    def pressed(self) -> set[str]:
         """Of :data:`SIDES` those that something pushes now."""
         found = set()
         pose = self._model.pose
@@ -55,12 +54,12 @@ class Cliffs:
     :param threshold: m, from which on there is a cliff.
     """
 
-    def __init__(self, world, model, sensors: Dict[str, str], threshold: float):
+    def __init__(self, world, model, sensors: dict[str, str], threshold: float):
         self._world, self._threshold = world, threshold
         self._own = [collision for link in model.links.values() for collision in link.collisions.values()]
         self._places = {side: named_sensor(model, name, ("ray", "gpu_ray")) for side, name in sensors.items()}
 
-    def distances(self) -> Dict[str, float]:
+    def distances(self) -> dict[str, float]:
         """Side to distance in m; inf where there is no floor within the sensor's range."""
         poses = [math3.compose(link.pose, sensor.pose) for link, sensor in self._places.values()]
         ahead = [math3.quat_rotate(pose.q, (1.0, 0.0, 0.0)) for pose in poses]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from typing import Any, Deque, List
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +15,7 @@ class _Window:
 
     def __init__(self, over, count: int):
         self._over = over
-        self._seen: Deque[np.ndarray] = deque(maxlen=count)
+        self._seen: deque[np.ndarray] = deque(maxlen=count)
 
     def apply(self, values: np.ndarray) -> np.ndarray:
         if self._seen and len(self._seen[-1]) != len(values):
@@ -31,7 +31,7 @@ def _median(rows: np.ndarray) -> np.ndarray:
 _KINDS = {"MultiChannelMeanFilterFloat": lambda rows: rows.mean(axis=0), "MultiChannelMedianFilterFloat": _median}
 
 
-def _windows(chain: Any, name: str) -> List[_Window]:
+def _windows(chain: Any, name: str) -> list[_Window]:
     windows = []
     for entry in chain if isinstance(chain, list) else [chain]:
         kind = str(entry.get("type", "") if isinstance(entry, dict) else "").rsplit("/", 1)[-1]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, Optional, Sequence
+from typing import Any
 
 import numpy as np
 from node_signals.parameters import is_number
@@ -60,10 +61,10 @@ class Filter:
 
     settings: Sequence[Setting] = ()
 
-    def __init__(self, name: str, given: Dict[str, Any], transform: Optional[Transform] = None):
+    def __init__(self, name: str, given: dict[str, Any], transform: Transform | None = None):
         self.name = name
         self.transform = transform
-        self.values: Dict[str, Any] = {}
+        self.values: dict[str, Any] = {}
         for setting in self.settings:
             value = given.get(setting.name, setting.default)
             if value is None:
@@ -84,10 +85,10 @@ class Filter:
             raise wrong
         return value
 
-    def prepare(self, given: Dict[str, Any]) -> None:
+    def prepare(self, given: dict[str, Any]) -> None:
         """What follows from the values; also after they were changed."""
 
-    def change(self, values: Dict[str, Any]) -> None:
+    def change(self, values: dict[str, Any]) -> None:
         self.values.update(values)
         self.prepare({})
 

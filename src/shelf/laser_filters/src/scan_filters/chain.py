@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, List, Optional
+from collections.abc import Callable
+from typing import Any
 
 from . import arrays, places, values
 from .base import Filter, FilterError, Scan, Transform
@@ -26,14 +27,14 @@ KINDS = {
 }
 
 
-def chain(entries: Any, transform: Optional[Transform] = None) -> List[Filter]:
+def chain(entries: Any, transform: Transform | None = None) -> list[Filter]:
     """The filters of a list of ``{name, type, params}``; a type may go without ``laser_filters/``.
 
     :raises FilterError: one line that names the entry and says what is wrong with it.
     """
     if not isinstance(entries, list):
         raise FilterError("a chain of filters is a list of {name, type, params}")
-    made: List[Filter] = []
+    made: list[Filter] = []
     for entry in entries:
         if not isinstance(entry, dict) or not isinstance(entry.get("type"), str):
             raise FilterError(f"an entry of a chain of filters needs a name and a type: {entry!r}")
@@ -50,7 +51,7 @@ def chain(entries: Any, transform: Optional[Transform] = None) -> List[Filter]:
     return made
 
 
-def run(filters: List[Filter], scan: Scan, failed: Callable[[str], None]) -> bool:
+def run(filters: list[Filter], scan: Scan, failed: Callable[[str], None]) -> bool:
     """Filter a scan in place; False, and ``failed`` with one line, where a filter cannot."""
     for one in filters:
         try:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import sys
-from typing import Optional
 
 import node_signals
 import rospy
@@ -37,7 +36,7 @@ class Node:
         self._empty = math.inf if rospy.get_param("~use_inf", True) else beyond
         self._buffer = tf2_ros.Buffer()
         self._listener = tf2_ros.TransformListener(self._buffer) if self._frame else None
-        self._cloud: Optional[rospy.Subscriber] = None
+        self._cloud: rospy.Subscriber | None = None
         self._scan = rospy.Publisher("scan", LaserScan, self, queue_size=10)
 
     # who listens to the scan; clouds are large, and are only fetched for somebody

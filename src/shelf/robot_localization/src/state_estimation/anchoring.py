@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Optional, Tuple, Union
-
 import numpy as np
 
 from .earth import Tangent, Utm, Zone, zone_of
 from .motion import rotation
 from .sensors import Transform, angles
 
-Plane = Union[Utm, Tangent]
+Plane = Utm | Tangent
 
 
 class Datum:
@@ -22,7 +20,7 @@ class Datum:
     :raises ValueError: there is no such point
     """
 
-    def __init__(self, latitude: float, longitude: float, altitude: float, local: bool = False, zone: Optional[Zone] = None):
+    def __init__(self, latitude: float, longitude: float, altitude: float, local: bool = False, zone: Zone | None = None):
         self.plane: Plane = Tangent(latitude, longitude) if local else Utm(zone or zone_of(latitude, longitude))
         self.position = self.cartesian(latitude, longitude, altitude)
         self.convergence = self.plane.convergence(latitude, longitude)
@@ -58,7 +56,7 @@ class Anchor:
         turn = self.world_plane
         return turn.rotation @ self.datum.cartesian(latitude, longitude, altitude) + turn.translation
 
-    def to_earth(self, position: np.ndarray) -> Tuple[float, float, float]:
+    def to_earth(self, position: np.ndarray) -> tuple[float, float, float]:
         """(latitude, longitude, altitude), degrees and m, of a (3,) point of the robot's world.
 
         :raises ValueError: too far away

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import re
-from typing import NamedTuple, Tuple
+from typing import NamedTuple
 
 from pyproj import Proj, Transformer
 from pyproj.exceptions import ProjError
@@ -62,7 +62,7 @@ class Utm:
         grid = {"proj": "ups"} if zone.number == _POLAR else {"proj": "utm", "zone": zone.number}
         self._project = Proj(grid, ellps="WGS84", south=not zone.north)
 
-    def plane(self, latitude: float, longitude: float, altitude: float) -> Tuple[float, float]:
+    def plane(self, latitude: float, longitude: float, altitude: float) -> tuple[float, float]:
         """(east, north), m, of a point, degrees.
 
         :raises ValueError: there is no such point, or it is too far from the zone
@@ -73,7 +73,7 @@ class Utm:
         except ProjError:
             raise ValueError(f"latitude {latitude:g}, longitude {longitude:g} cannot be told in UTM zone {self.zone.number}") from None
 
-    def point(self, east: float, north: float) -> Tuple[float, float]:
+    def point(self, east: float, north: float) -> tuple[float, float]:
         """(latitude, longitude), degrees, of a point of the plane, m. :raises ValueError: there is none"""
         try:
             longitude, latitude = self._project(east, north, inverse=True, errcheck=True)
@@ -95,12 +95,12 @@ class Tangent:
             f"+proj=pipeline +step +proj=cart +ellps=WGS84 +step +proj=topocentric +ellps=WGS84 +lat_0={latitude!r} +lon_0={longitude!r}"
         )
 
-    def plane(self, latitude: float, longitude: float, altitude: float) -> Tuple[float, float]:
+    def plane(self, latitude: float, longitude: float, altitude: float) -> tuple[float, float]:
         """(east, north), m, of a point, degrees and m. :raises ValueError: there is no such point"""
         _check(latitude, longitude, altitude)
         return self._project.transform(longitude, latitude, altitude)[:2]
 
-    def point(self, east: float, north: float) -> Tuple[float, float]:
+    def point(self, east: float, north: float) -> tuple[float, float]:
         """(latitude, longitude), degrees, of a point of the plane, m."""
         longitude, latitude, _ = self._project.transform(east, north, 0.0, direction="INVERSE")
         return latitude, longitude

@@ -1,7 +1,6 @@
 """The extended and the unscented Kalman filter over the motion of a rigid body. No ROS in it."""
 
 from dataclasses import dataclass
-from typing import Optional
 
 import numpy as np
 
@@ -48,7 +47,7 @@ class Ekf:
         """
         self.state, self.covariance = np.zeros(SIZE), covariance.copy()
         self.process_noise, self._planar, self._dynamic = process_noise, planar, dynamic_noise
-        self.time: Optional[float] = None  # s, of the newest measurement that went in, or of a prediction beyond it
+        self.time: float | None = None  # s, of the newest measurement that went in, or of a prediction beyond it
 
     def process(self, measurement: Measurement) -> bool:
         """Predict to the measurement's time and correct by it. One older than the estimate corrects it as if it were of now.

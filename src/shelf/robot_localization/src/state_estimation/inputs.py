@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Callable, List
+from collections.abc import Callable
 
 import numpy as np
 import rospy
@@ -92,7 +92,7 @@ class Sensor:
             self.pose.forget()
 
     def _guarded(self, message, read) -> None:
-        measured: List[Measurement] = []
+        measured: list[Measurement] = []
         try:
             read(message, measured)
         except (FrameMissing, ValueError) as error:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 import threading
-from typing import Optional
 
 import node_signals
 import numpy as np
@@ -80,12 +79,12 @@ class NavsatTransform:
         self._mutex = threading.RLock()
         self._world, self._base, self._receiver = "odom", "base_link", ""
         self._manual, self._zone = settings.wait_for_datum, None
-        self._datum: Optional[Datum] = None
-        self._pose: Optional[Transform] = None  # of the robot in its world: of the datum, else the newest
-        self._rpy: Optional[np.ndarray] = None
-        self._anchor: Optional[Anchor] = None
-        self._fix: Optional[NavSatFix] = None  # not published yet
-        self._odometry: Optional[Odometry] = None
+        self._datum: Datum | None = None
+        self._pose: Transform | None = None  # of the robot in its world: of the datum, else the newest
+        self._rpy: np.ndarray | None = None
+        self._anchor: Anchor | None = None
+        self._fix: NavSatFix | None = None  # not published yet
+        self._odometry: Odometry | None = None
         self._look_up = Lookup(rospy.Duration(settings.timeout))
         self._broadcaster = tf2_ros.StaticTransformBroadcaster()
         self._gps_odometry = rospy.Publisher("odometry/gps", Odometry, queue_size=10)

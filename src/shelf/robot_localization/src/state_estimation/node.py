@@ -6,7 +6,7 @@ import re
 import sys
 import threading
 from dataclasses import dataclass
-from typing import Any, Dict
+from typing import Any
 
 import node_signals
 import numpy as np
@@ -120,7 +120,7 @@ class Localization:
         def given(name: str, default: np.ndarray) -> np.ndarray:
             return matrix(parameters[name], f"{own}/{name}") if name in parameters else default
 
-        options: Dict[str, Any] = dict(
+        options: dict[str, Any] = dict(
             process_noise=given("process_noise_covariance", PROCESS_NOISE),
             covariance=given("initial_estimate_covariance", INITIAL_COVARIANCE),
             planar=bool(parameters.get("two_d_mode", False)),

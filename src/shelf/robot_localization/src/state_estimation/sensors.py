@@ -1,7 +1,7 @@
 """From messages to measurements: frames, covariances, what each sensor is asked for."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable, Optional
 
 import numpy as np
 
@@ -102,10 +102,10 @@ class PoseInput:
         self.name, self.used = name, np.array(used, bool)
         self._world, self._base, self._lookup = world, base, lookup
         self._differential, self._relative, self._threshold, self._inertial = differential, relative, threshold, inertial
-        self._first: Optional[Transform] = None
-        self._last: Optional[tuple] = None
+        self._first: Transform | None = None
+        self._last: tuple | None = None
 
-    def measure(self, pose: Pose) -> Optional[Measurement]:
+    def measure(self, pose: Pose) -> Measurement | None:
         """:raises FrameMissing: a transform is not known"""
         used, transform, covariance = self._in_world(pose)
         if self._differential:
@@ -136,7 +136,7 @@ class PoseInput:
         both = _blocks(to_world.rotation)
         return used, to_world @ pose.transform, both @ pose.covariance @ both.T
 
-    def _velocity(self, used, transform: Transform, covariance, time: float) -> Optional[Measurement]:
+    def _velocity(self, used, transform: Transform, covariance, time: float) -> Measurement | None:
         last, self._last = self._last, (transform, covariance, time)
         if last is None or time - last[2] <= 1e-6:
             return None
@@ -188,7 +188,7 @@ class AccelerationInput:
         self._remove, self._gravity = remove_gravity, gravity
 
     def measure(
-        self, frame: str, stamp, time: float, acceleration, covariance, orientation: Optional[np.ndarray], state_rpy: np.ndarray
+        self, frame: str, stamp, time: float, acceleration, covariance, orientation: np.ndarray | None, state_rpy: np.ndarray
     ) -> Measurement:
         """:param orientation: (3, 3) of the unit in the world, None if it has none: the state's is taken then
         :raises FrameMissing: a transform is not known

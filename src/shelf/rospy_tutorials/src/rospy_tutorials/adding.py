@@ -2,7 +2,6 @@
 
 import random
 import sys
-from typing import List, Optional, Tuple
 
 import node_signals
 import rospy
@@ -25,7 +24,7 @@ def serve() -> None:
     node_signals.spin()
 
 
-def numbers(words: List[str]) -> Optional[Tuple[int, int]]:
+def numbers(words: list[str]) -> tuple[int, int] | None:
     """What was typed, two at random if nothing was, None if it is something else."""
     if not words:
         return random.randint(-50000, 50000), random.randint(-50000, 50000)

@@ -1,7 +1,7 @@
 """Nodes that say hello ten times a second on ``chatter``, and nodes that hear them."""
 
 import contextlib
-from typing import Callable
+from collections.abc import Callable
 
 import node_signals
 import rospy

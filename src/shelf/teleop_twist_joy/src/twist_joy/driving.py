@@ -1,11 +1,11 @@
 """From axes and buttons to velocities. No ROS in it."""
 
-from typing import Dict, List, Optional, Sequence, Tuple
+from collections.abc import Sequence
 
 FIELDS = {"linear": ("x", "y", "z"), "angular": ("yaw", "pitch", "roll")}
 _DEFAULTS = {"linear": ("x", 1, 0.5, 1.0), "angular": ("yaw", 0, 0.5, None)}  # field, axis, scale, turbo (None: as scale)
 
-Velocities = Dict[str, float]
+Velocities = dict[str, float]
 
 
 class Driver:
@@ -20,8 +20,8 @@ class Driver:
         self.enable = int(parameters.get("enable_button", 0))
         self.turbo = int(parameters.get("enable_turbo_button", -1))
         self.required = bool(parameters.get("require_enable_button", True))
-        self.axes: Dict[str, int] = {}
-        self.scales: Dict[str, Velocities] = {"normal": {}, "turbo": {}}
+        self.axes: dict[str, int] = {}
+        self.scales: dict[str, Velocities] = {"normal": {}, "turbo": {}}
         for kind in FIELDS:
             self._read(kind, parameters)
         self._stopped = False
@@ -46,7 +46,7 @@ class Driver:
                     raise ValueError(f"{name}{kind} must give numbers (axes whole ones), but {key} is {value!r:.40}")
                 into[key] = value
 
-    def drive(self, axes: Sequence[float], buttons: Sequence[int]) -> Optional[Velocities]:
+    def drive(self, axes: Sequence[float], buttons: Sequence[int]) -> Velocities | None:
         """m/s and rad/s of the six fields. None if there is nothing to say: an enable button that is let go stops once."""
         if self._pressed(self.turbo, buttons):
             return self._velocities(axes, "turbo")
@@ -69,9 +69,9 @@ class Driver:
                 values[field] = axes[axis] * self.scales[which].get(field, 0.0)
         return values
 
-    def lines(self) -> Sequence[Tuple[str, tuple]]:
+    def lines(self) -> Sequence[tuple[str, tuple]]:
         """What the node tells at its start: formats with their arguments."""
-        told: List[Tuple[str, tuple]] = [("Teleop enable button %i.", (self.enable,))]
+        told: list[tuple[str, tuple]] = [("Teleop enable button %i.", (self.enable,))]
         if self.turbo >= 0:
             told.append(("Turbo on button %i.", (self.turbo,)))
         for kind, fields in FIELDS.items():

@@ -6,7 +6,6 @@ import sys
 import termios
 import threading
 import tty
-from typing import Optional
 
 import node_signals
 import rospy
@@ -24,7 +23,7 @@ class Keyboard:
 
     def __init__(self, descriptor: int):
         self._descriptor = descriptor
-        self._settings: Optional[list] = None
+        self._settings: list | None = None
 
     def __enter__(self):
         if os.isatty(self._descriptor):
@@ -49,7 +48,7 @@ class Keyboard:
 class Sender:
     """Publishes the newest velocities when they change, and again at a rate if one is given."""
 
-    def __init__(self, rate: float, frame_id: Optional[str] = None):
+    def __init__(self, rate: float, frame_id: str | None = None):
         """:param rate: Hz; 0 publishes changes only
         :param frame_id: of TwistStamped; None publishes Twist
         """

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import importlib
-from typing import Any, Dict, Iterable, Tuple
+from collections.abc import Iterable
+from typing import Any
 
 
 class ExpressionError(ValueError):
     """An expression that cannot be computed; one line that says which and why."""
 
 
-def modules(names: Iterable[str]) -> Tuple[Dict[str, Any], Tuple[str, ...]]:
+def modules(names: Iterable[str]) -> tuple[dict[str, Any], tuple[str, ...]]:
     """:returns: what ``import`` binds, by name; and the names of modules that are not there."""
     bound, absent = {}, []
     for name in names:
@@ -24,7 +25,7 @@ def modules(names: Iterable[str]) -> Tuple[Dict[str, Any], Tuple[str, ...]]:
     return bound, tuple(absent)
 
 
-def compute(expression: str, m: Any, names: Dict[str, Any]) -> Any:
+def compute(expression: str, m: Any, names: dict[str, Any]) -> Any:
     """Value of ``expression`` where ``m`` is the message and ``names`` are known besides.
 
     :raises ExpressionError: it has none.

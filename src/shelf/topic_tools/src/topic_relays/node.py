@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import argparse
 import sys
-from typing import Any, Callable, Optional
+from collections.abc import Callable
+from typing import Any
 
 import genpy
 import node_signals
@@ -53,7 +54,7 @@ class Relay:
             rospy.logerr_throttle(5, "%s", " ".join(str(error).split()))
 
 
-def _run(name: str, options: argparse.Namespace, make: Callable[[Any], Any], latch: bool = False) -> Optional[int]:
+def _run(name: str, options: argparse.Namespace, make: Callable[[Any], Any], latch: bool = False) -> int | None:
     node_signals.init_node(name, anonymous=True)
     try:
         relay = Relay(options, make, latch)
@@ -65,7 +66,7 @@ def _run(name: str, options: argparse.Namespace, make: Callable[[Any], Any], lat
     return 0
 
 
-def transform() -> Optional[int]:
+def transform() -> int | None:
     """The node transform. :returns: exit code."""
     p = _parser(
         "transform",
@@ -82,7 +83,7 @@ def transform() -> Optional[int]:
     return _run("transform", options, lambda m: compute(options.expression, m, names), options.latch)
 
 
-def relay_field() -> Optional[int]:
+def relay_field() -> int | None:
     """The node relay_field. :returns: exit code, 1 too when its expression is no YAML."""
     p = _parser(
         "relay_field",

@@ -1,7 +1,6 @@
 """Drives along a regular polygon by the turtle's pose. Knows no ROS."""
 
 import math
-from typing import Optional, Tuple
 
 _GAIN = 6.0  # 1/s, velocity per error
 _DISTANCE, _ANGLE = 1e-5, 1e-5  # m, rad; an error below is none
@@ -29,8 +28,8 @@ class Polygon:
         self.apothem = radius * math.cos(math.pi / edges)
         self._side = 2 * radius * math.sin(math.pi / edges)
         self._edges = edges
-        self._start: Optional[Tuple[float, float, float]] = None  # x, y, theta at the last corner
-        self._last: Optional[tuple] = None
+        self._start: tuple[float, float, float] | None = None  # x, y, theta at the last corner
+        self._last: tuple | None = None
         self._unchanged = 0
 
     @property

@@ -1,7 +1,6 @@
 """The node turtle_shape, which is also the name of its action."""
 
 import threading
-from typing import Optional
 
 import actionlib
 import node_signals
@@ -19,7 +18,7 @@ class ShapeServer:
     def __init__(self, name: str):
         self._name = name
         self._lock = threading.Lock()  # goals come in one thread, poses in another
-        self._polygon: Optional[Polygon] = None
+        self._polygon: Polygon | None = None
         self._publisher = rospy.Publisher("/turtle1/cmd_vel", Twist, queue_size=1)
         self._server = actionlib.SimpleActionServer(name, ShapeAction, auto_start=False)
         self._server.register_goal_callback(self._accept)

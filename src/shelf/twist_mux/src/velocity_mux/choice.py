@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass
-from typing import Dict, List, Optional
 
 from node_signals.parameters import is_number
 
@@ -42,12 +41,12 @@ class Lock(Input):
         return self.closed or self.silent(now)
 
 
-def lock_priority(locks: List[Lock], now: float) -> int:
+def lock_priority(locks: list[Lock], now: float) -> int:
     """The highest priority among the closed locks; 0 if none is closed."""
     return max([0, *(lock.priority for lock in locks if lock.locked(now))])
 
 
-def chosen(sources: List[Source], locks: List[Lock], now: float) -> Optional[Source]:
+def chosen(sources: list[Source], locks: list[Lock], now: float) -> Source | None:
     """The source that drives now: of those that are not masked the one of highest priority, the first of equals.
 
     A source of priority 0 never drives, and one without a timeout counts as speaking from the start, as in twist_mux.
@@ -66,7 +65,7 @@ def read_inputs(value, kind, parameter: str) -> list:
     """
     if not isinstance(value, list):
         raise ValueError(f"parameter {parameter} must be a list of entries with name, topic, timeout and priority, but is {value!r:.60}")
-    inputs: Dict[str, Input] = {}
+    inputs: dict[str, Input] = {}
     for index, entry in enumerate(value):
         made = _read_input(entry, kind, f"entry {index + 1} of parameter {parameter}")
         if made.name in inputs:

@@ -10,7 +10,7 @@ Lengths are in m, angles in rad, masses in kg, as in the file; what it leaves ou
 
 from __future__ import annotations
 
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any
 from xml.etree import ElementTree
 
 import urdf_parser_py.xml_reflection as xmlr
@@ -158,7 +158,7 @@ class Inertia(Object):
     def __init__(self, ixx=0.0, ixy=0.0, ixz=0.0, iyy=0.0, iyz=0.0, izz=0.0):
         self.ixx, self.ixy, self.ixz, self.iyy, self.iyz, self.izz = ixx, ixy, ixz, iyy, iyz, izz
 
-    def to_matrix(self) -> List[List[float]]:
+    def to_matrix(self) -> list[list[float]]:
         return [[self.ixx, self.ixy, self.ixz], [self.ixy, self.iyy, self.iyz], [self.ixz, self.iyz, self.izz]]
 
 
@@ -287,8 +287,8 @@ class Link(Object):
     def __init__(self, name=None, visual=None, inertial=None, collision=None, origin=None):
         self.aggregate_init()
         self.name, self.inertial, self.origin = name, inertial, origin
-        self.visuals: List[Visual] = []
-        self.collisions: List[Collision] = []
+        self.visuals: list[Visual] = []
+        self.collisions: list[Collision] = []
         self.visual, self.collision = visual, collision
 
     visual = _first("visual")
@@ -310,7 +310,7 @@ class TransmissionJoint(Object):
     def __init__(self, name=None):
         self.aggregate_init()
         self.name = name
-        self.hardwareInterfaces: List[str] = []
+        self.hardwareInterfaces: list[str] = []
 
     def check_valid(self):
         if not self.hardwareInterfaces:
@@ -340,8 +340,8 @@ class Transmission(Object):
     def __init__(self, name=None):
         self.aggregate_init()
         self.name, self.type = name, None
-        self.joints: List[TransmissionJoint] = []
-        self.actuators: List[Actuator] = []
+        self.joints: list[TransmissionJoint] = []
+        self.actuators: list[Actuator] = []
 
     def check_valid(self):
         for what in ("joint", "actuator"):
@@ -368,20 +368,20 @@ class Robot(Object):
         Aggregate("material", Material),
     ]
 
-    def __init__(self, name: Optional[str] = None, version: str = "1.0"):
+    def __init__(self, name: str | None = None, version: str = "1.0"):
         self.aggregate_init()
         self.name, self.version = name, version
         self._check_version()
-        self.links: List[Link] = []
-        self.joints: List[Joint] = []
-        self.materials: List[Material] = []
-        self.gazebos: List[ElementTree.Element] = []
-        self.transmissions: List[Any] = []
-        self.link_map: Dict[str, Link] = {}
-        self.joint_map: Dict[str, Joint] = {}
+        self.links: list[Link] = []
+        self.joints: list[Joint] = []
+        self.materials: list[Material] = []
+        self.gazebos: list[ElementTree.Element] = []
+        self.transmissions: list[Any] = []
+        self.link_map: dict[str, Link] = {}
+        self.joint_map: dict[str, Joint] = {}
         #: child link -> (joint, parent link); parent link -> [(joint, child link)]
-        self.parent_map: Dict[str, Tuple[str, str]] = {}
-        self.child_map: Dict[str, List[Tuple[str, str]]] = {}
+        self.parent_map: dict[str, tuple[str, str]] = {}
+        self.child_map: dict[str, list[tuple[str, str]]] = {}
 
     def _check_version(self):
         if self.version not in self.SUPPORTED_VERSIONS:
@@ -406,7 +406,7 @@ class Robot(Object):
     def add_joint(self, joint: Joint) -> None:
         self.add_aggregate("joint", joint)
 
-    def get_chain(self, root: str, tip: str, joints: bool = True, links: bool = True, fixed: bool = True) -> List[str]:
+    def get_chain(self, root: str, tip: str, joints: bool = True, links: bool = True, fixed: bool = True) -> list[str]:
         """Names from ``root`` to ``tip``, both included.
 
         :param fixed: with fixed joints
@@ -429,7 +429,7 @@ class Robot(Object):
         return roots[0]
 
     @classmethod
-    def from_parameter_server(cls, key: str = "robot_description") -> "Robot":
+    def from_parameter_server(cls, key: str = "robot_description") -> Robot:
         """:raises KeyError: there is no such parameter. :raises ParseError: it is no robot"""
         import rospy
 

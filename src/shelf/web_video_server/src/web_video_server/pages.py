@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from html import escape
-from typing import Iterable, List, Tuple
 from urllib.parse import quote
 
 _INFO = "camera_info"
 
 
-def groups(topics: Iterable[Tuple[str, str]]) -> List[Tuple[str, List[str]]]:
+def groups(topics: Iterable[tuple[str, str]]) -> list[tuple[str, list[str]]]:
     """[(camera's namespace with its slash, names below it)], then ("", [whole names]) of those without a camera_info.
 
     :param topics: (name, type) as the master lists them
     """
     images = sorted(name for name, kind in topics if kind == "sensor_msgs/Image")
-    found: List[Tuple[str, List[str]]] = []
+    found: list[tuple[str, list[str]]] = []
     cameras = (name for name, kind in sorted(topics) if kind == "sensor_msgs/CameraInfo" and name.endswith("/" + _INFO))
     for camera in cameras:
         base = camera[: -len(_INFO)]
@@ -24,7 +24,7 @@ def groups(topics: Iterable[Tuple[str, str]]) -> List[Tuple[str, List[str]]]:
     return found + [("", images)]
 
 
-def topics_page(topics: Iterable[Tuple[str, str]]) -> str:
+def topics_page(topics: Iterable[tuple[str, str]]) -> str:
     parts = ["<!DOCTYPE html><html><head><title>ROS Image Topic List</title></head><body><h1>Available ROS Image Topics:</h1>"]
     for base, names in groups(list(topics)):
         entries = "".join(_entry(base, name) for name in names)

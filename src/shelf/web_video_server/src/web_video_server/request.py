@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import Dict, Optional
 from urllib.parse import parse_qs
 
 #: type of a stream -> (content type of a picture, quality where the address gives none: JPEG's per cent, PNG's compression)
@@ -37,8 +36,8 @@ class Request:
 
     topic: str
     type: str = "mjpeg"
-    width: Optional[int] = None
-    height: Optional[int] = None
+    width: int | None = None
+    height: int | None = None
     quality: int = 95
     invert: bool = False
     transport: str = "raw"
@@ -75,12 +74,12 @@ def read(query: str, default_type: str = "mjpeg") -> Request:
     )
 
 
-def _size(values: Dict[str, str], name: str) -> Optional[int]:
+def _size(values: dict[str, str], name: str) -> int | None:
     size = _number(values, name, LARGEST)
     return size or None
 
 
-def _number(values: Dict[str, str], name: str, most: int) -> Optional[int]:
+def _number(values: dict[str, str], name: str, most: int) -> int | None:
     """None where it is not given, or -1."""
     text = values.get(name, "-1")
     try:

@@ -8,7 +8,7 @@ import sys
 import time
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
-from typing import Any, Dict, Optional
+from typing import Any
 from urllib.parse import urlsplit
 
 import rospy
@@ -107,7 +107,7 @@ class _Handler(BaseHTTPRequestHandler):
         with self._listening(asked) as latest:
             self._begin(HTTPStatus.OK, f"multipart/x-mixed-replace;boundary={_BOUNDARY}", {**_NOT_KEPT, **_FOR_ALL})
             self.wfile.write(f"--{_BOUNDARY}\r\n".encode())
-            last: Optional[bytes] = None
+            last: bytes | None = None
             while not self._gone():
                 message = latest.next(self.server.again or _LOOK)
                 data = self._data(message, asked) if message is not None else None
@@ -156,7 +156,7 @@ class _Handler(BaseHTTPRequestHandler):
         return topics.Latest(asked.topic, compressed=False)
 
     @staticmethod
-    def _data(message: Any, asked: Request) -> Optional[bytes]:
+    def _data(message: Any, asked: Request) -> bytes | None:
         if asked.type == AS_SENT:
             return bytes(message.data)
         try:
@@ -189,7 +189,7 @@ class _Handler(BaseHTTPRequestHandler):
         self._begin(status, "text/plain; charset=utf-8", {"Content-Length": str(len(data)), **_FOR_ALL})
         self.wfile.write(data)
 
-    def _begin(self, status: HTTPStatus, kind: str, headers: Dict[str, str]) -> None:
+    def _begin(self, status: HTTPStatus, kind: str, headers: dict[str, str]) -> None:
         self.send_response(status)
         self.send_header("Connection", "close")
         self.send_header("Content-type", kind)

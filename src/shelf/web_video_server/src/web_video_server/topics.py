@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Any, Dict, Optional
+from typing import Any
 
 import rospy
 from sensor_msgs.msg import CompressedImage, Image
@@ -11,7 +11,7 @@ from sensor_msgs.msg import CompressedImage, Image
 _BUFFER = 1 << 24  # bytes that are read at once: a message that waits in the connection is an old one
 
 
-def published() -> Dict[str, str]:
+def published() -> dict[str, str]:
     """Types by topic."""
     return dict(rospy.get_published_topics())
 
@@ -27,7 +27,7 @@ class Latest:
         self._message: Any = None
         self._subscriber = rospy.Subscriber(topic, CompressedImage if compressed else Image, self._take, queue_size=1, buff_size=_BUFFER)
 
-    def __enter__(self) -> "Latest":
+    def __enter__(self) -> Latest:
         return self
 
     def __exit__(self, *_: Any) -> None:
@@ -38,7 +38,7 @@ class Latest:
             self._message = message
             self._news.notify()
 
-    def next(self, seconds: float) -> Optional[Any]:
+    def next(self, seconds: float) -> Any | None:
         """A message that was not given before, or None if none comes in this wall time."""
         with self._news:
             self._news.wait_for(lambda: self._message is not None, seconds)

@@ -23,8 +23,9 @@ from __future__ import annotations
 import math
 import os
 import reprlib
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any
 
 import numpy as np
 from ode_sim.description.model import quoted
@@ -32,7 +33,7 @@ from ode_sim.description.model import quoted
 from building_editor.plan_file import PlanError, load_plan
 from building_editor.plan_image import wall_rectangles
 
-Point = Tuple[float, float]
+Point = tuple[float, float]
 
 
 #: m: no wall lies farther out or is longer; what is smaller than the other one is nothing
@@ -47,7 +48,7 @@ class Look:
     """A Gazebo material, or a plain colour (0..1) in its place."""
 
     material: str = "Gazebo/Grey"
-    color: Optional[Tuple[float, float, float]] = None
+    color: tuple[float, float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -73,11 +74,11 @@ class Wall:
     thickness: float
     height: float
     look: Look
-    openings: Tuple[Opening, ...] = ()
-    butts: Tuple[bool, bool] = (False, False)  # start, end: ends inside another wall
+    openings: tuple[Opening, ...] = ()
+    butts: tuple[bool, bool] = (False, False)  # start, end: ends inside another wall
 
     @property
-    def reach(self) -> Tuple[float, float]:
+    def reach(self) -> tuple[float, float]:
         """m beyond start and end."""
         start, end = (0.0 if butts else 0.5 * self.thickness for butts in self.butts)
         return start, end
@@ -107,9 +108,9 @@ class Stairs:
 @dataclass(frozen=True)
 class Level:
     base: float  # m, height of its floor
-    walls: Tuple[Wall, ...]
-    stairs: Tuple[Stairs, ...]
-    floor: Optional[Look] = None  # None: the ground
+    walls: tuple[Wall, ...]
+    stairs: tuple[Stairs, ...]
+    floor: Look | None = None  # None: the ground
 
 
 @dataclass(frozen=True)
@@ -118,15 +119,15 @@ class Placed:
 
     model: str
     name: str
-    at: Tuple[float, float, float]
+    at: tuple[float, float, float]
     yaw: float
 
 
 @dataclass(frozen=True)
 class Building:
     name: str
-    levels: Tuple[Level, ...]
-    models: Tuple[Placed, ...] = ()
+    levels: tuple[Level, ...]
+    models: tuple[Placed, ...] = ()
 
 
 # ---------------------------------------------------------------------------------------------- reading
@@ -143,7 +144,7 @@ class _Entry:
                 raise PlanError(f"{place}: there is no {_shown(key)} here; known are {', '.join(known)}")
         self.value, self.place = value, place
 
-    def number(self, key: str, default: Optional[float] = None, positive: bool = True, most: float = FARTHEST) -> float:
+    def number(self, key: str, default: float | None = None, positive: bool = True, most: float = FARTHEST) -> float:
         """:param positive: it is a length, at least :data:`SMALLEST`. :param most: of either sign."""
         value = self.value.get(key, default)
         if value is None:
@@ -169,7 +170,7 @@ class _Entry:
             raise PlanError(f"{self.place}.{key}: {_shown(value)} is no name")
         return str(value)
 
-    def numbers(self, key: str, sizes: Tuple[int, ...]) -> Tuple[float, ...]:
+    def numbers(self, key: str, sizes: tuple[int, ...]) -> tuple[float, ...]:
         if key not in self.value:
             raise PlanError(f"{self.place}: '{key}' is missing")
         return _numbers(self.value[key], f"{self.place}.{key}", sizes)
@@ -178,7 +179,7 @@ class _Entry:
         x, y = self.numbers(key, (2,))
         return x, y
 
-    def entries(self, key: str, most: int = _MOST) -> List[Tuple[Any, str]]:
+    def entries(self, key: str, most: int = _MOST) -> list[tuple[Any, str]]:
         value = self.value.get(key) or []
         prefix = self.place + "." if self.place != "plan" else ""
         if not isinstance(value, list):
@@ -216,7 +217,7 @@ def _is_number(value: Any) -> bool:
         return False
 
 
-def _numbers(value: Any, place: str, sizes: Tuple[int, ...]) -> Tuple[float, ...]:
+def _numbers(value: Any, place: str, sizes: tuple[int, ...]) -> tuple[float, ...]:
     if not isinstance(value, (list, tuple)) or len(value) not in sizes or not all(map(_is_number, value)):
         raise PlanError(f"{place}: {_shown(value)} is not {' or '.join(str(size) for size in sizes)} numbers, [x, y]")
     if max(map(abs, value)) > FARTHEST:
@@ -228,7 +229,7 @@ _LOOK = ("material", "color")
 _LEVEL = ("walls", "stairs", "height", "floor")
 
 
-def read_plan(path: str, resolution: Optional[float] = None) -> Building:
+def read_plan(path: str, resolution: float | None = None) -> Building:
     """A :class:`Building` from a YAML plan, or from an image (then ``resolution``, m per pixel, is needed).
 
     :raises PlanError: one line that names file and entry.
@@ -294,8 +295,8 @@ def building_of(plan: Any, folder: str = ".") -> Building:
     return Building(top.text("name", "building"), tuple(levels), tuple(_models(top)))
 
 
-def _walls(parent: _Entry, defaults: _Entry, default_look: Look) -> List[Wall]:
-    walls: List[Wall] = []
+def _walls(parent: _Entry, defaults: _Entry, default_look: Look) -> list[Wall]:
+    walls: list[Wall] = []
     for value, place in parent.entries("walls"):
         entry = _Entry(value, place, ("from", "to", "path", "thickness", "height", "doors", "windows") + _LOOK)
         if "path" in entry.value:
@@ -309,7 +310,7 @@ def _walls(parent: _Entry, defaults: _Entry, default_look: Look) -> List[Wall]:
         openings = _openings(entry, height)
         look, done = entry.look(default_look), 0.0
         total = sum(math.dist(a, b) for a, b in zip(path, path[1:]))
-        pieces: List[Wall] = []
+        pieces: list[Wall] = []
         for start, end in zip(path, path[1:]):
             length = math.dist(start, end)
             mine = [(o, at) for o, at in openings if done <= o.at < done + length or (o.at == total and end == path[-1])]
@@ -332,7 +333,7 @@ def _walls(parent: _Entry, defaults: _Entry, default_look: Look) -> List[Wall]:
     return _with_butts(walls)
 
 
-def _with_butts(walls: List[Wall]) -> List[Wall]:
+def _with_butts(walls: list[Wall]) -> list[Wall]:
     """The walls, each knowing whether its ends lie in the body of another one, away from that one's ends."""
     if not walls:
         return walls
@@ -352,7 +353,7 @@ def _with_butts(walls: List[Wall]) -> List[Wall]:
     return [replace(wall, butts=(inside(wall.start, i), inside(wall.end, i))) for i, wall in enumerate(walls)]
 
 
-def _openings(wall: _Entry, wall_height: float) -> List[Tuple[Opening, str]]:
+def _openings(wall: _Entry, wall_height: float) -> list[tuple[Opening, str]]:
     found = []
     for key, kind, width, height, sill in (("doors", "door", 0.9, 2.0, 0.0), ("windows", "window", 0.8, 0.8, 0.5)):
         for value, place in wall.entries(key):
@@ -372,7 +373,7 @@ def _openings(wall: _Entry, wall_height: float) -> List[Tuple[Opening, str]]:
     return found
 
 
-def _stairs(parent: _Entry, default_look: Look) -> List[Stairs]:
+def _stairs(parent: _Entry, default_look: Look) -> list[Stairs]:
     stairs = []
     for value, place in parent.entries("stairs", _MOST_STAIRS):
         entry = _Entry(value, place, ("at", "yaw", "width", "depth", "height", "steps") + _LOOK)
@@ -393,9 +394,9 @@ def _stairs(parent: _Entry, default_look: Look) -> List[Stairs]:
     return stairs
 
 
-def _models(top: _Entry) -> List[Placed]:
-    models: List[Placed] = []
-    names: Dict[str, int] = {}
+def _models(top: _Entry) -> list[Placed]:
+    models: list[Placed] = []
+    names: dict[str, int] = {}
     for value, place in top.entries("models"):
         entry = _Entry(value, place, ("model", "at", "yaw", "name"))
         model = entry.value.get("model")
@@ -408,7 +409,7 @@ def _models(top: _Entry) -> List[Placed]:
     return models
 
 
-def _walls_of_image(top: _Entry, defaults: _Entry, look: Look, folder: str) -> List[Wall]:
+def _walls_of_image(top: _Entry, defaults: _Entry, look: Look, folder: str) -> list[Wall]:
     if "walls" in top.value:
         raise PlanError("image: takes the place of 'walls'; give one of the two")
     resolution = top.number("resolution", None, most=100.0)

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Dict, List, Tuple
-
 import numpy as np
 from ode_sim.description.model import DescriptionError
 from ode_sim.images import read_rgba
 
 from building_editor.plan_file import PlanError
 
-Rectangle = Tuple[float, float, float, float]  # x0, y0, x1, y1
+Rectangle = tuple[float, float, float, float]  # x0, y0, x1, y1
 _MOST_RECTANGLES = 5000
 _MOST_PIXELS = 16_000_000
 
 
 def wall_rectangles(
-    path: str, resolution: float, origin: Tuple[float, float], occupied: float = 0.5, negate: bool = False
-) -> List[Rectangle]:
+    path: str, resolution: float, origin: tuple[float, float], occupied: float = 0.5, negate: bool = False
+) -> list[Rectangle]:
     """The dark areas of an image as upright rectangles, in metres.
 
     :param resolution: m per pixel. :param origin: x, y of the lower left corner, m.
@@ -51,13 +49,13 @@ def wall_rectangles(
     ]
 
 
-def _merged_runs(mask: np.ndarray) -> List[Tuple[int, int, int, int]]:
+def _merged_runs(mask: np.ndarray) -> list[tuple[int, int, int, int]]:
     """Disjoint rectangles (row0, column0, row1, column1) that cover ``mask``: equal runs of rows joined.
 
     No more than are too many.
     """
-    done: List[Tuple[int, int, int, int]] = []
-    open_runs: Dict[Tuple[int, int], int] = {}  # (column0, column1) -> first row
+    done: list[tuple[int, int, int, int]] = []
+    open_runs: dict[tuple[int, int], int] = {}  # (column0, column1) -> first row
     for row in range(mask.shape[0] + 1):
         line = mask[row] if row < mask.shape[0] else np.zeros(mask.shape[1], bool)
         edges = np.flatnonzero(np.diff(np.concatenate(([0], line.astype(np.int8), [0]))))

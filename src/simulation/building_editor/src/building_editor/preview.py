@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import math
 import os
-from typing import Any, Tuple
+from typing import Any
 
 from PIL import Image, ImageDraw, ImageFont
 
@@ -44,7 +44,7 @@ def draw(building: Building, width: int = 1000) -> Image.Image:
     pen = ImageDraw.Draw(image)
     for number, level in enumerate(building.levels):
 
-        def at(x: float, y: float) -> Tuple[float, float]:
+        def at(x: float, y: float) -> tuple[float, float]:
             return (number * page[0] + (x - x0) * scale, (y1 - y) * scale)
 
         for x in range(math.ceil(x0 / grid) * grid, math.floor(x1) + 1, grid):
@@ -86,7 +86,7 @@ _FONTS = ("NotoSansCJK-Regular.ttc", "wqy-zenhei.ttc", "wqy-microhei.ttc", "Droi
 _SIZE = 11  # pixels, as large as Pillow's own
 
 
-def _write(pen: ImageDraw.ImageDraw, at: Tuple[float, float], text: str, colour: Tuple[int, int, int]) -> None:
+def _write(pen: ImageDraw.ImageDraw, at: tuple[float, float], text: str, colour: tuple[int, int, int]) -> None:
     """A name in any script; where no font is there for it, its characters are question marks."""
     try:
         text.encode("latin-1")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import xml.etree.ElementTree as ET
-from typing import Iterator, List, Sequence, Tuple
+from collections.abc import Iterator, Sequence
 
 from ode_sim.whole_files import write_whole
 
@@ -14,11 +14,11 @@ from building_editor.building import Building, Level, Look, PlanError, Stairs, W
 FLOOR_THICKNESS = 0.1
 _INSET = 0.01  # m: the edge of a floor stays inside the walls, else both faces flicker
 _MATERIALS = "file://media/materials/scripts/gazebo.material"
-Box = Tuple[Tuple[float, float, float], Tuple[float, float, float]]  # middle, size; m, in the link frame
-Rectangle = Tuple[float, float, float, float]  # x0, y0, x1, y1
+Box = tuple[tuple[float, float, float], tuple[float, float, float]]  # middle, size; m, in the link frame
+Rectangle = tuple[float, float, float, float]  # x0, y0, x1, y1
 
 
-def wall_boxes(wall: Wall) -> List[Box]:
+def wall_boxes(wall: Wall) -> list[Box]:
     """The wall without its openings, in its link frame: origin on the floor at the wall's middle, x along it."""
     ends = (-0.5 * wall.length - wall.reach[0], 0.5 * wall.length + wall.reach[1])
     holes = [
@@ -26,7 +26,7 @@ def wall_boxes(wall: Wall) -> List[Box]:
         for o in wall.openings
     ]
     cuts = sorted(set(ends) | {x for hole in holes for x in hole[:2]})
-    columns: List[Tuple[float, float, List[Tuple[float, float]]]] = []
+    columns: list[tuple[float, float, list[tuple[float, float]]]] = []
     for x0, x1 in zip(cuts, cuts[1:]):
         solid, z = [], 0.0
         for low, high in sorted((a, b) for left, right, a, b in holes if left < x1 and right > x0):
@@ -42,7 +42,7 @@ def wall_boxes(wall: Wall) -> List[Box]:
     return [((0.5 * (x0 + x1), 0.0, 0.5 * (z0 + z1)), (x1 - x0, wall.thickness, z1 - z0)) for x0, x1, solid in columns for z0, z1 in solid]
 
 
-def stair_boxes(stairs: Stairs) -> List[Box]:
+def stair_boxes(stairs: Stairs) -> list[Box]:
     """Solid steps, in the frame at the front edge of the lowest, x in the direction of climbing."""
     tread, rise = stairs.depth / stairs.steps, stairs.height / stairs.steps
     return [(((i + 0.5) * tread, 0.0, 0.5 * (i + 1) * rise), (tread, stairs.width, (i + 1) * rise)) for i in range(stairs.steps)]
@@ -74,11 +74,11 @@ def stairwell(stairs: Stairs) -> Rectangle:
     return (min(x for x, _ in corners), min(y for _, y in corners), max(x for x, _ in corners), max(y for _, y in corners))
 
 
-def floor_pieces(area: Rectangle, holes: Sequence[Rectangle]) -> List[Rectangle]:
+def floor_pieces(area: Rectangle, holes: Sequence[Rectangle]) -> list[Rectangle]:
     """``area`` without ``holes``, in upright rectangles."""
     pieces = [area]
     for hx0, hy0, hx1, hy1 in holes:
-        rest: List[Rectangle] = []
+        rest: list[Rectangle] = []
         for x0, y0, x1, y1 in pieces:
             if hx0 >= x1 or hx1 <= x0 or hy0 >= y1 or hy1 <= y0:
                 rest.append((x0, y0, x1, y1))
@@ -117,7 +117,7 @@ def model_element(building: Building) -> ET.Element:
     return model
 
 
-def _links(building: Building) -> Iterator[Tuple[str, float, float, float, float, List[Box], Look]]:
+def _links(building: Building) -> Iterator[tuple[str, float, float, float, float, list[Box], Look]]:
     """name, x, y, z, yaw, boxes, look"""
     wall_number = stairs_number = 0
     for number, level in enumerate(building.levels):

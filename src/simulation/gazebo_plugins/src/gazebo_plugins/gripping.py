@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import math
-from typing import Dict, Optional
 
 from gazebo_ros.plugin import ModelPlugin, PluginError
 from node_signals.rates import Spaced
@@ -85,7 +84,7 @@ class GraspFix(ModelPlugin):
         unknown = [name for name in fingers if name not in model.links]
         if unknown or not fingers:
             raise PluginError(f"<gripper_link> {', '.join(unknown) or 'is missing'}: no such link in model {model.name}")
-        self.collisions: Dict[int, str] = {}
+        self.collisions: dict[int, str] = {}
         for name in fingers:
             for collision in model.links[name].collisions.values():
                 self.collisions[collision.id] = name
@@ -95,8 +94,8 @@ class GraspFix(ModelPlugin):
         self.threshold = sdf.get("grip_count_threshold", 2)
         self.most = sdf.get("max_grip_count", 8)
         self.release = sdf.get("release_tolerance", 0.005)
-        self.counts: Dict[str, int] = {}
-        self.attachment: Optional[Attachment] = None
+        self.counts: dict[str, int] = {}
+        self.attachment: Attachment | None = None
         self.finger_gap = 0.0
         self.fingers = [model.links[name] for name in fingers]
         server.after_step(self.step)
@@ -126,8 +125,8 @@ class GraspFix(ModelPlugin):
 
     def _gripped(self) -> dict:
         """Objects (model name -> link) pressed from two directions further apart than the tolerance."""
-        pushes: Dict[str, list] = {}
-        links: Dict[str, object] = {}
+        pushes: dict[str, list] = {}
+        links: dict[str, object] = {}
         for contact in self.server.world.contacts():
             for own, other, sign in (("collision1", "collision2", -1.0), ("collision2", "collision1", 1.0)):
                 if int(contact[own]) in self.collisions:

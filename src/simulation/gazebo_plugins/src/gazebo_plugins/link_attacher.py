@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Dict, Tuple
-
 import rospy
 from gazebo_ros.plugin import PluginError, WorldPlugin
 from gazebo_ros_link_attacher.srv import Attach, AttachRequest, AttachResponse
 from node_signals import offers
 from ode_sim import Attachment
 
-Pair = Tuple[str, str]
+Pair = tuple[str, str]
 
 
 class LinkAttacher(WorldPlugin):
@@ -18,7 +16,7 @@ class LinkAttacher(WorldPlugin):
 
     def load(self, server, sdf) -> None:
         self.server = server
-        self.attachments: Dict[Pair, Attachment] = {}
+        self.attachments: dict[Pair, Attachment] = {}
         self.services = [
             offers.service(f"/link_attacher_node/{name}", Attach, handler)
             for name, handler in (("attach", self._attach), ("detach", self._detach))

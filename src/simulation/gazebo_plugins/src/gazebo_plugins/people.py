@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, List
+from typing import Any
 
 from gazebo_ros.plugin import ModelPlugin, PluginError
 from ode_sim import math3
@@ -69,7 +69,7 @@ class Wanderer(ModelPlugin):
         self._actor.script_time += self._animation_factor * math3.norm(math3.sub(place, pose.p))
         self._model.pose = Pose(place, math3.quat_from_rpy(math.pi / 2, 0.0, yaw + turn))
 
-    def _obstacles(self) -> List[Any]:
+    def _obstacles(self) -> list[Any]:
         return [model for name, model in self._world.models.items() if name not in self._ignored]
 
     def _next_target(self) -> Vec3:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Collection, Dict, List, Optional, Sequence
+from collections.abc import Callable, Collection, Sequence
+from typing import Any
 
 import rospy
 import tf2_ros
@@ -24,8 +25,8 @@ class Topics:
 
     def __init__(self, sdf, model_name: str, rule: str):
         self.namespace = names.robot_namespace(sdf, model_name, rule)
-        self._prefix: Optional[str] = None
-        self._made: List[Any] = []
+        self._prefix: str | None = None
+        self._made: list[Any] = []
 
     def resolve(self, name: str) -> str:
         return names.join(self.namespace, name)
@@ -99,7 +100,7 @@ class Noise:
 class TfBroadcaster:
     """The process's one publisher on /tf."""
 
-    _shared: Optional[tf2_ros.TransformBroadcaster] = None
+    _shared: tf2_ros.TransformBroadcaster | None = None
 
     @classmethod
     def send(cls, stamp: rospy.Time, parent: str, child: str, pose: Pose) -> None:
@@ -163,7 +164,7 @@ def required(sdf, tag: str) -> str:
     return value
 
 
-def diagonal(values: Collection[float]) -> List[float]:
+def diagonal(values: Collection[float]) -> list[float]:
     """Row-major covariance matrix with that diagonal."""
     size = len(values)
     matrix = [0.0] * (size * size)
@@ -172,5 +173,5 @@ def diagonal(values: Collection[float]) -> List[float]:
     return matrix
 
 
-def _listed(things: Dict[str, Any]) -> str:
+def _listed(things: dict[str, Any]) -> str:
     return ", ".join(things) if things else "none"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Dict, List
+from typing import Any
 
 import rospy
 from gazebo_ros.plugin import ModelPlugin, PluginError
@@ -51,8 +51,8 @@ class JointPoseTrajectory(ModelPlugin):
             raise PluginError("each point needs one finite position per joint")
         self.still, self.still_pose = still, still.pose
         self.joints = [still.model.joints[name] for name in message.joint_names]
-        self.points: List[JointTrajectoryPoint] = list(message.points)
-        self.held: Dict[Any, float] = {}
+        self.points: list[JointTrajectoryPoint] = list(message.points)
+        self.held: dict[Any, float] = {}
         self.next_ns = max(self.server.now().to_nsec(), message.header.stamp.to_nsec())
         self.playing = True
 

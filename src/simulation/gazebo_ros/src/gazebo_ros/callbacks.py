@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Callable, Optional, Tuple
+from collections.abc import Callable
 
 import rospy
 
@@ -15,7 +15,7 @@ class Connection:
 
     __slots__ = ("f", "owner", "_callbacks")
 
-    def __init__(self, f: Callable[[], None], owner: Optional[PluginInstance], callbacks: CallbackList):
+    def __init__(self, f: Callable[[], None], owner: PluginInstance | None, callbacks: CallbackList):
         self.f = f
         self.owner = owner
         self._callbacks = callbacks
@@ -33,7 +33,7 @@ class Occasional:
     def __init__(self, connect: Callable[[Callable[[], None]], Connection], f: Callable[[], None]):
         self._connect = connect
         self._f = f
-        self._connection: Optional[Connection] = None
+        self._connection: Connection | None = None
 
     @property
     def connected(self) -> bool:
@@ -52,10 +52,10 @@ class CallbackList:
     """Callbacks in connection order, of any thread. A change counts from the next step on."""
 
     def __init__(self):
-        self.connections: Tuple[Connection, ...] = ()
+        self.connections: tuple[Connection, ...] = ()
         self._lock = threading.Lock()
 
-    def connect(self, f: Callable[[], None], owner: Optional[PluginInstance] = None) -> Connection:
+    def connect(self, f: Callable[[], None], owner: PluginInstance | None = None) -> Connection:
         connection = Connection(f, owner, self)
         with self._lock:
             self.connections += (connection,)

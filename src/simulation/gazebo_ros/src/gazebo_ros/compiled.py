@@ -8,9 +8,10 @@ from __future__ import annotations
 import os
 import threading
 import xml.etree.ElementTree as ET
+from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import replace
-from typing import Any, Callable, List, Optional, Tuple
+from typing import Any
 
 import ode_sim._core
 import rospy
@@ -31,11 +32,11 @@ _OF_ANOTHER_CORE = (
     if _core is None or _core.layout == ode_sim._core.layout
     else ("gazebo_cpp was not built with this ode_sim and would read its world wrongly; build both: catkin build ode_sim gazebo_cpp")
 )
-_bridge: Optional[Bridge] = None
-_searched: Optional[List[str]] = None
+_bridge: Bridge | None = None
+_searched: list[str] | None = None
 
 
-def folders() -> List[str]:
+def folders() -> list[str]:
     """Where libraries of plugins are looked for, in order."""
     global _searched
     if _searched is None:
@@ -47,7 +48,7 @@ def folders() -> List[str]:
     return _searched
 
 
-def find_library(filename: str) -> Optional[str]:
+def find_library(filename: str) -> str | None:
     """The file of a ``<plugin>``'s library, with or without ``lib`` and ``.so``; None if there is none or none can be loaded."""
     name = filename.strip()
     if _core is None or not name:
@@ -65,7 +66,7 @@ def find_library(filename: str) -> Optional[str]:
     return None
 
 
-def resolve(library: str, plugin: d.Plugin, label: str) -> Callable[[], "CompiledPlugin"]:
+def resolve(library: str, plugin: d.Plugin, label: str) -> Callable[[], CompiledPlugin]:
     """What makes the plugin. Takes its time: not for the physics thread.
 
     :param label: for messages
@@ -112,7 +113,7 @@ class CompiledPlugin(ModelPlugin, SensorPlugin, WorldPlugin):
             self.shutdown()
             raise PluginError(str(error)) from error
 
-    def load_system(self, server, arguments: List[str]) -> None:
+    def load_system(self, server, arguments: list[str]) -> None:
         try:
             self._core = _core.Plugin(self._library, self._plugin.filename, self._plugin.name, self._label)
             self._core.load_system(arguments)
@@ -131,7 +132,7 @@ class CompiledPlugin(ModelPlugin, SensorPlugin, WorldPlugin):
             _told(core.destroy)
 
 
-def load_system(server, library: str, arguments: List[str]) -> None:
+def load_system(server, library: str, arguments: list[str]) -> None:
     """A system plugin of the command line (``-s``), before the world's own plugins. One line where it cannot be loaded.
 
     :param arguments: the words of the command line
@@ -155,12 +156,12 @@ def _told(f: Callable[[], None]) -> None:
         raise PluginError(str(error)) from error
 
 
-def _index(plugin: d.Plugin, plugins: Tuple[d.Plugin, ...]) -> int:
+def _index(plugin: d.Plugin, plugins: tuple[d.Plugin, ...]) -> int:
     """Which of the ``<plugin>`` elements it is; beyond their number where it is none of them."""
     return next((i for i, each in enumerate(plugins) if each is plugin), len(plugins))
 
 
-def bridge(server, clock: bool) -> "Bridge":
+def bridge(server, clock: bool) -> Bridge:
     """That of the process, made when the first plugin needs it. Physics thread.
 
     :param server: a Server, or a plugin's view of it
@@ -266,11 +267,11 @@ class Bridge:
 
         self._server._calls.put((attempt, Future()))
 
-    def _insert(self, text: str, pose: List[float]) -> None:
+    def _insert(self, text: str, pose: list[float]) -> None:
         """:param pose: x y z qx qy qz qw instead of that of the text, or nothing."""
         threading.Thread(target=self._read_and_spawn, args=(text, pose), name="insert model", daemon=True).start()
 
-    def _read_and_spawn(self, text: str, pose: List[float]) -> None:
+    def _read_and_spawn(self, text: str, pose: list[float]) -> None:
         """Meshes and plugins take their time; the world goes on."""
         server = self._server
         try:
@@ -325,7 +326,7 @@ class Director:
     def __init__(self, name: str):
         self._name = name
 
-    def wanted(self) -> Tuple[Optional[str], float, bool, int, bool]:
+    def wanted(self) -> tuple[str | None, float, bool, int, bool]:
         """Animation in place of the script, script time s, whether it plays, since when ns, whether it collides."""
         return _core.actor_wanted(self._name)
 
@@ -333,7 +334,7 @@ class Director:
         _core.actor_plays(self._name, script_time, active, started_ns, anew)
 
 
-def _collision(handle) -> Tuple[str, int, str, List[float], str, float]:
+def _collision(handle) -> tuple[str, int, str, list[float], str, float]:
     geometry = handle.description.geometry
     kind = type(geometry).__name__.lower()
     numbers = {

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import os
 from dataclasses import replace
-from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 import rospy
@@ -26,7 +25,7 @@ class _Taken:
     :param view: as C++ tells it, see ``Host::shoot`` in gazebo_cpp's ``core/mirror.hpp``
     """
 
-    def __init__(self, server, number: int, link, sensor: d.Sensor, index: int, view: Tuple[float, ...]):
+    def __init__(self, server, number: int, link, sensor: d.Sensor, index: int, view: tuple[float, ...]):
         self.model = link.model
         self._number, self._view = number, view
         self._label = f"sensor '{sensor.name}' of model '{link.model.name}'"
@@ -44,7 +43,7 @@ class _Taken:
         # One at a time, as in Gazebo: plugins stamp a picture with the time at which they get it.
         self._shooting = Shooting(server, self._as_told(view), self._label, most=1)
 
-    def _as_told(self, view: Tuple[float, ...]) -> Camera:
+    def _as_told(self, view: tuple[float, ...]) -> Camera:
         x, y, z, *q = view[:7]
         hfov, near, far, width, height, crop = view[7:]
         return replace(
@@ -58,7 +57,7 @@ class _Taken:
             distortion=replace(self._camera.distortion, crop=bool(crop)),
         )
 
-    def shoot(self, view: Tuple[float, ...], outputs: Tuple[str, ...]) -> bool:
+    def shoot(self, view: tuple[float, ...], outputs: tuple[str, ...]) -> bool:
         """:raises CameraError: what no camera can be, once; there are no pictures until it is told otherwise."""
         if view != self._view:
             self._view, self._can_be = view, False
@@ -87,11 +86,11 @@ class CompiledCameras:
 
     def __init__(self, server):
         self._server = server
-        self._cameras: Dict[int, Optional[_Taken]] = {}  # None: cannot be drawn
+        self._cameras: dict[int, _Taken | None] = {}  # None: cannot be drawn
         _core.set_studio(self._shoot, save_picture)
         server.world.on_remove.append(self._forget)
 
-    def _shoot(self, number: int, sensor: str, index: int, view: List[float], outputs: List[str]) -> bool:
+    def _shoot(self, number: int, sensor: str, index: int, view: list[float], outputs: list[str]) -> bool:
         """Have a picture of now; False when it is left out.
 
         :param sensor: ``model::link::sensor``. :param index: which of its cameras
@@ -106,7 +105,7 @@ class CompiledCameras:
             rospy.logerr("sensor '%s' gives no pictures to compiled plugins: %s", sensor, error)
             return False
 
-    def _open(self, number: int, name: str, index: int, view: Tuple[float, ...]) -> _Taken:
+    def _open(self, number: int, name: str, index: int, view: tuple[float, ...]) -> _Taken:
         scope, _, sensor_name = name.rpartition("::")
         link = self._server.world.find_link(scope)
         found = [each for each in link.description.sensors if each.name == sensor_name] if link is not None else []

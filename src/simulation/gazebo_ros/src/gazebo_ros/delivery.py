@@ -14,7 +14,8 @@ import struct
 import termios
 import threading
 import time
-from typing import Any, Dict, Iterator, List, Set, Tuple
+from collections.abc import Iterator
+from typing import Any
 
 import realtime_tools.prompt
 import rospy
@@ -31,12 +32,12 @@ class Delivery:
     :param left_out: topics of which nothing is waited for: the log, the window's streams
     """
 
-    def __init__(self, left_out: Set[str]):
+    def __init__(self, left_out: set[str]):
         self._left_out = left_out
-        self._busy: Set[_Kept] = set()
+        self._busy: set[_Kept] = set()
         self._changed = threading.Condition()
-        self._waited: Dict[_Kept, float] = {}
-        self._left: Tuple[int, float] = (0, 0.0)  # bytes that were not received when it was last looked, and since when that is so
+        self._waited: dict[_Kept, float] = {}
+        self._left: tuple[int, float] = (0, 0.0)  # bytes that were not received when it was last looked, and since when that is so
 
     def install(self) -> None:
         """From now on every connection to a subscriber is kept account of; for the start of the process."""
@@ -102,7 +103,7 @@ class Delivery:
                     if not getattr(connection, "given_up", False):
                         yield connection.socket
 
-    def _begun(self, kept: "_Kept") -> None:
+    def _begun(self, kept: _Kept) -> None:
         with self._changed:
             if not kept.count:
                 kept.moved = (0, 0), time.monotonic()
@@ -110,7 +111,7 @@ class Delivery:
             if not kept.given_up:
                 self._busy.add(kept)
 
-    def _ended(self, kept: "_Kept", count: int, dropped: bool = False) -> None:
+    def _ended(self, kept: _Kept, count: int, dropped: bool = False) -> None:
         with self._changed:
             kept.count -= count
             if kept.given_up and not dropped:  # it reads on
@@ -120,7 +121,7 @@ class Delivery:
                 self._busy.discard(kept)
                 self._changed.notify_all()
 
-    def _closed(self, kept: "_Kept") -> None:
+    def _closed(self, kept: _Kept) -> None:
         with self._changed:
             self._busy.discard(kept)
             self._waited.pop(kept, None)
@@ -130,7 +131,7 @@ class Delivery:
 class _Kept(QueuedConnection):
     """A connection to a subscriber whose queue has no end; how much is in it, the :class:`Delivery` knows."""
 
-    _queue: List[bytes]  # of rospy's class
+    _queue: list[bytes]  # of rospy's class
 
     def __init__(self, delivery: Delivery, connection: Any):
         self._delivery = delivery

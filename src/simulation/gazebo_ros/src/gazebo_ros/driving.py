@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import threading
 import weakref
-from typing import Any, Dict, Iterable, List
+from collections.abc import Iterable
+from typing import Any
 
 import rospy
 
@@ -13,7 +14,7 @@ class Drivers:
     """Plugins say what they drive; a joint that has two is one warning, which names both."""
 
     def __init__(self) -> None:
-        self._by_joint: "weakref.WeakKeyDictionary[Any, List[Any]]" = weakref.WeakKeyDictionary()
+        self._by_joint: weakref.WeakKeyDictionary[Any, list[Any]] = weakref.WeakKeyDictionary()
         self._lock = threading.Lock()
 
     def drives(self, owner: Any, joints: Iterable[Any]) -> None:
@@ -21,7 +22,7 @@ class Drivers:
         :param owner: something with a ``label``, by which the log names it
         :param joints: handles of joints that it moves from now on. Any thread
         """
-        contested: Dict[int, List[Any]] = {}
+        contested: dict[int, list[Any]] = {}
         with self._lock:
             for joint in joints:
                 there = self._by_joint.setdefault(joint, [])
@@ -48,6 +49,6 @@ class Drivers:
                     owners.remove(owner)
 
 
-def _listed(joints: List[Any]) -> str:
+def _listed(joints: list[Any]) -> str:
     names = ", ".join(joint.name for joint in joints)
     return f"joint {names}" if len(joints) == 1 else f"the joints {names}"

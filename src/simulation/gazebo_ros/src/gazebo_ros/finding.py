@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import List, Optional
-
 import rospkg
 from ode_sim.description import ResourceFinder
 from plugin_loader import exported_values
@@ -12,13 +10,13 @@ from plugin_loader import exported_values
 def make_finder(rospack: rospkg.RosPack) -> ResourceFinder:
     """Search paths: the environment's, then what packages export for gazebo_ros."""
 
-    def package(name: str) -> Optional[str]:
+    def package(name: str) -> str | None:
         try:
             return rospack.get_path(name)
         except rospkg.ResourceNotFound:
             return None
 
-    def exported(attribute: str) -> List[str]:
+    def exported(attribute: str) -> list[str]:
         values = exported_values("gazebo_ros", attribute, rospack)
         return [path for value in values for path in value.split(":") if path]
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Optional
 
 import rospy
 from ode_sim import math3
@@ -13,7 +12,7 @@ from ode_sim.description.sdf_document import parse_sdf
 from ode_sim.description.xmlsource import leading_numbers, read_bytes
 
 
-def first_view(world: str, finder: ResourceFinder) -> Optional[Pose]:
+def first_view(world: str, finder: ResourceFinder) -> Pose | None:
     """X_WE of the eye, which looks along its x axis; None where the world does not say it, or not in numbers that can be used.
 
     :param world: as for ``load_world``

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import time
-from typing import Any, List, Optional
+from typing import Any
 
 import rospy
 from gazebo_msgs.srv import SetModelConfiguration, SpawnModel
@@ -14,7 +14,7 @@ from node_signals.services import wait_for_service
 _SENT_TEXT = re.compile(r"\btext(?=:\d+)")  # the server's name for a description that it was sent
 
 
-def _call(what: str, name: str, service: type, *arguments: Any, origin: str = "") -> Optional[bool]:
+def _call(what: str, name: str, service: type, *arguments: Any, origin: str = "") -> bool | None:
     """Wait for the service, call it and say how ``what`` went; its ``success``, or None when the call itself failed.
 
     :param origin: where the description was read, by which its lines are named
@@ -34,7 +34,7 @@ def _call(what: str, name: str, service: type, *arguments: Any, origin: str = ""
 
 def spawn_sdf_model_client(
     model_name: str, model_xml: str, robot_namespace: str, initial_pose: Pose, reference_frame: str, gazebo_namespace: str, origin: str = ""
-) -> Optional[bool]:
+) -> bool | None:
     """Spawn SDF text. True when it worked, False when the simulator refused, None when the call failed.
 
     :param origin: where the text was read: errors name its lines by that
@@ -54,7 +54,7 @@ def spawn_sdf_model_client(
 
 def spawn_urdf_model_client(
     model_name: str, model_xml: str, robot_namespace: str, initial_pose: Pose, reference_frame: str, gazebo_namespace: str, origin: str = ""
-) -> Optional[bool]:
+) -> bool | None:
     """Spawn URDF text; returns as :func:`spawn_sdf_model_client`."""
     return _call(
         "Spawn",
@@ -70,8 +70,8 @@ def spawn_urdf_model_client(
 
 
 def set_model_configuration_client(
-    model_name: str, model_param_name: str, joint_names: List[str], joint_positions: List[float], gazebo_namespace: str
-) -> Optional[bool]:
+    model_name: str, model_param_name: str, joint_names: list[str], joint_positions: list[float], gazebo_namespace: str
+) -> bool | None:
     """Put joints to positions (rad, m), one wall second after the service is there, when controllers have started."""
     name = gazebo_namespace + "/set_model_configuration"
     wait_for_service(name)

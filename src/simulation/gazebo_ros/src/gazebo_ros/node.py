@@ -12,7 +12,7 @@ import threading
 import time
 import traceback
 import xmlrpc.client
-from typing import Any, List, Optional, Tuple
+from typing import Any
 
 import node_signals
 import ode_sim
@@ -119,7 +119,7 @@ class _Ending:
 
     def __init__(self):
         self.requested = False
-        self._server: Optional[Server] = None
+        self._server: Server | None = None
         signal.signal(signal.SIGINT, lambda number, frame: self.request())
         signal.signal(signal.SIGTERM, lambda number, frame: self.request())
 
@@ -179,7 +179,7 @@ def _runs_already() -> bool:
     return True
 
 
-def _load_world(name: str, finder: ResourceFinder) -> Tuple[str, d.World, List[Problem]]:
+def _load_world(name: str, finder: ResourceFinder) -> tuple[str, d.World, list[Problem]]:
     """The name and the description of a world; of the empty one, with one line, when that cannot be had."""
     try:
         return (name, *load_world(name, finder))

@@ -5,8 +5,9 @@ from __future__ import annotations
 import difflib
 import os
 import traceback
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, Optional, Sequence
+from typing import Any
 
 import rospkg
 import rospy
@@ -66,11 +67,11 @@ class PluginHost:
     :param builtin: library names that the server itself stands for, accepted silently
     """
 
-    def __init__(self, rospack: Optional[rospkg.RosPack] = None, builtin: Sequence[str] = ()):
+    def __init__(self, rospack: rospkg.RosPack | None = None, builtin: Sequence[str] = ()):
         found, problems = find_plugins("gazebo_ros", rospack=rospack)
         for line in problems:
             rospy.logwarn("%s", line)
-        self._classes: Dict[str, PluginClass] = {library_key(name): plugin for name, plugin in found.items()}
+        self._classes: dict[str, PluginClass] = {library_key(name): plugin for name, plugin in found.items()}
         self._libraries = {library_key(name): name for name in sorted(found)}
         self._builtin = {library_key(name) for name in builtin}
 
@@ -88,7 +89,7 @@ class PluginHost:
             "nor a library in GAZEBO_PLUGIN_PATH, LD_LIBRARY_PATH or a sourced workspace's lib"
         )
 
-    def resolve(self, plugin: d.Plugin, where: str) -> Optional[ResolvedPlugin]:
+    def resolve(self, plugin: d.Plugin, where: str) -> ResolvedPlugin | None:
         """Import the class of a ``<plugin>``. Unknown or broken ones are one WARN or ERROR line, and None.
 
         May take long (imports): not for the physics thread.

@@ -6,7 +6,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Callable, Optional, Protocol, TypeVar
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 if TYPE_CHECKING:
     import rospy
@@ -63,7 +64,7 @@ class Sensor(Protocol):
 
     description: d.Sensor
     link: LinkHandle  #: of a joint's sensor the joint's child
-    joint: Optional[JointHandle]  #: whose sensor it is; None of a link's
+    joint: JointHandle | None  #: whose sensor it is; None of a link's
     model: ModelHandle
     measurement_ns: int  #: sim time of the newest update
 

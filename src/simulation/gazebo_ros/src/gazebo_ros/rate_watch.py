@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Optional
 
 _NS = 1_000_000_000
 _WINDOW_NS = 3 * _NS
@@ -19,7 +18,7 @@ class RateWatch:
         self._start_ns = self._last_ns = 0
         self._due = self._taken = 0
 
-    def asked(self, now_ns: int, taken: bool, sensor_rate: float, plugin_rate: float, dt: float) -> Optional[str]:
+    def asked(self, now_ns: int, taken: bool, sensor_rate: float, plugin_rate: float, dt: float) -> str | None:
         """A picture is due at ``now_ns``; after a window that was too thin, the reason, once.
 
         :param taken: False when it was left out because too many are being drawn

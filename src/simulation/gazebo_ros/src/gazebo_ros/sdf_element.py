@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from typing import Callable, Dict, List, Optional
+from collections.abc import Callable
 
 from ode_sim.description.xmlsource import leading_numbers
 
@@ -24,7 +24,7 @@ class SdfElement:
         return self.element.tag
 
     @property
-    def attrib(self) -> Dict[str, str]:
+    def attrib(self) -> dict[str, str]:
         return self.element.attrib
 
     @property
@@ -35,12 +35,12 @@ class SdfElement:
     def has(self, tag: str) -> bool:
         return self.element.find(tag) is not None
 
-    def child(self, tag: str) -> Optional[SdfElement]:
+    def child(self, tag: str) -> SdfElement | None:
         """The first child of that name, or None."""
         found = self.element.find(tag)
         return None if found is None else SdfElement(found, self._warn)
 
-    def children(self, tag: Optional[str] = None) -> List[SdfElement]:
+    def children(self, tag: str | None = None) -> list[SdfElement]:
         """All children (of that name), in file order."""
         return [SdfElement(e, self._warn) for e in self.element if isinstance(e.tag, str) and tag in (None, e.tag)]
 

@@ -16,8 +16,9 @@ An unwanted sensor costs one comparison a step, and nothing at all is measured.
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Callable, List, NamedTuple, Optional
+from typing import Any, NamedTuple
 
 import rospy
 from node_signals.rates import LatenessKept
@@ -67,10 +68,10 @@ class Sensor:
         self.update_rate = LatenessKept(description.update_rate)
         self.measurement_ns = 0
         self.updates = Count()
-        self._pictures: Optional[Count] = None
+        self._pictures: Count | None = None
         self.owner: Any = None  # the plugin being loaded: what it connects is its own
         self._report = report
-        self._consumers: List[_Consumer] = []
+        self._consumers: list[_Consumer] = []
 
     @property
     def name(self) -> str:

@@ -5,10 +5,11 @@ from __future__ import annotations
 import queue
 import threading
 import time
+from collections.abc import Callable, Iterable
 from concurrent.futures import Future
-from contextlib import nullcontext
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
-from typing import Any, Callable, ContextManager, Dict, Iterable, List, Optional, Tuple, Type, Union
+from typing import Any
 
 import rospy
 from node_signals.rates import Spaced
@@ -65,8 +66,8 @@ class ResolvedModel:
 
 @dataclass
 class _ModelRuntime:  # in load order
-    sensors: List[Sensor] = field(default_factory=list)
-    plugins: List[PluginInstance] = field(default_factory=list)
+    sensors: list[Sensor] = field(default_factory=list)
+    plugins: list[PluginInstance] = field(default_factory=list)
 
 
 class Server:
@@ -96,7 +97,7 @@ class Server:
         *,
         paused: bool = False,
         lockstep: bool = False,
-        delivery: Optional[Delivery] = None,
+        delivery: Delivery | None = None,
         iterations: int = 0,
         ros_time: bool = True,
     ):
@@ -106,7 +107,7 @@ class Server:
         self.lockstep = lockstep
         self._delivery = delivery
         self._drivers = Drivers()
-        self.first_view: Optional[d.Pose] = None  # X_WE of the window's eye, where the world file says it
+        self.first_view: d.Pose | None = None  # X_WE of the window's eye, where the world file says it
         self.throttle = Throttle(world.physics.real_time_update_rate)
         self.paused = paused
         self.started = CallbackList()  # called once, when all plugins are loaded, before the first step
@@ -117,17 +118,18 @@ class Server:
         self._ros_time = ros_time
         self._iterations_left = iterations or None
         self._requested_steps = 0
-        self._request: Optional[Future] = None
+        self._request: Future | None = None
         self._stopping = False
         self._ended = False
-        self.between_steps: ContextManager[Any] = nullcontext()  # held while the world is changed; compiled plugins' threads take it, too
+        # Held while the world is changed; compiled plugins' threads take it, too.
+        self.between_steps: AbstractContextManager[Any] = nullcontext()
         self._calls: queue.SimpleQueue = queue.SimpleQueue()
-        self._thread: Optional[int] = None
+        self._thread: int | None = None
         self._before = CallbackList()
         self._after = CallbackList()
-        self._world_plugins: List[PluginInstance] = []
-        self._models: Dict[str, _ModelRuntime] = {}
-        self._sensors: Tuple[Sensor, ...] = ()
+        self._world_plugins: list[PluginInstance] = []
+        self._models: dict[str, _ModelRuntime] = {}
+        self._sensors: tuple[Sensor, ...] = ()
         self._wake_limit = WallLimit(self)
         self.now_ns = 0  # as now(), read at every step
         self._set_now()
@@ -170,7 +172,7 @@ class Server:
         return self.throttle.paced and not self._requested_steps
 
     @property
-    def sensors(self) -> Tuple[Sensor, ...]:
+    def sensors(self) -> tuple[Sensor, ...]:
         """All sensors that have a plugin, in load order."""
         return self._sensors
 
@@ -350,7 +352,7 @@ class Server:
         self._time_went_back()
         self.stepped.call()
 
-    def _reset_plugins(self, world_plugins: List[PluginInstance]) -> None:
+    def _reset_plugins(self, world_plugins: list[PluginInstance]) -> None:
         for instance in (*world_plugins, *(each for runtime in self._models.values() for each in runtime.plugins)):
             instance.attempt(instance.plugin.reset)
 
@@ -360,7 +362,7 @@ class Server:
         """Import the plugin classes of a model. Any thread but the physics one: imports may take long."""
         return ResolvedModel(model, self._host)
 
-    def resolve_world_plugin(self, plugin: d.Plugin) -> Optional[ResolvedPlugin]:
+    def resolve_world_plugin(self, plugin: d.Plugin) -> ResolvedPlugin | None:
         return self._host.resolve(plugin, f"world {self.description.name}")
 
     def start_world_plugin(self, plugin: ResolvedPlugin) -> None:  # physics thread
@@ -415,7 +417,7 @@ class Server:
             self._start(plugin, ModelPlugin, runtime.plugins, handle)
 
     def _start(
-        self, resolved: ResolvedPlugin, base: Type[Any], started: List[PluginInstance], *subject: Union[ModelHandle, protocols.Sensor]
+        self, resolved: ResolvedPlugin, base: type[Any], started: list[PluginInstance], *subject: ModelHandle | protocols.Sensor
     ) -> None:
         """Load one plugin; a failure leaves it out with one line.
 

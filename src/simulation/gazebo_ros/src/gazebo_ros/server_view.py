@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Callable
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 from gazebo_ros.callbacks import Connection
 from gazebo_ros.plugin_host import PluginInstance

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import weakref
-from typing import Callable, Tuple
+from collections.abc import Callable
 
 import numpy as np
 import rospy
@@ -16,7 +16,7 @@ class _Shared:
         self.users = 0
 
 
-_shared: "weakref.WeakKeyDictionary" = weakref.WeakKeyDictionary()
+_shared: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()
 
 
 class Shooting:
@@ -26,7 +26,7 @@ class Shooting:
     :param most: of its pictures that may be under way, 1 to 8.
     """
 
-    def __init__(self, server, camera: Camera, label: str, depth_range: Tuple[float, float] = (0.0, np.inf), most: int = 8):
+    def __init__(self, server, camera: Camera, label: str, depth_range: tuple[float, float] = (0.0, np.inf), most: int = 8):
         self._world = server.world
         self._wait = server.lockstep
         self._label, self._most = label, most
@@ -39,7 +39,7 @@ class Shooting:
         self._camera, self._depth_range = camera, depth_range
         self._key = shared.process.add_camera(camera, depth_range)
 
-    def shoot(self, outputs: Tuple[str, ...], deliver: Callable[[Frame], None]) -> bool:
+    def shoot(self, outputs: tuple[str, ...], deliver: Callable[[Frame], None]) -> bool:
         """Take a picture now; ``deliver(frame)`` is called from the pictures' thread, and not at all if there is none.
 
         In lock-step this returns when ``deliver`` has. Without it the picture may come later, with the stamp of now.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, List, Optional
+from typing import Any
 
 from controller_interface import NodeHandle
 from hardware_interface.compiled import CompiledRobotHW, Robot
@@ -13,7 +13,7 @@ from . import _compiled
 from .robot_hw_sim import RobotHWSim
 
 
-def make(library: str, type_name: str, label: str, clock: bool) -> "CompiledRobotHWSim":
+def make(library: str, type_name: str, label: str, clock: bool) -> CompiledRobotHWSim:
     """:raises PluginError: its constructor failed"""
     try:
         return CompiledRobotHWSim(_compiled.Sim(library, type_name, label, clock))
@@ -29,7 +29,7 @@ class CompiledRobotHWSim(CompiledRobotHW, RobotHWSim):
         self._sim = sim
 
     def init_sim(
-        self, robot_namespace: str, model_nh: NodeHandle, model: Any, urdf: Optional[str], transmissions: List[TransmissionInfo]
+        self, robot_namespace: str, model_nh: NodeHandle, model: Any, urdf: str | None, transmissions: list[TransmissionInfo]
     ) -> bool:
         """See :meth:`RobotHWSim.init_sim`; it reads the transmissions itself."""
         try:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import sys
-from typing import Dict, List, Optional, Tuple, Type
 
 import rospy
 from control_toolbox import PidParameterError, RosPid, load_pid
@@ -41,7 +40,7 @@ from .wiring import Wiring
 
 _PREFIX = "hardware_interface/"
 
-_INTERFACES: Dict[str, Type[JointCommandInterface]] = {
+_INTERFACES: dict[str, type[JointCommandInterface]] = {
     "EffortJointInterface": EffortJointInterface,
     "PositionJointInterface": PositionJointInterface,
     "VelocityJointInterface": VelocityJointInterface,
@@ -69,15 +68,13 @@ class DefaultRobotHWSim(RobotHWSim):
         super().__init__()
         self._states = JointStateInterface()
         self._commands = {interface: interface() for interface in _INTERFACES.values()}
-        self._joints: Dict[str, JointSim] = {}
-        self._writers: Tuple[JointSim, ...] = ()
+        self._joints: dict[str, JointSim] = {}
+        self._writers: tuple[JointSim, ...] = ()
         self._wiring = Wiring(())
-        self._without_gains: List[str] = []  # joints that follow their commands exactly
+        self._without_gains: list[str] = []  # joints that follow their commands exactly
         self._e_stop = False
 
-    def init_sim(
-        self, robot_namespace: str, model_nh: NodeHandle, model, urdf: Optional[str], transmissions: List[TransmissionInfo]
-    ) -> bool:
+    def init_sim(self, robot_namespace: str, model_nh: NodeHandle, model, urdf: str | None, transmissions: list[TransmissionInfo]) -> bool:
         try:
             descriptions = read_joints(urdf) if urdf else {}
         except DescriptionError as error:
@@ -102,7 +99,7 @@ class DefaultRobotHWSim(RobotHWSim):
 
     # -- set-up -------------------------------------------------------------------------------------------------------
 
-    def _add(self, transmission: TransmissionInfo, nh: NodeHandle, model, descriptions: Dict[str, JointDescription]) -> None:
+    def _add(self, transmission: TransmissionInfo, nh: NodeHandle, model, descriptions: dict[str, JointDescription]) -> None:
         if len(transmission.joints) != 1:
             rospy.logwarn(
                 "Transmission '%s' (%s) has %d joints; it is left out: the simulation, as Gazebo's, drives joints "
@@ -131,7 +128,7 @@ class DefaultRobotHWSim(RobotHWSim):
                 self._add_mode(interface, joint, where, nh, descriptions.get(info.name, JointDescription(info.name, "")))
 
     @staticmethod
-    def _interface_of(written: str, where: str) -> Optional[Type[JointCommandInterface]]:
+    def _interface_of(written: str, where: str) -> type[JointCommandInterface] | None:
         name = written[len(_PREFIX) :] if written.startswith(_PREFIX) else written
         interface = _INTERFACES.get(name)
         if interface is None:
@@ -147,7 +144,7 @@ class DefaultRobotHWSim(RobotHWSim):
             )
         return interface
 
-    def _add_mode(self, interface: Type[JointCommandInterface], joint, where: str, nh: NodeHandle, description: JointDescription) -> None:
+    def _add_mode(self, interface: type[JointCommandInterface], joint, where: str, nh: NodeHandle, description: JointDescription) -> None:
         sim = self._joints.get(description.name)
         if sim is None:
             state = JointStateHandle(description.name, joint.position(), joint.velocity())
@@ -161,7 +158,7 @@ class DefaultRobotHWSim(RobotHWSim):
         sim.add(interface.type_name, self._make_mode(interface, joint, handle, nh, description))
 
     def _make_mode(
-        self, interface: Type[JointCommandInterface], joint, handle: JointHandle, nh: NodeHandle, description: JointDescription
+        self, interface: type[JointCommandInterface], joint, handle: JointHandle, nh: NodeHandle, description: JointDescription
     ) -> Mode:
         hard = limits_from_urdf(description)
         hard = limits_from_params(nh, description.name, hard or JointLimits()) or hard
@@ -218,7 +215,7 @@ class DefaultRobotHWSim(RobotHWSim):
         self._wiring.engage()
 
 
-def _limit_handle(interface: Type[JointCommandInterface], handle: JointHandle, hard: Optional[JointLimits], soft):
+def _limit_handle(interface: type[JointCommandInterface], handle: JointHandle, hard: JointLimits | None, soft):
     """The handle that enforces the limits of a joint; a joint without complete limits gets one that only stops NaN."""
     if hard is None:
         hard, soft = _UNLIMITED, None
@@ -237,7 +234,7 @@ def _limit_handle(interface: Type[JointCommandInterface], handle: JointHandle, h
     return _SATURATION[interface](handle, hard)
 
 
-def _warn_of_zero_limits(description: JointDescription, hard: Optional[JointLimits], interface: Type[JointCommandInterface]) -> None:
+def _warn_of_zero_limits(description: JointDescription, hard: JointLimits | None, interface: type[JointCommandInterface]) -> None:
     """A limit of 0 means just that, and is mostly a forgotten value."""
     if hard is None:
         return
@@ -251,7 +248,7 @@ def _warn_of_zero_limits(description: JointDescription, hard: Optional[JointLimi
         )
 
 
-def _warn_of_zero_gains(description: JointDescription, hard: Optional[JointLimits], soft, interface: Type[JointCommandInterface]) -> None:
+def _warn_of_zero_gains(description: JointDescription, hard: JointLimits | None, soft, interface: type[JointCommandInterface]) -> None:
     """The gains of a ``<safety_controller>`` are how much a joint may move at all: 0 is mostly a forgotten value as well."""
     if soft is None or hard is None:
         return
@@ -269,7 +266,7 @@ def _warn_of_zero_gains(description: JointDescription, hard: Optional[JointLimit
         )
 
 
-def _load_gains(nh: NodeHandle, joint: str) -> Optional[RosPid]:
+def _load_gains(nh: NodeHandle, joint: str) -> RosPid | None:
     """The PID of a joint, or None, which is a good way to drive it too."""
     if not nh.has_param("p"):
         rospy.loginfo("No p gain specified for pid.  Namespace: %s", nh.namespace)

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import math
-from typing import Dict
 
 from control_toolbox import Pid
 from hardware_interface import JointHandle, JointStateHandle
@@ -170,7 +169,7 @@ class JointSim:
         self.name = state.name
         self.joint = joint
         self.state = state
-        self.modes: Dict[str, Mode] = {}  # by C++ name of the interface
+        self.modes: dict[str, Mode] = {}  # by C++ name of the interface
 
     def add(self, interface: str, mode: Mode) -> None:
         if not self.modes:

@@ -6,7 +6,6 @@ import contextlib
 import threading
 import time
 import traceback
-from typing import Optional, Union
 
 import rosgraph
 import rospy
@@ -56,8 +55,8 @@ class GazeboRosControl(ModelPlugin):
         self._e_stop = self._was_stopped = False
         if sdf.get("eStopTopic", ""):
             self._nh.subscriber(sdf.get("eStopTopic", ""), Bool, self._receive_e_stop)
-        self._hw: Optional[RobotHWSim] = None
-        self._manager: Optional[ControllerManager] = None
+        self._hw: RobotHWSim | None = None
+        self._manager: ControllerManager | None = None
         self._gone = threading.Event()
         self._holds = self._told_to_hold()
         self._forget_times()
@@ -100,7 +99,7 @@ class GazeboRosControl(ModelPlugin):
 
     # -- the robot description -----------------------------------------------------------------------------------------
 
-    def _find_description(self) -> Optional[str]:
+    def _find_description(self) -> str | None:
         """The closest parameter of that name above the namespace, else that name as it stands; None if not there."""
         found = self._nh.search_param(self._robot_param) or self._robot_param
         value = rospy.get_param(found, None)
@@ -197,8 +196,8 @@ class GazeboRosControl(ModelPlugin):
     # -- every step ----------------------------------------------------------------------------------------------------
 
     def _forget_times(self) -> None:
-        self._last_update_ns: Optional[int] = None
-        self._last_write_ns: Optional[int] = None
+        self._last_update_ns: int | None = None
+        self._last_write_ns: int | None = None
 
     def _step(self) -> None:
         hw, manager, now_ns = self._hw, self._manager, self._world.time_ns
@@ -258,7 +257,7 @@ class GazeboRosControl(ModelPlugin):
         self._nh.shutdown()
 
 
-def find_sim(name: str) -> Union[type, CompiledSimClass]:
+def find_sim(name: str) -> type | CompiledSimClass:
     """The class of a simulated robot hardware. :raises PluginError: there is none of that name."""
     if name == _DEFAULT_SIM:
         return DefaultRobotHWSim

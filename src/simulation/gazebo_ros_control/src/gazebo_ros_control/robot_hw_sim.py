@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Callable, List, Optional
+from collections.abc import Callable
 
 from controller_interface import NodeHandle
 from hardware_interface import RobotHW
@@ -18,9 +18,7 @@ class RobotHWSim(RobotHW):
 
     on_drive: Callable[..., None] = staticmethod(lambda *joints: None)
 
-    def init_sim(
-        self, robot_namespace: str, model_nh: NodeHandle, model, urdf: Optional[str], transmissions: List[TransmissionInfo]
-    ) -> bool:
+    def init_sim(self, robot_namespace: str, model_nh: NodeHandle, model, urdf: str | None, transmissions: list[TransmissionInfo]) -> bool:
         """Set up. May take its time: the world goes on. Must not touch the world's state.
 
         :param robot_namespace: absolute.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Dict, Iterable, List, Tuple
+from collections.abc import Iterable
 
 from hardware_interface import addresses
 
@@ -16,9 +16,9 @@ class Wiring:
     def __init__(self, sims: Iterable[JointSim]) -> None:
         self._sims = tuple(sims)
         self._core = _wiring.Wiring()
-        self._modes: List[Mode] = []  # by number in the core
-        self._numbers: Dict[Mode, int] = {}
-        self._by_pid: Tuple[JointSim, ...] = ()  # whose mode writes for itself
+        self._modes: list[Mode] = []  # by number in the core
+        self._numbers: dict[Mode, int] = {}
+        self._by_pid: tuple[JointSim, ...] = ()  # whose mode writes for itself
         self.read = self._core.read  #: positions, velocities and what drives bear, into the states
         self.stop = self._core.stop  #: emergency stop: begins or ends
         self._write = self._core.write

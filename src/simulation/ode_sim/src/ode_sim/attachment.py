@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Optional
-
 from ode_sim.core_numbers import flat, pose_of
 from ode_sim.description.model import Pose
 from ode_sim.handles import LinkHandle
@@ -12,7 +10,7 @@ from ode_sim.handles import LinkHandle
 class Attachment:
     """Two links held together by :meth:`ode_sim.World.attach`. Part of snapshots."""
 
-    def __init__(self, core, parent: Optional[LinkHandle], child: LinkHandle) -> None:
+    def __init__(self, core, parent: LinkHandle | None, child: LinkHandle) -> None:
         self.parent = parent  # None: the world
         self.child = child
         self._core = core

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any, List, Optional, Tuple
+from typing import Any
 
 from ode_sim import collision_meshes
 from ode_sim.core_numbers import flat, unlimited
@@ -52,7 +52,7 @@ class Builder:
 
     def __init__(self, core) -> None:
         self.core = core
-        self.problems: List[d.Problem] = []
+        self.problems: list[d.Problem] = []
 
     def build(self, world, model: d.Model, name: str, pose: d.Pose) -> ModelHandle:
         """The handle of the model put at X_WM ``pose``.
@@ -112,7 +112,7 @@ class Builder:
             if shape is not None:
                 handle.collisions[collision.name] = shape
 
-    def _shape(self, model: ModelHandle, link: LinkHandle, collision: d.Collision) -> Optional[CollisionHandle]:
+    def _shape(self, model: ModelHandle, link: LinkHandle, collision: d.Collision) -> CollisionHandle | None:
         where = f"collision '{collision.name}' of link '{link.scoped_name}'"
         try:
             core = self._geometry(model.core, link.core, collision)
@@ -171,7 +171,7 @@ class Builder:
         raise d.DescriptionError(f"shape {type(shape).__name__} cannot collide")
 
     @staticmethod
-    def _sizes(values: Tuple[float, ...], what: str) -> None:
+    def _sizes(values: tuple[float, ...], what: str) -> None:
         if not all(0.0 < v <= d.FARTHEST for v in values):
             raise d.DescriptionError(f"{what} must be positive and at most {d.FARTHEST:g} m, not {' '.join(f'{v:g}' for v in values)}")
 
@@ -262,7 +262,7 @@ class Builder:
             self._problem("warning", f"{where}: {name} is no number; it is left out", joint.source)
         return replace(axis, **{name: getattr(d.Axis, name) for name in wrong}) if wrong else axis
 
-    def _axes(self, joint: d.Joint, kind: str, where: str) -> List[d.Axis]:
+    def _axes(self, joint: d.Joint, kind: str, where: str) -> list[d.Axis]:
         count = {"revolute": 1, "prismatic": 1, "universal": 2, "screw": 1, "gearbox": 2}.get(kind, 0)
         axes = [self._unit_axis(axis, where, joint) for axis in (joint.axes + (d.Axis(),) * count)[:count]]
         if kind == "screw":  # the second one is the way along the first

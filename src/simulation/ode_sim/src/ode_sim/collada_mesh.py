@@ -7,8 +7,9 @@ import logging
 import os
 import re
 import zipfile
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any, Dict, Iterator, List, Optional, Tuple
+from typing import Any
 from urllib.parse import unquote
 from xml.etree import ElementTree
 from xml.parsers import expat
@@ -27,7 +28,7 @@ _LONE_AMPERSAND = re.compile(rb"&(?!(?:amp|lt|gt|quot|apos|#\d+|#x[0-9A-Fa-f]+);
 _ENCODING = re.compile(rb"""\s*<\?xml[^>]*\sencoding\s*=\s*["']([^"']*)["']""")
 
 
-def read_dae(path: str, data: bytes) -> List[MeshPart]:
+def read_dae(path: str, data: bytes) -> list[MeshPart]:
     """The shapes of the visual scene, in metres.
 
     :raises DescriptionError: one line that names the file. A broken file may raise anything else.
@@ -36,7 +37,7 @@ def read_dae(path: str, data: bytes) -> List[MeshPart]:
     unit = float(scene.assetInfo.unitmeter or 1.0)
     if scene.scene is None:
         raise DescriptionError(f"mesh {path}: the Collada file has no visual scene")
-    parts: List[MeshPart] = []
+    parts: list[MeshPart] = []
     triangles = 0
     for node, geometry in _placed(scene.scene.nodes):
         for primitive in geometry.primitives():
@@ -47,7 +48,7 @@ def read_dae(path: str, data: bytes) -> List[MeshPart]:
     return parts
 
 
-def _placed(nodes, matrix=None, name: str = "") -> Iterator[Tuple[str, Any]]:
+def _placed(nodes, matrix=None, name: str = "") -> Iterator[tuple[str, Any]]:
     """(name of the node that it is in, geometry in its place) of all shapes below these nodes."""
     for node in nodes:
         if hasattr(node, "children"):
@@ -106,7 +107,7 @@ def document(data: bytes):
         return collada.Collada(io.BytesIO(mended), ignore=ignored)
 
 
-def _without_faulty_shading(data: bytes) -> Optional[bytes]:
+def _without_faulty_shading(data: bytes) -> bytes | None:
     """The same file less what its shaders cannot be told, as MakeHuman's empty ``<transparency>``; None where none of that is in it."""
     root = ElementTree.fromstring(data)
     faulty = [(shader, told) for shader in root.iter() if _tag(shader) in _SHADERS for told in shader if not _is_shading(told)]
@@ -132,7 +133,7 @@ def _is_shading(told: ElementTree.Element) -> bool:
     return kind == "color" and len(numbers) >= 3 or kind == "float" and len(numbers) == 1
 
 
-def parts_of(primitive, geometry, material, path: str, unit: float = 1.0) -> List[Tuple[MeshPart, np.ndarray]]:
+def parts_of(primitive, geometry, material, path: str, unit: float = 1.0) -> list[tuple[MeshPart, np.ndarray]]:
     """Its triangles as parts, each with the numbers of the shape's corners (V,) that its own are."""
     if hasattr(primitive, "triangleset"):
         primitive = primitive.triangleset()
@@ -195,9 +196,9 @@ class _Check:
     def __init__(self, path: str):
         self._path = path
         self._depth = self._elements = 0
-        self._open: List[str] = [""]  # ids of the nodes around; '' is the file itself
-        self._weights: Dict[str, int] = {"": 0}  # of a node: itself, what is written in it
-        self._refers: Dict[str, List[str]] = {"": []}  # and what it stands for
+        self._open: list[str] = [""]  # ids of the nodes around; '' is the file itself
+        self._weights: dict[str, int] = {"": 0}  # of a node: itself, what is written in it
+        self._refers: dict[str, list[str]] = {"": []}  # and what it stands for
 
     def run(self, data: bytes) -> None:
         """:raises DescriptionError: refused. :raises ExpatError: no XML."""
@@ -219,7 +220,7 @@ class _Check:
     def _entity(self, name: str, *_declaration) -> None:
         raise self._error(f"declares the entity '{quoted(name)}'; entities are not read")
 
-    def _start(self, tag: str, attributes: Dict[str, str]) -> None:
+    def _start(self, tag: str, attributes: dict[str, str]) -> None:
         self._depth += 1
         self._elements += 1
         if self._depth > DEEPEST:
@@ -248,9 +249,9 @@ class _Check:
 
         :raises DescriptionError: a node stands for itself.
         """
-        known: Dict[str, int] = {}
-        path: Dict[str, None] = {}
-        todo: List[Tuple[str, bool]] = [("", False)]
+        known: dict[str, int] = {}
+        path: dict[str, None] = {}
+        todo: list[tuple[str, bool]] = [("", False)]
         while todo:
             name, done = todo.pop()
             if done:

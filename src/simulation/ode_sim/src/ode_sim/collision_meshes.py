@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import functools
 import weakref
-from typing import Any, Dict, Tuple, Union
+from typing import Any
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from ode_sim.heightmap import load_heights
 from ode_sim.mesh import file_stamp, load_surface
 from ode_sim.polyline import extrude
 
-Made = Union[Mesh, Heightmap, Polyline]  # shapes that something has to be made for first
+Made = Mesh | Heightmap | Polyline  # shapes that something has to be made for first
 
 
 def mesh_data(vertices: np.ndarray, triangles: np.ndarray) -> _core.MeshData:
@@ -46,13 +46,13 @@ def load(mesh: Mesh) -> _core.MeshData:
 
 
 @functools.lru_cache(maxsize=64)
-def _load(path: str, scale: Vec3, submesh: str, center: bool, stamp: Tuple[int, int]) -> _core.MeshData:
+def _load(path: str, scale: Vec3, submesh: str, center: bool, stamp: tuple[int, int]) -> _core.MeshData:
     surface = load_surface(path, scale, submesh, center)
     return mesh_data(surface.vertices, surface.triangles)
 
 
 # By id of the shape of a description, as long as that lives: however many others were made in the meantime, it is there.
-_ready: Dict[int, Any] = {}
+_ready: dict[int, Any] = {}
 
 
 def prepare(model: Model) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Tuple
 
 from ode_sim.description.model import FARTHEST, Pose
 from ode_sim.math3 import quat_normalize
@@ -18,7 +17,7 @@ def finite(values, what: str) -> None:
         raise ValueError(f"{what} must be finite numbers, not {tuple(values)}")
 
 
-def flat(pose: Pose, what: str = "pose") -> Tuple[float, ...]:
+def flat(pose: Pose, what: str = "pose") -> tuple[float, ...]:
     """Seven floats for the core.
 
     :raises ValueError: not finite, or further than :data:`FARTHEST` from the origin of its frame.

@@ -7,7 +7,7 @@ A handle of a removed model raises ``RuntimeError`` when it would have to act.
 from __future__ import annotations
 
 import math
-from typing import Dict, NamedTuple, Optional, Tuple, Union
+from typing import NamedTuple
 
 import numpy as np
 
@@ -37,7 +37,7 @@ class JointFeedback(NamedTuple):
 class CollisionHandle:
     """One collision shape. ``surface`` (friction, stiffness, slip ...) may be changed while the world runs."""
 
-    def __init__(self, link: "LinkHandle", collision: description.Collision, core) -> None:
+    def __init__(self, link: LinkHandle, collision: description.Collision, core) -> None:
         self.link = link
         self.description = collision
         self.name = collision.name
@@ -67,7 +67,7 @@ class CollisionHandle:
         """X_WC."""
         return pose_of(self.core.pose)
 
-    def bounding_box(self) -> Tuple[Vec3, Vec3]:
+    def bounding_box(self) -> tuple[Vec3, Vec3]:
         """Lower and upper corner in the world, m; infinite for a plane."""
         x0, x1, y0, y1, z0, z1 = self.core.aabb()
         return (x0, y0, z0), (x1, y1, z1)
@@ -76,14 +76,14 @@ class CollisionHandle:
 class LinkHandle:
     """A link. Forces act in the next step only and are then cleared."""
 
-    def __init__(self, model: "ModelHandle", link: description.Link, core) -> None:
+    def __init__(self, model: ModelHandle, link: description.Link, core) -> None:
         self.model = model
         self.description = link
         self.name = link.name
         self.scoped_name = f"{model.name}::{link.name}"
         self.core = core
-        self.collisions: Dict[str, CollisionHandle] = {}
-        self.lights: Dict[str, description.Light] = {light.name: light for light in link.lights}  # poses in the link frame
+        self.collisions: dict[str, CollisionHandle] = {}
+        self.lights: dict[str, description.Light] = {light.name: light for light in link.lights}  # poses in the link frame
 
     @property
     def index(self) -> int:
@@ -124,7 +124,7 @@ class LinkHandle:
         arm = np.subtract(self.core.pose()[:3], self.core.com())
         self.core.set_twist(tuple(np.add(linear, np.cross(angular, arm))), tuple(angular))
 
-    def add_force(self, f_W: Vec3, p_W: Optional[Vec3] = None) -> None:
+    def add_force(self, f_W: Vec3, p_W: Vec3 | None = None) -> None:
         """Force in N at the point ``p_W``, at the centre of mass if None. Forces beyond 1e12 N are cut to it."""
         finite(f_W, f"force on link {self.scoped_name}")
         if p_W is None:
@@ -172,7 +172,7 @@ class LinkHandle:
         return self.core.mass
 
     @property
-    def inertia(self) -> Tuple[float, ...]:
+    def inertia(self) -> tuple[float, ...]:
         """ixx, iyy, izz, ixy, ixz, iyz about the centre of mass in link axes, kg m^2."""
         return self.core.inertia
 
@@ -206,7 +206,7 @@ class JointHandle:
     angles of child and parent, as its reference body sees them; nothing drives them but what drives these links.
     """
 
-    def __init__(self, model: "ModelHandle", joint: description.Joint, parent: Optional[LinkHandle], child: LinkHandle, core) -> None:
+    def __init__(self, model: ModelHandle, joint: description.Joint, parent: LinkHandle | None, child: LinkHandle, core) -> None:
         self.model = model
         self.description = joint
         self.name = joint.name
@@ -283,7 +283,7 @@ class JointHandle:
         """Whether the position-commanded joint is an effort-limited motor at the moment, because of a contact."""
         return self.core.drive_mode == 2
 
-    def follow(self, leader: Optional["JointHandle"], multiplier: float = 1.0, offset: float = 0.0) -> None:
+    def follow(self, leader: JointHandle | None, multiplier: float = 1.0, offset: float = 0.0) -> None:
         """Mimic: keep at ``multiplier * leader + offset`` by :meth:`drive_to`. ``None`` ends it.
 
         The leader may be of another model; when that is removed, the joint stays where it was commanded last.
@@ -300,7 +300,7 @@ class JointHandle:
         finite((q,), f"position of joint {self.scoped_name}")
         return self.core.set_position(q, axis)
 
-    def limits(self, axis: int = 0) -> Tuple[float, float]:
+    def limits(self, axis: int = 0) -> tuple[float, float]:
         """Lower and upper, rad or m; infinite = none."""
         return self.core.get(axis)[:2]
 
@@ -402,12 +402,12 @@ class ModelHandle:
         self.description = model
         self.initial_pose = pose  # X_WM
         self.core = core
-        self.links: Dict[str, LinkHandle] = {}
-        self.joints: Dict[str, JointHandle] = {}
+        self.links: dict[str, LinkHandle] = {}
+        self.joints: dict[str, JointHandle] = {}
         self._X_LM = Pose()  # model frame in the first link's frame
 
     @property
-    def parts(self) -> Tuple[Union[LinkHandle, JointHandle], ...]:
+    def parts(self) -> tuple[LinkHandle | JointHandle, ...]:
         """Links and joints: what may have sensors."""
         return (*self.links.values(), *self.joints.values())
 
@@ -421,7 +421,7 @@ class ModelHandle:
         return self.core.asleep
 
     @property
-    def canonical_link(self) -> Optional[LinkHandle]:
+    def canonical_link(self) -> LinkHandle | None:
         """The first link: the model frame is fixed to it."""
         return next(iter(self.links.values()), None)
 

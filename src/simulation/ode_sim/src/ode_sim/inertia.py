@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Optional, Tuple
 
 import numpy as np
 
@@ -18,7 +17,7 @@ UNTOLD_MOMENT = 1.0  # kg m^2, where a tensor tells none (dBodySetMass: the inve
 _SINGULAR = 1e-12  # of the largest moment: what rounding leaves of 0
 
 
-def usable_mass(mass: float, where: str) -> Tuple[float, Optional[str]]:
+def usable_mass(mass: float, where: str) -> tuple[float, str | None]:
     """The mass in kg, and what was wrong with it."""
     if SMALLEST_MASS <= mass <= LARGEST_MASS:
         return float(mass), None
@@ -29,7 +28,7 @@ def usable_mass(mass: float, where: str) -> Tuple[float, Optional[str]]:
     return 1.0, f'{where}: mass {mass} is no positive number; 1 kg is used. Write <mass value="..."/> in kg'
 
 
-def usable_inertia(inertial: Inertial, mass: float, where: str) -> Tuple[Tuple[float, ...], Optional[str]]:
+def usable_inertia(inertial: Inertial, mass: float, where: str) -> tuple[tuple[float, ...], str | None]:
     """ixx, iyy, izz, ixy, ixz, iyz in link axes about the centre of mass (kg m^2), positive definite, and a problem if any.
 
     A tensor up to :data:`LARGEST_MOMENT` is taken as it is, its moments raised to the smallest that a body of this mass may have.

@@ -8,12 +8,12 @@ for one at a time these are several times faster.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Iterable, Sequence, Tuple
 
-Vec3 = Tuple[float, float, float]
-Quat = Tuple[float, float, float, float]
-Mat3 = Tuple[Vec3, Vec3, Vec3]
+Vec3 = tuple[float, float, float]
+Quat = tuple[float, float, float, float]
+Mat3 = tuple[Vec3, Vec3, Vec3]
 
 
 @dataclass(frozen=True)
@@ -220,7 +220,7 @@ def to_rpy(pose: Pose) -> Vec3:
     return quat_to_rpy(pose.q)
 
 
-def to_matrix(pose: Pose) -> Tuple[Tuple[float, float, float, float], ...]:
+def to_matrix(pose: Pose) -> tuple[tuple[float, float, float, float], ...]:
     """4x4 homogeneous matrix, rows."""
     r = quat_to_matrix(pose.q)
     return ((*r[0], pose.p[0]), (*r[1], pose.p[1]), (*r[2], pose.p[2]), (0.0, 0.0, 0.0, 1.0))

@@ -10,7 +10,6 @@ from __future__ import annotations
 import functools
 import os
 from dataclasses import dataclass, replace
-from typing import List, Optional, Tuple
 
 import numpy as np
 
@@ -37,7 +36,7 @@ class VisualPart:
     vertices: np.ndarray
     triangles: np.ndarray
     normals: np.ndarray
-    uv: Optional[np.ndarray]
+    uv: np.ndarray | None
     material: Material
 
     def __iter__(self):
@@ -69,7 +68,7 @@ def load_surface(path: str, scale: Vec3 = UNIT_SCALE, submesh: str = "", center:
     return _surface(path, _usable_scale(scale, path), submesh, center, file_stamp(path))
 
 
-def load_visual(path: str, scale: Vec3 = UNIT_SCALE, submesh: str = "", center: bool = False) -> List[VisualPart]:
+def load_visual(path: str, scale: Vec3 = UNIT_SCALE, submesh: str = "", center: bool = False) -> list[VisualPart]:
     """The parts to draw, one for each material: tuples (vertices, triangles, normals, uv or None, Material).
 
     Normals are those of the file; where it has none, faces that meet at less than 40 degrees are smoothed together.
@@ -101,7 +100,7 @@ def mass_properties(surface: Surface) -> MassProperties:
 # ---------------------------------------------------------------------------------------------- caches
 
 
-def file_stamp(path: str) -> Tuple[int, int]:
+def file_stamp(path: str) -> tuple[int, int]:
     """Size and time of the file: an edited mesh is read again."""
     try:
         status = os.stat(path)
@@ -132,12 +131,12 @@ def _surface(path: str, scale: Vec3, submesh: str, center: bool, stamp) -> Surfa
 
 
 @functools.lru_cache(maxsize=256)
-def _visual(path: str, scale: Vec3, submesh: str, center: bool, stamp) -> Tuple[VisualPart, ...]:
+def _visual(path: str, scale: Vec3, submesh: str, center: bool, stamp) -> tuple[VisualPart, ...]:
     with np.errstate(over="ignore", invalid="ignore"):  # what is scaled to nothing has no normals worth a warning
         return tuple(_drawn(part, np.asarray(scale)) for part in _selected(path, submesh, center, stamp))
 
 
-def _selected(path: str, submesh: str, center: bool, stamp) -> List[MeshPart]:
+def _selected(path: str, submesh: str, center: bool, stamp) -> list[MeshPart]:
     if submesh.startswith(SKIN_PIECE):
         from ode_sim.actors.skin import load_piece  # which needs this module
 

@@ -6,8 +6,9 @@ import functools
 import os
 import re
 import struct
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
+from typing import Any
 
 import numpy as np
 
@@ -30,16 +31,16 @@ class MeshPart:
     name: str
     vertices: np.ndarray  # (V, 3) float64, metres
     triangles: np.ndarray  # (T, 3) int64
-    normals: Optional[np.ndarray]  # (V, 3)
-    uv: Optional[np.ndarray]  # (V, 2)
+    normals: np.ndarray | None  # (V, 3)
+    uv: np.ndarray | None  # (V, 2)
     material: Material
     node: str = ""  # of a Collada scene, or group of an OBJ file, that the piece is in
 
 
 @functools.lru_cache(maxsize=64)
-def read_parts(path: str, stamp, groups: bool = False) -> List[MeshPart]:
+def read_parts(path: str, stamp, groups: bool = False) -> list[MeshPart]:
     """:param groups: the groups of an OBJ file are pieces of their own, for who asks for one of them; fewer are drawn quicker"""
-    readers: Dict[str, Callable[[str, bytes], List[MeshPart]]] = {
+    readers: dict[str, Callable[[str, bytes], list[MeshPart]]] = {
         ".stl": _read_stl,
         ".stlb": _read_stl,
         ".stla": _read_stl,
@@ -94,7 +95,7 @@ def usable(part: MeshPart, path: str) -> MeshPart:
     if part.triangles.min() < 0 or part.triangles.max() >= len(part.vertices):
         raise DescriptionError(f"mesh {path}: a triangle refers to a vertex that is not there")
 
-    def fits(array: Optional[np.ndarray], width: int) -> bool:
+    def fits(array: np.ndarray | None, width: int) -> bool:
         return array is not None and array.shape == (len(part.vertices), width) and bool((np.abs(array) <= FARTHEST).all())
 
     if (part.normals is None or fits(part.normals, 3)) and (part.uv is None or fits(part.uv, 2)):
@@ -109,7 +110,7 @@ def _check_vertices(vertices: np.ndarray, path: str) -> None:
         raise DescriptionError(f"mesh {path}: holds coordinates beyond {FARTHEST:g}")
 
 
-def _read_stl(path: str, data: bytes) -> List[MeshPart]:
+def _read_stl(path: str, data: bytes) -> list[MeshPart]:
     points = _stl_text(path, data) if _is_stl_text(data) else _stl_records(path, data)
     check_triangles(len(points) // 3, path)
     _check_vertices(points, path)
@@ -147,13 +148,13 @@ def _stl_text(path: str, data: bytes) -> np.ndarray:
     return np.array(found, dtype=float).reshape(-1, 3)
 
 
-def _read_obj(path: str, data: bytes, groups: bool) -> List[MeshPart]:
+def _read_obj(path: str, data: bytes, groups: bool) -> list[MeshPart]:
     """Polygons with v, vt, vn; one part for each object and material, and for each group if wanted."""
-    points: List[List[float]] = []
-    texture_points: List[List[float]] = []
-    normals: List[List[float]] = []
-    materials: Dict[str, Material] = {}
-    corners: Dict[Tuple[str, str, str], List[Tuple[int, int, int]]] = {}
+    points: list[list[float]] = []
+    texture_points: list[list[float]] = []
+    normals: list[list[float]] = []
+    materials: dict[str, Material] = {}
+    corners: dict[tuple[str, str, str], list[tuple[int, int, int]]] = {}
     name, group, material = os.path.basename(path), "", ""
     rows = {"v": points, "vt": texture_points, "vn": normals}
     lines = data.decode("utf-8", "replace").replace("\\\n", " ").splitlines()
@@ -201,7 +202,7 @@ def _read_obj(path: str, data: bytes, groups: bool) -> List[MeshPart]:
     return parts
 
 
-def _obj_corner(word: str, points: int, texture_points: int, normals: int) -> Tuple[int, int, int]:
+def _obj_corner(word: str, points: int, texture_points: int, normals: int) -> tuple[int, int, int]:
     """``v/vt/vn``, from 1 or, negative, from the end; -1 for what is not given."""
     fields = (word.split("/") + ["", ""])[:3]
 
@@ -211,7 +212,7 @@ def _obj_corner(word: str, points: int, texture_points: int, normals: int) -> Tu
     return place(fields[0], points), place(fields[1], texture_points), place(fields[2], normals)
 
 
-def _numbers(words: Sequence[str]) -> List[float]:
+def _numbers(words: Sequence[str]) -> list[float]:
     """Of a line; none where one of them is no number: a colour is not worth the mesh."""
     try:
         return [float(word) for word in words]
@@ -232,11 +233,11 @@ def _beside(path: str, name: str) -> str:
     return wanted
 
 
-def _read_mtl(path: str) -> Dict[str, Material]:
+def _read_mtl(path: str) -> dict[str, Material]:
     if not os.path.isfile(path):
         return {}  # the shape is there all the same, drawn white
-    materials: Dict[str, Dict[str, Any]] = {}
-    current: Dict[str, Any] = {}
+    materials: dict[str, dict[str, Any]] = {}
+    current: dict[str, Any] = {}
     with open(path, encoding="utf-8", errors="replace") as stream:
         for line in stream.read(_LONGEST_MTL).splitlines():
             words = line.split()
@@ -255,7 +256,7 @@ def _read_mtl(path: str) -> Dict[str, Material]:
                 texture = _beside(path, words[-1])
                 current["map_Kd"] = os.path.abspath(texture) if os.path.isfile(texture) else ""
 
-    def material(name: str, given: Dict[str, Any]) -> Material:
+    def material(name: str, given: dict[str, Any]) -> Material:
         alpha = (given.get("d", 1.0),)
         colour = {key: given[key] + alpha if key in given else None for key in ("Ka", "Kd", "Ks", "Ke")}
         texture = given.get("map_Kd", "")
@@ -265,13 +266,13 @@ def _read_mtl(path: str) -> Dict[str, Material]:
     return {name: material(name, given) for name, given in materials.items()}
 
 
-def _read_dae(path: str, data: bytes) -> List[MeshPart]:
+def _read_dae(path: str, data: bytes) -> list[MeshPart]:
     from ode_sim.collada_mesh import read_dae  # which takes a moment to load
 
     return read_dae(path, data)
 
 
-def weld(vertices: np.ndarray, triangles: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
+def weld(vertices: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Merge vertices closer than a millionth of the size, drop triangles without area and unused vertices.
 
     :raises DescriptionError: the size is beyond all measure.

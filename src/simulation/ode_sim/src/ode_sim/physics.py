@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from dataclasses import fields, replace
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple
+from typing import Any, NamedTuple
 
 from ode_sim.description.model import Physics, Vec3
 
@@ -29,7 +29,7 @@ class Bounds(NamedTuple):
 
 # A step below a microsecond loses its length in the nanoseconds of the clock; one above a second is no simulation any more.
 # The upper bounds of the counts keep a step from taking seconds; those of iterations are what upstream lets dynamic_reconfigure set.
-BOUNDS: Dict[str, Bounds] = {
+BOUNDS: dict[str, Bounds] = {
     "max_step_size": Bounds(1e-6, 1.0, "s"),
     "real_time_update_rate": Bounds(1e-3, 1e9, "Hz", or_zero=True),
     "real_time_factor": Bounds(0.0, 1e9),
@@ -44,7 +44,7 @@ BOUNDS: Dict[str, Bounds] = {
 }
 
 
-def check_physics(physics: Physics, gravity: Optional[Vec3] = None) -> Physics:
+def check_physics(physics: Physics, gravity: Vec3 | None = None) -> Physics:
     """The settings, with whole numbers where counts are wanted; nothing is changed anywhere.
 
     :param gravity: m/s^2, checked too if given.
@@ -86,9 +86,9 @@ def check_setting(name: str, value: Any) -> Any:
     return int(number) if isinstance(getattr(Physics, name), int) else number
 
 
-def usable_physics(physics: Physics) -> Tuple[Physics, List[str]]:
+def usable_physics(physics: Physics) -> tuple[Physics, list[str]]:
     """The settings as near as possible to those of a file, and one line for each that had to be changed."""
-    changed: Dict[str, Any] = {}
+    changed: dict[str, Any] = {}
     lines = []
     for name, bounds in BOUNDS.items():
         value = getattr(physics, name)

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import List, Tuple
-
 import numpy as np
 
 from ode_sim.description.model import DescriptionError, Polyline
 
 
-def extrude(polyline: Polyline) -> Tuple[np.ndarray, np.ndarray]:
+def extrude(polyline: Polyline) -> tuple[np.ndarray, np.ndarray]:
     """Vertices (V, 3) m and triangles (T, 3) of the solid between z = 0 and ``height``.
 
     :raises DescriptionError: fewer than three corners, or an outline that crosses itself.
@@ -39,7 +37,7 @@ def _cross(o, a, b) -> float:
     return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
 
 
-def _triangulate(points) -> List[Tuple[int, int, int]]:
+def _triangulate(points) -> list[tuple[int, int, int]]:
     """Ear clipping of a counter-clockwise outline."""
     left, triangles = list(range(len(points))), []
     while len(left) > 3:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, List, Tuple
+from typing import Any
 
 from ode_sim.world import Snapshot
 
@@ -38,7 +38,7 @@ class Timeline:
 
     def __init__(self, world: Any):
         self._world = world
-        self._moments: List[Moment] = []
+        self._moments: list[Moment] = []
         self._number = 0
         self._period_ns = 0
         self._next_ns = 0
@@ -46,7 +46,7 @@ class Timeline:
         world.on_remove.append(lambda model: self.forget())
 
     @property
-    def moments(self) -> Tuple[Moment, ...]:
+    def moments(self) -> tuple[Moment, ...]:
         return tuple(self._moments)
 
     @property

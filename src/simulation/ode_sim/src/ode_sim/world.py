@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Callable, Dict, Iterable, List, Optional, Tuple, Union
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from ode_sim.physics import PhysicsSettings, check_gravity, check_physics, usabl
 if TYPE_CHECKING:
     from ode_sim.actors.puppet import Puppet
 
-Entity = Union[ModelHandle, LinkHandle, CollisionHandle]
+Entity = ModelHandle | LinkHandle | CollisionHandle
 _MOST_STEPS = 1_000_000  # in one call into the core
 _LONGEST_TIME = 9e9  # s that the clock's nanoseconds can hold
 
@@ -30,10 +31,10 @@ _LONGEST_TIME = 9e9  # s that the clock's nanoseconds can hold
 class Snapshot:
     """The whole state of a world at one moment. Two snapshots are equal exactly if every bit of the state is."""
 
-    models: Tuple[str, ...]
+    models: tuple[str, ...]
     state: bytes
     generators: bytes  # seed and state of World.rng, what actors play; JSON
-    welds: Tuple[int, ...] = field(default=(), compare=False)  # by which Attachment objects find theirs; no part of the state
+    welds: tuple[int, ...] = field(default=(), compare=False)  # by which Attachment objects find theirs; no part of the state
 
     def __bytes__(self) -> bytes:
         return b"".join((repr(self.models).encode(), self.state, self.generators))
@@ -51,29 +52,29 @@ class World:
     :param finder: of ``model://`` and ``package://``, for :meth:`spawn_urdf` and :meth:`spawn_sdf`.
     """
 
-    def __init__(self, description: Optional[d.World] = None, seed: int = 0, finder=None, problems: Iterable[d.Problem] = ()) -> None:
+    def __init__(self, description: d.World | None = None, seed: int = 0, finder=None, problems: Iterable[d.Problem] = ()) -> None:
         description = description or d.World()
         self.description = description
         self.name = description.name
         self.finder = finder
         self.core = _core.World()
-        self.problems: List[d.Problem] = list(problems)
+        self.problems: list[d.Problem] = list(problems)
         physics, limited = usable_physics(description.physics)
         self.problems += [d.Problem("warning", line, description.source) for line in limited]
         self.physics = PhysicsSettings(self.core, physics)
         self.gravity = self._usable_gravity(description)
         self.magnetic_field = description.magnetic_field
         self.scene = description.scene
-        self.lights: Dict[str, d.Light] = {}
-        self.models: Dict[str, ModelHandle] = {}
-        self.actors: Dict[str, Puppet] = {}  # those of the models that are actors
-        self.messages: List[str] = []
-        self.before_step: List[Callable[["World"], None]] = []
-        self.after_step: List[Callable[["World"], None]] = []
-        self.on_spawn: List[Callable[[ModelHandle], None]] = []
-        self.on_remove: List[Callable[[ModelHandle], None]] = []
-        self._collisions: Dict[int, CollisionHandle] = {}
-        self._generators: Dict[str, np.random.Generator] = {}
+        self.lights: dict[str, d.Light] = {}
+        self.models: dict[str, ModelHandle] = {}
+        self.actors: dict[str, Puppet] = {}  # those of the models that are actors
+        self.messages: list[str] = []
+        self.before_step: list[Callable[[World], None]] = []
+        self.after_step: list[Callable[[World], None]] = []
+        self.on_spawn: list[Callable[[ModelHandle], None]] = []
+        self.on_remove: list[Callable[[ModelHandle], None]] = []
+        self._collisions: dict[int, CollisionHandle] = {}
+        self._generators: dict[str, np.random.Generator] = {}
         self.seed = seed
         for light in description.lights:
             self.lights.setdefault(light.name, light)
@@ -90,7 +91,7 @@ class World:
             self._apply_state(description.state)
 
     @classmethod
-    def load(cls, source: str, seed: int = 0, finder=None) -> "World":
+    def load(cls, source: str, seed: int = 0, finder=None) -> World:
         """A world from a path, a ``model://`` or world name, or XML text.
 
         :raises DescriptionError: one line that says what cannot be read; smaller trouble goes to ``problems``.
@@ -107,7 +108,7 @@ class World:
         """Simulated time in nanoseconds."""
         return self._time_ns if self._time_ns is not None else self.core.time_ns
 
-    _time_ns: Optional[int] = None  # set while callbacks run before the core has stepped
+    _time_ns: int | None = None  # set while callbacks run before the core has stepped
 
     @property
     def time(self) -> float:
@@ -132,7 +133,7 @@ class World:
     def gravity(self, g: d.Vec3) -> None:
         self.core.gravity = check_gravity(g)
 
-    def set_physics(self, physics: d.Physics, gravity: Optional[d.Vec3] = None) -> None:
+    def set_physics(self, physics: d.Physics, gravity: d.Vec3 | None = None) -> None:
         """Take over all settings, and gravity if given - or nothing at all. :attr:`physics` has them one by one.
 
         :raises ValueError: one line that names the setting that no world can run with.
@@ -168,7 +169,7 @@ class World:
 
     # ------------------------------------------------------------------------------------------ models
 
-    def spawn(self, model: d.Model, name: Optional[str] = None, pose: Optional[d.Pose] = None) -> ModelHandle:
+    def spawn(self, model: d.Model, name: str | None = None, pose: d.Pose | None = None) -> ModelHandle:
         """Put a described model into the world.
 
         :param name: takes the place of the model's own.
@@ -208,19 +209,19 @@ class World:
         self.problems += builder.problems
         return handle
 
-    def spawn_urdf(self, text: str, name: Optional[str] = None, pose: Optional[d.Pose] = None) -> ModelHandle:
+    def spawn_urdf(self, text: str, name: str | None = None, pose: d.Pose | None = None) -> ModelHandle:
         """Spawn URDF text at ``pose`` composed with the model's own origin."""
         from ode_sim.description import read_urdf
 
         return self._spawn_text(read_urdf(text, name=name, finder=self.finder), pose)
 
-    def spawn_sdf(self, text: str, name: Optional[str] = None, pose: Optional[d.Pose] = None) -> ModelHandle:
+    def spawn_sdf(self, text: str, name: str | None = None, pose: d.Pose | None = None) -> ModelHandle:
         """Spawn the first model of SDF text at ``pose`` composed with the model's own pose."""
         from ode_sim.description import read_sdf_model
 
         return self._spawn_text(read_sdf_model(text, name=name, finder=self.finder), pose)
 
-    def _spawn_text(self, read, pose: Optional[d.Pose]) -> ModelHandle:
+    def _spawn_text(self, read, pose: d.Pose | None) -> ModelHandle:
         model, problems = read
         handle = self.spawn(model, pose=compose(pose or d.Pose(), model.pose))
         self.problems += problems
@@ -242,7 +243,7 @@ class World:
                     self._collisions.pop(collision.id, None)
             self.core.remove_model(handle.core)
 
-    def attach(self, parent: Optional[LinkHandle], child: LinkHandle) -> Attachment:
+    def attach(self, parent: LinkHandle | None, child: LinkHandle) -> Attachment:
         """Hold ``child`` where it is now relative to ``parent``, a link of any model (None: the world).
 
         They do not collide until :meth:`Attachment.detach`. Ends when either model is removed and at every reset.
@@ -256,7 +257,7 @@ class World:
             )
         return Attachment(self.core, parent, child)
 
-    def find_entity(self, name: str) -> Optional[Entity]:
+    def find_entity(self, name: str) -> Entity | None:
         """The first model, link or collision, depth first, whose scoped or unscoped name this is."""
         for model in self.models.values():
             if model.name == name:
@@ -269,7 +270,7 @@ class World:
                         return collision
         return None
 
-    def find_link(self, name: str) -> Optional[LinkHandle]:
+    def find_link(self, name: str) -> LinkHandle | None:
         """The first link of that scoped or unscoped name."""
         for model in self.models.values():
             for link in model.links.values():
@@ -277,7 +278,7 @@ class World:
                     return link
         return None
 
-    def find_joint(self, name: str) -> Optional[JointHandle]:
+    def find_joint(self, name: str) -> JointHandle | None:
         """The first joint of that scoped or unscoped name."""
         for model in self.models.values():
             for joint in model.joints.values():
@@ -411,11 +412,11 @@ class World:
         collision.watchers = max(0, collision.watchers + (1 if on else -1))
         collision.core.watched = collision.watchers > 0
 
-    def collision(self, collision_id: int) -> Optional[CollisionHandle]:
+    def collision(self, collision_id: int) -> CollisionHandle | None:
         """By the id that contacts and ray hits carry."""
         return self._collisions.get(int(collision_id))
 
-    def cast_rays(self, origins, directions, max_range: float, ignore: Iterable[CollisionHandle] = ()) -> Tuple[np.ndarray, np.ndarray]:
+    def cast_rays(self, origins, directions, max_range: float, ignore: Iterable[CollisionHandle] = ()) -> tuple[np.ndarray, np.ndarray]:
         """Cast N rays against every collision shape.
 
         :param origins: (N, 3) m, world.

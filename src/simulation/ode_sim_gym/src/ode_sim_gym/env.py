@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Dict, Optional, Tuple
+from collections.abc import Callable
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -25,13 +26,7 @@ class RobotEnv(gymnasium.Env):
     """
 
     def __init__(
-        self,
-        reward: Judge,
-        terminated: Optional[Judge] = None,
-        limit: int = 1000,
-        camera=None,
-        render_mode: Optional[str] = None,
-        **episodes,
+        self, reward: Judge, terminated: Judge | None = None, limit: int = 1000, camera=None, render_mode: str | None = None, **episodes
     ):
         self.episodes = Episodes(**episodes)
         self._reward, self._terminated = reward, terminated
@@ -48,14 +43,14 @@ class RobotEnv(gymnasium.Env):
         self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (self.episodes.size,), np.float32)
         self._done = 0
 
-    def reset(self, *, seed: Optional[int] = None, options: Optional[Dict[str, Any]] = None) -> Tuple[np.ndarray, Dict[str, Any]]:
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[np.ndarray, dict[str, Any]]:
         """With a seed: the same episodes as the last time that this seed was given. Without: the next of the same row."""
         super().reset(seed=seed)
         self.episodes.begin(int(self.np_random.integers(2**63)))
         self._done = 0
         return self._observe(), self._information()
 
-    def step(self, action: np.ndarray) -> Tuple[np.ndarray, float, bool, bool, Dict[str, Any]]:
+    def step(self, action: np.ndarray) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
         """One period. An episode that has flown apart ends, and is seen where it was no number as 0."""
         self.episodes.advance(action)
         self._done += 1
@@ -66,7 +61,7 @@ class RobotEnv(gymnasium.Env):
         truncated = bool(self.limit) and self._done >= self.limit
         return np.nan_to_num(observation, posinf=0.0, neginf=0.0), reward, terminated, truncated, self._information()
 
-    def render(self) -> Optional[np.ndarray]:
+    def render(self) -> np.ndarray | None:
         """(height, width, 3) uint8."""
         if self.render_mode != "rgb_array":
             return None
@@ -77,7 +72,7 @@ class RobotEnv(gymnasium.Env):
     def _observe(self) -> np.ndarray:
         return self.episodes.observe().astype(np.float32)
 
-    def _information(self) -> Dict[str, Any]:
+    def _information(self) -> dict[str, Any]:
         """Simulated time, and what the simulator had to say since the last look."""
         said = list(self.episodes.world.messages)
         self.episodes.world.messages.clear()

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 import os
 import pathlib
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Callable, List, Optional, Sequence, Tuple
 
 import numpy as np
 from ode_sim.handles import JointHandle, LinkHandle
@@ -26,8 +26,8 @@ class Command:
 
     joint: str
     kind: str = "effort"
-    low: Optional[float] = None
-    high: Optional[float] = None
+    low: float | None = None
+    high: float | None = None
 
 
 class Episodes:
@@ -50,10 +50,10 @@ class Episodes:
         world: str = "",
         robot: str = "",
         commands: Sequence[Command] = (),
-        joints: Optional[Sequence[str]] = None,
+        joints: Sequence[str] | None = None,
         links: Sequence[str] = (),
         period: float = 0.02,
-        start: Optional[Callable[["Episodes", np.random.Generator], None]] = None,
+        start: Callable[[Episodes, np.random.Generator], None] | None = None,
         finder=None,
     ):
         self.world = World.load(world, finder=finder) if world else World(finder=finder)
@@ -71,7 +71,7 @@ class Episodes:
             raise ValueError(f"the period must be more than 0 s, not {period}")
         self.steps_per_action = max(1, round(period / self.world.dt))
         self._start = start
-        self._efforts: List[Tuple[JointHandle, float]] = []
+        self._efforts: list[tuple[JointHandle, float]] = []
         self._begin = self.world.save()
         self._begin_time = self.world.time
         self.random = np.random.default_rng(0)
@@ -176,7 +176,7 @@ def _names(handles) -> str:
     return ", ".join(handle.name for handle in handles[:30]) or "none"
 
 
-def _bounds(command: Command, joint: JointHandle) -> Tuple[float, float]:
+def _bounds(command: Command, joint: JointHandle) -> tuple[float, float]:
     if command.kind not in KINDS:
         raise ValueError(f"joint {joint.name} cannot be commanded by '{command.kind}', only by {', '.join(KINDS)}")
     if command.kind == "position":

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, replace
-from typing import Callable, Dict, Hashable, List, Optional, Tuple
 
 import numpy as np
 from ode_sim.description import model as d
@@ -25,10 +25,10 @@ class Look:
     """Colours 0..1 as drawn: ``ambient diffuse emissive`` rgb, ``specular`` rgb, ``alpha``; ``texture`` a file or
     ''."""
 
-    ambient: Tuple[float, float, float]
-    diffuse: Tuple[float, float, float]
-    specular: Tuple[float, float, float]
-    emissive: Tuple[float, float, float]
+    ambient: tuple[float, float, float]
+    diffuse: tuple[float, float, float]
+    specular: tuple[float, float, float]
+    emissive: tuple[float, float, float]
     alpha: float
     texture: str = ""
     shininess: float = _SHININESS
@@ -41,10 +41,10 @@ class Part:
     key: Hashable
     look: Look
     pose: d.Pose
-    scale: Tuple[float, float, float]
+    scale: tuple[float, float, float]
 
 
-def look_of(material: Optional[d.Material], own: Optional[d.Material], transparency: float) -> Look:
+def look_of(material: d.Material | None, own: d.Material | None, transparency: float) -> Look:
     """``material`` as written in the visual wins over the mesh's ``own``; what neither says is white."""
     named = material if material is not None and _says_something(material) else own
     diffuse = (named and named.diffuse) or (named and named.ambient) or _WHITE
@@ -67,22 +67,22 @@ class Assets:
     :ivar meshes: key -> TriMesh. :ivar problems: lines, each naming visual, model and file; drained by the caller.
     """
 
-    def __init__(self, load_mesh: Optional[Callable] = None):
+    def __init__(self, load_mesh: Callable | None = None):
         if load_mesh is None:
             from ode_sim.mesh import load_visual
 
             load_mesh = load_visual
         self._load_mesh: Callable = load_mesh
-        self.meshes: Dict[Hashable, TriMesh] = {}
-        self.problems: List[str] = []
-        self._files: Dict[Hashable, List[Tuple[Hashable, Optional[d.Material]]]] = {}
+        self.meshes: dict[Hashable, TriMesh] = {}
+        self.problems: list[str] = []
+        self._files: dict[Hashable, list[tuple[Hashable, d.Material | None]]] = {}
         self._shapes = {"box": geometry.box, "sphere": geometry.sphere, "cylinder": geometry.cylinder, "plane": geometry.plane}
 
     def note(self, name: str, trouble: str) -> None:
         """A problem of the visual of that scoped name."""
         self.problems.append(f"{_describe(name)} {trouble}")
 
-    def parts(self, visual: d.Visual, name: str) -> List[Part]:
+    def parts(self, visual: d.Visual, name: str) -> list[Part]:
         """What to draw for ``visual``; empty (and a problem noted) where there is nothing.
 
         :param name: scoped name ``model::link::visual`` for messages.
@@ -135,7 +135,7 @@ class Assets:
     def _mesh_file(self, shape: d.Mesh):
         shape = replace(shape, uri="")  # the same file by two names is drawn as one mesh
         if shape not in self._files:
-            pieces: List[Tuple[Hashable, Optional[d.Material]]] = []
+            pieces: list[tuple[Hashable, d.Material | None]] = []
             for number, (vertices, triangles, normals, uv, material) in enumerate(
                 self._load_mesh(shape.path, shape.scale, shape.submesh, shape.center)
             ):
@@ -145,7 +145,7 @@ class Assets:
             self._files[shape] = pieces
         return self._files[shape]
 
-    def texture(self, path: str, name: str, most: int = 4096) -> Optional[np.ndarray]:
+    def texture(self, path: str, name: str, most: int = 4096) -> np.ndarray | None:
         """RGBA bytes (H,W,4), first row at the bottom, of an image file; None (and a problem noted) if unreadable.
 
         :param most: pixels along a side; of a larger image only every second, third ... row and column is taken.

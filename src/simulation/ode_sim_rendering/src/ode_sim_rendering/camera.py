@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Callable, Dict, Optional, Tuple
 
 import numpy as np
 from ode_sim.description.model import FARTHEST, Pose, Vec3, quoted
@@ -18,7 +18,7 @@ _MAX_PIXELS = 64_000_000
 _NOISIEST = 1e3  # noise is in fractions of full scale
 _BENT = 1e6  # of lens coefficients
 
-LENS_FUNCTIONS: Dict[str, Callable[[float], float]] = {"sin": math.sin, "tan": math.tan, "id": float}
+LENS_FUNCTIONS: dict[str, Callable[[float], float]] = {"sin": math.sin, "tan": math.tan, "id": float}
 _LENSES = {
     "gnomonical": (1.0, 1.0, "tan"),
     "stereographic": (2.0, 2.0, "tan"),
@@ -56,7 +56,7 @@ class Distortion:
     k3: float = 0.0
     p1: float = 0.0
     p2: float = 0.0
-    center: Tuple[float, float] = (0.5, 0.5)
+    center: tuple[float, float] = (0.5, 0.5)
     crop: bool = True
 
     def __bool__(self) -> bool:
@@ -113,7 +113,7 @@ class Camera:
     distortion: Distortion = Distortion()
     pose: Pose = Pose()
     link: str = ""
-    lens: Optional[WideLens] = None
+    lens: WideLens | None = None
 
     def __post_init__(self):
         if not (1 <= self.width <= MAX_SIZE and 1 <= self.height <= MAX_SIZE) or self.width * self.height > _MAX_PIXELS:
@@ -158,7 +158,7 @@ class Camera:
         return np.stack([(self.width - 1) / 2 - f * p_C[:, 1] / p_C[:, 0], (self.height - 1) / 2 - f * p_C[:, 2] / p_C[:, 0]], axis=1)
 
 
-def _number(element: Optional[ET.Element], path: str, default: float) -> float:
+def _number(element: ET.Element | None, path: str, default: float) -> float:
     text = element.findtext(path) if element is not None else None
     if text is None or not text.strip():
         return default
@@ -168,14 +168,14 @@ def _number(element: Optional[ET.Element], path: str, default: float) -> float:
     return values[0]
 
 
-def _pixels(element: Optional[ET.Element], path: str, default: int) -> int:
+def _pixels(element: ET.Element | None, path: str, default: int) -> int:
     value = _number(element, path, default)
     if not math.isfinite(value):
         raise CameraError(f"<{path.rpartition('/')[2]}> is {value}, not a number of pixels")
     return int(value)
 
 
-def _pose(text: Optional[str]) -> Pose:
+def _pose(text: str | None) -> Pose:
     """Of the six numbers of a ``<pose>`` (m, rad); missing ones are 0."""
     values = leading_numbers(text or "", 6)
     if not all(abs(value) <= FARTHEST for value in values):
@@ -183,7 +183,7 @@ def _pose(text: Optional[str]) -> Pose:
     return from_rpy(*values)
 
 
-def read_distortion(element: Optional[ET.Element]) -> Distortion:
+def read_distortion(element: ET.Element | None) -> Distortion:
     """From a ``<distortion>`` element (None: no distortion)."""
     text = (element.findtext("center") if element is not None else None) or "0.5 0.5"
     center = leading_numbers(text, 2)
@@ -192,7 +192,7 @@ def read_distortion(element: Optional[ET.Element]) -> Distortion:
     return Distortion(k1, k2, k3, p1, p2, center=(center[0], center[1]))
 
 
-def read_lens(element: Optional[ET.Element], hfov: float) -> WideLens:
+def read_lens(element: ET.Element | None, hfov: float) -> WideLens:
     """From a ``<lens>`` element (None: stereographic) of a camera of this horizontal field of view, rad.
 
     :raises CameraError: a value that no lens can have.

@@ -8,7 +8,7 @@ from __future__ import annotations
 import ctypes
 import ctypes.util
 import os
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any
 
 from ode_sim.errors import RenderingUnavailable
 
@@ -74,17 +74,17 @@ def _create_osmesa(moderngl):
         glcontext.get_backend_by_name = original
 
 
-def _create_egl(moderngl, device: Optional[int]):
-    settings: Dict[str, Any] = {"standalone": True, "backend": "egl", "require": _GL_VERSION}  # versions type them differently
+def _create_egl(moderngl, device: int | None):
+    settings: dict[str, Any] = {"standalone": True, "backend": "egl", "require": _GL_VERSION}  # versions type them differently
     if device is not None:
         settings["device_index"] = device
     return moderngl.create_context(**settings)
 
 
-def _egl_devices(trouble: List[str]) -> List[Optional[int]]:
+def _egl_devices(trouble: list[str]) -> list[int | None]:
     """Which to try, in turn: the one that ``ODE_SIM_GL_DEVICE`` names, else EGL's first; then software."""
     wanted, known = os.environ.get("ODE_SIM_GL_DEVICE", ""), devices()
-    first: Optional[int] = None
+    first: int | None = None
     if wanted:
         try:
             first = index_of(wanted, known)
@@ -98,7 +98,7 @@ def _reason(error: Exception) -> str:
     return str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
 
 
-def create_context(backend: str = "auto", trouble: Optional[List[str]] = None):
+def create_context(backend: str = "auto", trouble: list[str] | None = None):
     """A current, headless ``moderngl.Context``.
 
     :param backend: ``egl``, ``osmesa`` or ``auto`` (EGL, then OSMesa; the environment variable ``ODE_SIM_GL``
@@ -115,8 +115,8 @@ def create_context(backend: str = "auto", trouble: Optional[List[str]] = None):
         import moderngl
     except ImportError as error:
         raise RenderingUnavailable(f"no OpenGL: {error}; install python3-moderngl") from error
-    tries: List[Tuple[str, Optional[int]]] = [("egl", device) for device in _egl_devices(trouble)] if backend != "osmesa" else []
-    reasons: List[str] = []
+    tries: list[tuple[str, int | None]] = [("egl", device) for device in _egl_devices(trouble)] if backend != "osmesa" else []
+    reasons: list[str] = []
     for name, device in tries + ([("osmesa", None)] if backend != "egl" else []):
         try:
             made = _create_osmesa(moderngl) if name == "osmesa" else _create_egl(moderngl, device)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import re
-from typing import List, Optional, Sequence
+from collections.abc import Sequence
 
 from ode_sim.errors import Refused
 
@@ -20,7 +20,7 @@ class UnknownDevice(Refused):
     """There is no such device; the message lists those that there are."""
 
 
-def devices() -> List[str]:
+def devices() -> list[str]:
     """In EGL's order, of each the PCI address (``0000:65:00.0``), :data:`SOFTWARE` or :data:`UNNAMED`; [] without EGL."""
     try:
         egl = ctypes.CDLL("libEGL.so.1")
@@ -43,7 +43,7 @@ def devices() -> List[str]:
     return names
 
 
-def _pci_address(file: Optional[bytes]) -> Optional[str]:
+def _pci_address(file: bytes | None) -> str | None:
     """Of the card behind ``/dev/dri/card0``."""
     if not file:
         return None

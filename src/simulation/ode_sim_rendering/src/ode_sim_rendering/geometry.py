@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Optional, Tuple
 
 import numpy as np
 from ode_sim.heightmap import thinned
@@ -20,10 +19,10 @@ class TriMesh:
     vertices: np.ndarray
     normals: np.ndarray
     triangles: np.ndarray
-    uv: Optional[np.ndarray] = None
+    uv: np.ndarray | None = None
 
 
-def bounding_sphere(mesh: TriMesh) -> Tuple[np.ndarray, float]:
+def bounding_sphere(mesh: TriMesh) -> tuple[np.ndarray, float]:
     """(centre (3,), radius) of a sphere around the mesh."""
     if not len(mesh.vertices):
         return np.zeros(3), 0.0

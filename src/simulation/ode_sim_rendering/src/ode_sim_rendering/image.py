@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-from typing import Tuple
 
 import cv2
 import numpy as np
@@ -18,7 +17,7 @@ _BAYER = {"bayer_rggb8": "RGGB", "bayer_bggr8": "BGGR", "bayer_gbrg8": "GBRG", "
 
 
 @functools.lru_cache(maxsize=8)
-def _noise_bank(mean: float, stddev: float) -> Tuple[np.ndarray, np.ndarray]:
+def _noise_bank(mean: float, stddev: float) -> tuple[np.ndarray, np.ndarray]:
     """What to add and what to subtract, uint8, three equal channels per pixel as in Gazebo, flattened."""
     draws = np.random.Generator(np.random.PCG64(0)).standard_normal(_BANK, np.float32)
     steps = np.clip(np.rint((draws * stddev + mean) * 255), -255, 255).astype(np.int16)

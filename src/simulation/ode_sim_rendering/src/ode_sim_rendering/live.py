@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import weakref
-from typing import Tuple
 
 import numpy as np
 
@@ -22,7 +21,7 @@ class _Studio:
         weakref.finalize(world, self.renderer.close)
 
 
-_studios: "weakref.WeakKeyDictionary" = weakref.WeakKeyDictionary()
+_studios: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()
 
 
 def render(world, camera: Camera, kind: str = "image") -> np.ndarray:
@@ -45,7 +44,7 @@ def render(world, camera: Camera, kind: str = "image") -> np.ndarray:
     return encode(rgb, camera.encoding)
 
 
-def segment_names(world) -> Tuple[str, ...]:
+def segment_names(world) -> tuple[str, ...]:
     """``model::link::visual`` for each index of a segmentation image of ``world``."""
     return _studio(world).renderer.visual_names
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Dict, List, Tuple
 
 from ode_sim_rendering.camera import Camera
 from ode_sim_rendering.scene import SceneDescription
@@ -21,7 +20,7 @@ class AddCamera:
     key: int
     camera: Camera
     seed: int
-    depth_range: Tuple[float, float]
+    depth_range: tuple[float, float]
 
 
 @dataclass(frozen=True)
@@ -36,7 +35,7 @@ class Draw:
 
     frame: int
     key: int
-    outputs: Tuple[str, ...]
+    outputs: tuple[str, ...]
     time_ns: int
     poses: bytes
     offset: int
@@ -48,7 +47,7 @@ class Done:
     """``stored``: output -> (offset, length) in shared memory."""
 
     frame: int
-    stored: Dict[str, Tuple[int, int]]
+    stored: dict[str, tuple[int, int]]
 
 
 @dataclass(frozen=True)
@@ -68,4 +67,4 @@ class DrawnBy:
 class Problems:
     """Lines about what cannot be drawn as described."""
 
-    lines: List[str]
+    lines: list[str]

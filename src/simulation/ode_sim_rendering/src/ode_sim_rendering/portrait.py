@@ -15,7 +15,7 @@ import sys
 import tempfile
 import threading
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Dict, List, Optional, Tuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from ode_sim.description import model as d
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from ode_sim_rendering.renderer import Renderer
 
 #: Azimuth and elevation in rad of the eye, seen from what it looks at.
-VIEWS: Dict[str, Tuple[float, float]] = {
+VIEWS: dict[str, tuple[float, float]] = {
     "iso": (math.pi / 5, 0.45),
     "front": (0.0, 0.08),
     "back": (math.pi, 0.08),
@@ -58,10 +58,10 @@ class Portrait:
     view: str
     width: int
     height: int
-    eye: Optional[Pose] = None
+    eye: Pose | None = None
 
 
-def extent(portrait: Portrait, assets: Optional[Assets] = None) -> np.ndarray:
+def extent(portrait: Portrait, assets: Assets | None = None) -> np.ndarray:
     """(N,3) corners, world frame, m, of the boxes around each visual that is to fill the frame; (0,3) if there is none.
 
     A plane has no end and a height map is the ground: both count only when they belong to ``model``.
@@ -146,11 +146,11 @@ class Studio:
     """Draws portraits in this process; those of the same scene, one after the other, share what was loaded for it."""
 
     def __init__(self) -> None:
-        self._renderer: Optional["Renderer"] = None
+        self._renderer: Renderer | None = None
         self._assets = Assets()
-        self._scene: Optional[SceneDescription] = None
+        self._scene: SceneDescription | None = None
 
-    def draw(self, portrait: Portrait) -> Tuple[bytes, List[str]]:
+    def draw(self, portrait: Portrait) -> tuple[bytes, list[str]]:
         """The picture as a PNG file, and lines about what could not be drawn, each said once for a scene.
 
         :raises Refused: nothing to draw
@@ -205,11 +205,11 @@ class Painter:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._process: Optional[subprocess.Popen] = None
+        self._process: subprocess.Popen | None = None
         self._words = tempfile.TemporaryFile()  # what the process says of its own end
         self._scene = b""
 
-    def take(self, portrait: Portrait, seconds: float = 60.0) -> Tuple[bytes, List[str]]:
+    def take(self, portrait: Portrait, seconds: float = 60.0) -> tuple[bytes, list[str]]:
         """As :meth:`Studio.draw`.
 
         :raises Refused: nothing to draw, no OpenGL, or not done within ``seconds``

@@ -17,9 +17,9 @@ import os
 import subprocess
 import sys
 import threading
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection, Pipe
-from typing import Callable, Dict, List, Optional, Tuple
 
 import numpy as np
 
@@ -42,7 +42,7 @@ class Frame:
     """``data``: output -> bytes in shared memory, valid until the receiver returns; ``error``: why there are none."""
 
     time_ns: int
-    data: Dict[str, memoryview]
+    data: dict[str, memoryview]
     error: str = ""
 
 
@@ -52,7 +52,7 @@ class _Camera:
     message: AddCamera
     offset: int
     room: int  # of one slot
-    free: List[int]
+    free: list[int]
 
 
 @dataclass
@@ -76,21 +76,21 @@ class RenderProcess:
         self._report, self._tell = report, tell
         self._watch = SceneWatch(world)
         self._memory_fd = os.memfd_create("ode_sim images")
-        self._memory: Optional[mmap.mmap] = None
+        self._memory: mmap.mmap | None = None
         self._used = 0
-        self._spare: Dict[int, List[int]] = {}  # room of a slot -> offsets of freed cameras
-        self._cameras: Dict[int, _Camera] = {}
+        self._spare: dict[int, list[int]] = {}  # room of a slot -> offsets of freed cameras
+        self._cameras: dict[int, _Camera] = {}
         self._next_key = self._next_frame = 0
-        self._pending: Dict[int, _Pending] = {}
+        self._pending: dict[int, _Pending] = {}
         self._lock = threading.Lock()  # of the pending frames and the free slots
-        self._process: Optional[subprocess.Popen] = None
-        self._connection: Optional[Connection] = None
+        self._process: subprocess.Popen | None = None
+        self._connection: Connection | None = None
         self._failures = 0
         self._closed = False
 
     # ------------------------------------------------------------------------------------------ physics thread
 
-    def add_camera(self, camera: Camera, depth_range: Tuple[float, float] = (0.0, np.inf)) -> int:
+    def add_camera(self, camera: Camera, depth_range: tuple[float, float] = (0.0, np.inf)) -> int:
         """A key for :meth:`draw`. ``depth_range``: m, depths outside of it are invalid."""
         key = self._next_key
         self._next_key += 1
@@ -122,7 +122,7 @@ class RenderProcess:
         if not busy:  # else its place is still written to, and is simply not used again
             self._spare.setdefault(entry.room, []).append(entry.offset)
 
-    def draw(self, key: int, outputs: Tuple[str, ...], deliver: Callable[[Frame], None], wait: bool = False, most: int = _SLOTS) -> bool:
+    def draw(self, key: int, outputs: tuple[str, ...], deliver: Callable[[Frame], None], wait: bool = False, most: int = _SLOTS) -> bool:
         """Take the picture of this moment.
 
         :param outputs: of :data:`OUTPUTS`. :param deliver: called once with the :class:`Frame`, from another thread.
@@ -151,7 +151,7 @@ class RenderProcess:
         return True
 
     @property
-    def pid(self) -> Optional[int]:
+    def pid(self) -> int | None:
         """Of the running render process, None before the first picture."""
         return self._process.pid if self._process is not None else None
 
@@ -167,7 +167,7 @@ class RenderProcess:
 
     # ------------------------------------------------------------------------------------------ the process
 
-    def _start(self) -> Optional[Connection]:
+    def _start(self) -> Connection | None:
         if self._closed or self._failures > _RESTARTS:
             return None
         ours, theirs = Pipe()  # blocking, whatever socket.setdefaulttimeout() a ROS library has left behind
@@ -187,7 +187,7 @@ class RenderProcess:
         return connection
 
     @staticmethod
-    def _send(connection: Optional[Connection], message) -> None:
+    def _send(connection: Connection | None, message) -> None:
         if connection is None:
             return
         try:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 from collections import OrderedDict
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
-from typing import Any, Dict, Hashable, List, Optional, Sequence, Tuple
+from typing import Any
 
 import numpy as np
 from ode_sim.description.model import one_line
@@ -75,7 +76,7 @@ class _Batch:
     texture: str
     rows: np.ndarray  # of the scene's part arrays
     instances: Any  # moderngl buffer, room for all rows
-    arrays: Dict[Tuple[frozenset, int], Any]  # (shader flags, program) -> vertex array
+    arrays: dict[tuple[frozenset, int], Any]  # (shader flags, program) -> vertex array
     transparent: bool = False
 
 
@@ -96,7 +97,7 @@ class Renderer:
             shadows = os.environ.get("ODE_SIM_SHADOWS", "") or "auto"
         if shadows not in ("on", "off", "auto"):
             raise ValueError(f"shadows '{shadows}'; use on, off or auto")
-        trouble: List[str] = []
+        trouble: list[str] = []
         self._ctx = create_context(backend, trouble)
         self._software = any(name in self._ctx.info["GL_RENDERER"] for name in ("llvmpipe", "softpipe"))
         # what is no longer used is deleted in set_scene, with this context current: a collector that runs while another
@@ -108,13 +109,13 @@ class Renderer:
         self._shadows = shadows
         self._assets = assets or Assets()
         self._assets.problems += trouble
-        self._mesh_buffers: Dict[Hashable, tuple] = {}
-        self._textures: Dict[str, Any] = {}
-        self._programs: Dict[tuple, Any] = {}
-        self._targets: "OrderedDict[tuple, Target]" = OrderedDict()
-        self._lenses: Dict[tuple, Lens] = {}
-        self._views: Dict[tuple, WideView] = {}  # of wide-angle lenses
-        self._shadow: Optional[ShadowMap] = None
+        self._mesh_buffers: dict[Hashable, tuple] = {}
+        self._textures: dict[str, Any] = {}
+        self._programs: dict[tuple, Any] = {}
+        self._targets: OrderedDict[tuple, Target] = OrderedDict()
+        self._lenses: dict[tuple, Lens] = {}
+        self._views: dict[tuple, WideView] = {}  # of wide-angle lenses
+        self._shadow: ShadowMap | None = None
         self.set_scene(SceneDescription())
 
     @property
@@ -123,7 +124,7 @@ class Renderer:
         with self._ctx:
             return self._ctx.info["GL_RENDERER"]
 
-    def take_problems(self) -> List[str]:
+    def take_problems(self) -> list[str]:
         """Lines about meshes, textures and lights that could not be drawn, each reported once."""
         problems, self._assets.problems = self._assets.problems, []
         return problems
@@ -140,7 +141,7 @@ class Renderer:
         """Replace what is drawn. Meshes and textures already loaded stay loaded."""
         with self._ctx, np.errstate(all="ignore"):
             self._scene = scene
-            parts: List[Tuple[int, int, str, Part]] = []  # (link row, number of the visual, its name, part)
+            parts: list[tuple[int, int, str, Part]] = []  # (link row, number of the visual, its name, part)
             for number, seen in enumerate(scene.visuals):
                 parts += [
                     (seen.link, number, seen.name, part)
@@ -178,7 +179,7 @@ class Renderer:
         return part.key in self._mesh_buffers
 
     @property
-    def visual_names(self) -> Tuple[str, ...]:
+    def visual_names(self) -> tuple[str, ...]:
         """``model::link::visual`` for each value of a segmentation image."""
         return self._names
 
@@ -204,7 +205,7 @@ class Renderer:
             fixed["ident"][row] = parts[row][1]
 
     def _set_batches(self, parts) -> None:
-        groups: "OrderedDict[tuple, List[int]]" = OrderedDict()
+        groups: OrderedDict[tuple, list[int]] = OrderedDict()
         for row, (_, _, _, part) in enumerate(parts):
             texture = part.look.texture
             if texture and (self._textures[texture] is None or self._assets.meshes[part.key].uv is None):
@@ -217,7 +218,7 @@ class Renderer:
             for (key, texture, single), rows in groups.items()
         ]
 
-    def _make_texture(self, image: Optional[np.ndarray]):
+    def _make_texture(self, image: np.ndarray | None):
         if image is None:
             return None
         texture = self._ctx.texture((image.shape[1], image.shape[0]), 4, image.tobytes())
@@ -287,7 +288,7 @@ class Renderer:
         """(H,W) int32: index into :attr:`visual_names`, :data:`~ode_sim_rendering.target.NOTHING` for the background."""
         return self.images(camera, link_poses, ("ident",))["ident"]
 
-    def images(self, camera: Camera, link_poses: np.ndarray, outputs: Sequence[str]) -> Dict[str, np.ndarray]:
+    def images(self, camera: Camera, link_poses: np.ndarray, outputs: Sequence[str]) -> dict[str, np.ndarray]:
         """Several images of one moment from one pass: any of ``color``, ``depth``, ``ident``."""
         outputs = tuple(name for name in ("color", "depth", "ident") if name in outputs)
         link_poses = np.asarray(link_poses, float).reshape(-1, 7)
@@ -302,7 +303,7 @@ class Renderer:
             pictures = self._draw(camera, lens, matrices, outputs)
         return {name: lens.distort(picture, name) for name, picture in pictures.items()} if lens else pictures
 
-    def _lens(self, camera: Camera) -> Optional[Lens]:
+    def _lens(self, camera: Camera) -> Lens | None:
         if not camera.distortion:
             return None
         key = (camera.width, camera.height, camera.hfov, camera.distortion)
@@ -316,7 +317,7 @@ class Renderer:
             self._views[key] = WideView(camera)
         return self._views[key]
 
-    def _draw(self, camera: Camera, lens: Optional[Lens], matrices: np.ndarray, outputs) -> Dict[str, np.ndarray]:
+    def _draw(self, camera: Camera, lens: Lens | None, matrices: np.ndarray, outputs) -> dict[str, np.ndarray]:
         width, height = (lens.width, lens.height) if lens else (camera.width, camera.height)
         X_WC = pose_matrices(_row(camera.pose))[0]
         if camera.link:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Iterable, List, Tuple
 
 import numpy as np
 from ode_sim.description.model import Light, Model, Pose, Scene, Visual
@@ -33,17 +33,17 @@ class SceneLight:
 class SceneDescription:
     """``links``: scoped names, one per row of the (L,7) link-pose array that goes with this scene."""
 
-    links: Tuple[str, ...] = ()
-    visuals: Tuple[SceneVisual, ...] = ()
-    lights: Tuple[SceneLight, ...] = ()
+    links: tuple[str, ...] = ()
+    visuals: tuple[SceneVisual, ...] = ()
+    lights: tuple[SceneLight, ...] = ()
     scene: Scene = Scene()
 
 
-def _of_link(row: int, scoped: str, visuals: Iterable[Visual], lights: Iterable[Light]) -> Tuple[List[SceneVisual], List[SceneLight]]:
+def _of_link(row: int, scoped: str, visuals: Iterable[Visual], lights: Iterable[Light]) -> tuple[list[SceneVisual], list[SceneLight]]:
     return ([SceneVisual(row, f"{scoped}::{visual.name}", visual) for visual in visuals], [SceneLight(row, light) for light in lights])
 
 
-def roads_of(scene: Scene) -> List[SceneVisual]:
+def roads_of(scene: Scene) -> list[SceneVisual]:
     return [SceneVisual(WORLD_FRAME, road.name, road) for road in scene.roads]
 
 
@@ -61,12 +61,12 @@ def describe(world) -> SceneDescription:
     return SceneDescription(names, (*visuals, *roads_of(world.scene)), tuple(lights), world.scene)
 
 
-def arrange(models: Iterable[Model], lights: Iterable[Light] = (), scene: Scene = Scene()) -> Tuple[SceneDescription, np.ndarray]:
+def arrange(models: Iterable[Model], lights: Iterable[Light] = (), scene: Scene = Scene()) -> tuple[SceneDescription, np.ndarray]:
     """The scene of models that stand where their descriptions put them, without physics.
 
     :return: (scene, link poses (L,7): x y z qx qy qz qw, world frame).
     """
-    names: List[str] = []
+    names: list[str] = []
     visuals, shining, poses = [], [], []
     for model in models:
         for link in model.links:

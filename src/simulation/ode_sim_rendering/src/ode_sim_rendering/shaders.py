@@ -6,7 +6,7 @@ sum over lights of attenuation * (diffuse * cos + specular * cos_half^shininess)
 
 from __future__ import annotations
 
-from typing import Sequence
+from collections.abc import Sequence
 
 _VERTEX = """#version 330
 in vec3 vertex;

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Optional
-
 import numpy as np
 
 _SIZE = 2048  # texels along a side
@@ -19,7 +17,7 @@ class ShadowMap:
         self._texture.compare_func = "<="
         self._texture.repeat_x = self._texture.repeat_y = False
         self._frame = ctx.framebuffer([], self._texture)
-        self._drawn: Optional[bytes] = None
+        self._drawn: bytes | None = None
         self._matrix = np.eye(4)
 
     def aim(self, direction: np.ndarray, centres: np.ndarray, radii: np.ndarray, eye: np.ndarray) -> np.ndarray:

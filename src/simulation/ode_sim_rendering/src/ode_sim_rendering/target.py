@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Dict, Tuple
-
 import cv2
 import numpy as np
 
@@ -15,7 +13,7 @@ class Target:
 
     _KINDS = {"color": (4, "f1"), "depth": (1, "f4"), "ident": (1, "f4")}
 
-    def __init__(self, ctx, width: int, height: int, outputs: Tuple[str, ...], samples: int):
+    def __init__(self, ctx, width: int, height: int, outputs: tuple[str, ...], samples: int):
         self._ctx, self._shape, self._outputs = ctx, (height, width), outputs
         self.frame, self._single = self._make(samples)
         self._plain = self._make(0)[0] if samples else self.frame
@@ -38,7 +36,7 @@ class Target:
             frame.clear(*values[name])
         self.frame.use()
 
-    def read(self) -> Dict[str, np.ndarray]:
+    def read(self) -> dict[str, np.ndarray]:
         if self._plain is not self.frame:
             self._ctx.copy_framebuffer(self._plain, self.frame)
         pictures = {}

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import hashlib
 import weakref
-from typing import Optional, Tuple
 
 from ode_sim_rendering.scene import SceneDescription, describe
 
@@ -16,7 +15,7 @@ class SceneWatch:
     def __init__(self, world):
         self._world = weakref.ref(world)
         self._changed = True
-        self._settings: Tuple = ()
+        self._settings: tuple = ()
         self._note = lambda _model: self.mark()
         world.on_spawn.append(self._note)
         world.on_remove.append(self._note)
@@ -45,7 +44,7 @@ class SceneWatch:
         self._changed, self._settings = False, settings
         return True
 
-    def news(self) -> Optional[SceneDescription]:
+    def news(self) -> SceneDescription | None:
         """The scene if it :meth:`changed`, else None. Physics thread."""
         world = self._world()
         return describe(world) if world is not None and self.changed() else None

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Callable, Dict, List
 
 import cv2
 import numpy as np
@@ -16,7 +16,7 @@ from ode_sim_rendering.camera import LENS_FUNCTIONS, Camera, Distortion, WideLen
 _EDGE = 0.02  # of the picture's half width, over which it grows black
 _FORWARD = np.array([[1, 0, 0], [0, 1, 0], [0, -1, 0], [-1, 0, 0], [0, 0, 1], [0, 0, -1]], float)
 _LEFT = np.array([[0, 1, 0], [-1, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 1, 0]], float)
-_INVERSE: Dict[str, Callable] = {"sin": np.arcsin, "tan": np.arctan, "id": np.asarray}
+_INVERSE: dict[str, Callable] = {"sin": np.arcsin, "tan": np.arctan, "id": np.asarray}
 _BEYOND = {"color": 0, "depth": np.inf, "ident": -1}
 
 
@@ -54,7 +54,7 @@ class WideView:
             if (nearest[self._seen] == index).any()
         ]
 
-    def cameras(self, camera: Camera) -> List[Camera]:
+    def cameras(self, camera: Camera) -> list[Camera]:
         """Of the pictures to draw, in the order in which :meth:`joined` takes them."""
         size = self._lens.texture
         return [
@@ -70,11 +70,11 @@ class WideView:
             for side in self._sides
         ]
 
-    def joined(self, pictures: List[Dict[str, np.ndarray]]) -> Dict[str, np.ndarray]:
+    def joined(self, pictures: list[dict[str, np.ndarray]]) -> dict[str, np.ndarray]:
         """The images (H,W) of the lens; its depths are distances from the eye, m."""
         return {kind: self._join([picture[kind] for picture in pictures], kind) for kind in pictures[0]}
 
-    def _join(self, pictures: List[np.ndarray], kind: str) -> np.ndarray:
+    def _join(self, pictures: list[np.ndarray], kind: str) -> np.ndarray:
         first = pictures[0]
         image = np.full(self._seen.shape + first.shape[2:], _BEYOND[kind], first.dtype)
         way = cv2.INTER_LINEAR if kind == "color" else cv2.INTER_NEAREST

@@ -10,7 +10,7 @@ import mmap
 import signal
 from dataclasses import replace
 from multiprocessing.connection import Connection
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any
 
 import cv2
 import numpy as np
@@ -28,9 +28,9 @@ class Worker:
     def __init__(self, connection: Connection, memory: int):
         self._connection = connection
         self._memory_fd = memory
-        self._memory: Optional[mmap.mmap] = None
-        self._cameras: Dict[int, AddCamera] = {}
-        self._renderer: Optional[Renderer] = None
+        self._memory: mmap.mmap | None = None
+        self._cameras: dict[int, AddCamera] = {}
+        self._renderer: Renderer | None = None
         self._no_renderer = ""
 
     def run(self) -> None:
@@ -66,11 +66,11 @@ class Worker:
         elif isinstance(request, ForgetCamera):
             self._cameras.pop(request.key, None)
 
-    def _set_scene(self, scene: SceneDescription) -> List[str]:
+    def _set_scene(self, scene: SceneDescription) -> list[str]:
         """Show ``scene``, or as much of it as can be shown; lines about what cannot."""
-        trouble: List[str] = []
+        trouble: list[str] = []
         assert self._renderer is not None  # else nobody asks
-        without: Tuple[Dict[str, Any], ...] = ({}, {"lights": ()}, {"visuals": ()}, {"lights": (), "visuals": ()})
+        without: tuple[dict[str, Any], ...] = ({}, {"lights": ()}, {"visuals": ()}, {"lights": (), "visuals": ()})
         for less in without:
             try:
                 self._renderer.set_scene(replace(scene, **less))
@@ -97,7 +97,7 @@ class Worker:
             depth = np.where(np.isfinite(depth), depth, np.float32(camera.far))  # as Gazebo: nothing is the far clip
             low, high = entry.depth_range
             valid = (depth > low) & (depth < high)
-        products: List[Tuple[str, np.ndarray]] = []
+        products: list[tuple[str, np.ndarray]] = []
         for name in wanted:
             kind, _, level = name.partition(":")
             if kind == "image":
@@ -112,7 +112,7 @@ class Worker:
                 products.append((name, cloud(depth, image, camera, valid)))
         return Done(request.frame, self._store(request, products))
 
-    def _store(self, request: Draw, products) -> Dict[str, Tuple[int, int]]:
+    def _store(self, request: Draw, products) -> dict[str, tuple[int, int]]:
         """Copy into the frame's place in shared memory: name -> (offset, length)."""
         if self._memory is None or request.offset + request.room > len(self._memory):
             self._memory = mmap.mmap(self._memory_fd, 0)

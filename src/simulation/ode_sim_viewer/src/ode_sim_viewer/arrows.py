@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional, Tuple
+from typing import Any
 
 import numpy as np
 
@@ -28,13 +28,13 @@ class Forces:
     :param node: name of the scene node; its parent may be a link. :param colour: 0 to 255
     """
 
-    def __init__(self, scene: Any, node: str, colour: Tuple[int, int, int], dots: bool = False):
+    def __init__(self, scene: Any, node: str, colour: tuple[int, int, int], dots: bool = False):
         self._scene = scene
         self._node = node
         self._colour = colour
         self._dots = dots
-        self._arrows: Optional[Any] = None
-        self._points: Optional[Any] = None
+        self._arrows: Any | None = None
+        self._points: Any | None = None
 
     def show(self, places: np.ndarray, vectors: np.ndarray, scale: float) -> int:
         """How many arrows there are now.
@@ -72,6 +72,6 @@ class Forces:
         self._arrows = self._points = None
 
 
-def _without(node: Optional[Any]) -> None:
+def _without(node: Any | None) -> None:
     if node is not None:
         take_away(node)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict
+from typing import Any
 
 import numpy as np
 
@@ -17,7 +17,7 @@ class ContactWatch:
 
     def __init__(self, world: Any):
         self._world = world
-        self._watched: Dict[str, list] = {}  # model -> its collisions
+        self._watched: dict[str, list] = {}  # model -> its collisions
         self._on = False
         world.on_spawn.append(self._add)
         world.on_remove.append(lambda model: self._watched.pop(model.name, None))

@@ -7,7 +7,8 @@ import itertools
 import math
 import struct
 import zlib
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from ode_sim.description import model as d
@@ -22,7 +23,7 @@ _FULL = math.pi  # three.js divides by it: a light of this intensity shows a sur
 _GRID_LIFT = 0.002  # m, so that the grid is seen on a ground plane
 
 
-def wxyz(q: d.Quat) -> Tuple[float, float, float, float]:
+def wxyz(q: d.Quat) -> tuple[float, float, float, float]:
     """viser's order of a quaternion x y z w."""
     return (q[3], q[0], q[1], q[2])
 
@@ -32,12 +33,12 @@ def byte_of(part: float) -> int:
     return int(round(255 * min(1.0, max(0.0, part))))
 
 
-def rgb255(colour) -> Tuple[int, int, int]:
+def rgb255(colour) -> tuple[int, int, int]:
     red, green, blue = (byte_of(part) for part in colour[:3])
     return red, green, blue
 
 
-def plain_png(colour: Tuple[int, int, int]) -> bytes:
+def plain_png(colour: tuple[int, int, int]) -> bytes:
     """A picture of two by two pixels."""
 
     def chunk(kind: bytes, data: bytes) -> bytes:
@@ -83,10 +84,10 @@ class ModelDrawing:
     def __init__(self, root: str, record: ModelRecord):
         self.root = root
         self.record = record
-        self.links: Dict[int, Any] = {}  # row -> frame
-        self.meshes: List[Any] = []
-        self.handles: List[Any] = []  # all, in the order to remove them
-        self.boxes: List[Tuple[str, np.ndarray]] = []  # link, (8, 3) corners in its frame of what is to be seen
+        self.links: dict[int, Any] = {}  # row -> frame
+        self.meshes: list[Any] = []
+        self.handles: list[Any] = []  # all, in the order to remove them
+        self.boxes: list[tuple[str, np.ndarray]] = []  # link, (8, 3) corners in its frame of what is to be seen
 
 
 class Drawing:
@@ -107,15 +108,15 @@ class Drawing:
         self._on_pick = on_pick
         self._on_draw = on_draw
         self._assets = Assets()
-        self._textures: Dict[str, Optional[object]] = {}
-        self._models: Dict[str, ModelDrawing] = {}
-        self._lights: List[object] = []
-        self._roads: List[Any] = []  # meshes of
-        self._laid: Tuple[d.Visual, ...] = ()
-        self._lit: Tuple = ()
+        self._textures: dict[str, object | None] = {}
+        self._models: dict[str, ModelDrawing] = {}
+        self._lights: list[object] = []
+        self._roads: list[Any] = []  # meshes of
+        self._laid: tuple[d.Visual, ...] = ()
+        self._lit: tuple = ()
         self._serial = 0
-        self._shown: Optional[np.ndarray] = None
-        self._rows: Dict[int, Any] = {}
+        self._shown: np.ndarray | None = None
+        self._rows: dict[int, Any] = {}
         self.transparent = False
         self.wireframe = False
         self.shadows = True
@@ -137,7 +138,7 @@ class Drawing:
         self._scene.configure_default_lights(enabled=False)
 
     @property
-    def problems(self) -> List[str]:
+    def problems(self) -> list[str]:
         return self._assets.problems
 
     # ------------------------------------------------------------------------------------------ what is there
@@ -182,14 +183,14 @@ class Drawing:
         self._lit, self._laid = (), ()
         self.update(world)
 
-    def model_root(self, name: str) -> Optional[ModelDrawing]:
+    def model_root(self, name: str) -> ModelDrawing | None:
         return self._models.get(name)
 
     def _remove(self, name: str) -> None:
         for handle in reversed(self._models.pop(name).handles):
             take_away(handle)
 
-    def _lay(self, roads: Tuple[d.Visual, ...]) -> None:
+    def _lay(self, roads: tuple[d.Visual, ...]) -> None:
         if roads == self._laid:
             return
         self._laid = roads
@@ -253,10 +254,10 @@ class Drawing:
         corners = itertools.product(*zip(points.min(axis=0), points.max(axis=0)))
         return np.array([transform(part.pose, vec3(corner)) for corner in corners])
 
-    def corners(self, frame: Frame) -> Tuple[np.ndarray, np.ndarray]:
+    def corners(self, frame: Frame) -> tuple[np.ndarray, np.ndarray]:
         """(N, 3) corners in the world, m, of the boxes around what stands still and around what can move; not the
         ground's."""
-        found: Tuple[List, List] = ([], [])
+        found: tuple[list, list] = ([], [])
         for drawn in self._models.values():
             for link, box in drawn.boxes:
                 pose = frame.pose(drawn.record.links[link])
@@ -292,7 +293,7 @@ class Drawing:
                 self._lights.append(self._lamp(f"{frame.name}/light{number}", light, False))
         self._background(rgb255(world.scene.behind_all))
 
-    def _background(self, colour: Tuple[int, int, int]) -> None:
+    def _background(self, colour: tuple[int, int, int]) -> None:
         """viser's own way would load OpenCV to write this picture, half a second before anything is seen."""
         from viser._messages import BackgroundImageMessage
 
@@ -342,7 +343,7 @@ class Drawing:
         return moved
 
 
-def _seen(look: Look) -> Tuple[float, ...]:
+def _seen(look: Look) -> tuple[float, ...]:
     return tuple(max(a, b) for a, b in zip(look.diffuse, look.emissive))
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Iterable, Optional, Tuple
+from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 from ode_sim.math3 import Pose, quat_rotate
@@ -18,7 +19,7 @@ _USUAL = np.array([[-2.0, -2.0, 0.0], [2.0, 2.0, 1.0]])  # an empty world: the g
 _ASPECT = 1.4  # of the part of a page that the controls leave free
 _SAME = 0.02  # of the distance: the eye is where it was put
 
-View = Tuple[np.ndarray, np.ndarray]  # place of the eye and of what it looks at, (3,) m
+View = tuple[np.ndarray, np.ndarray]  # place of the eye and of what it looks at, (3,) m
 
 
 def view_of(still: np.ndarray, moving: np.ndarray) -> View:
@@ -66,7 +67,7 @@ class Eyes:
 
     def __init__(self, server: Any):
         self._server = server
-        self._view: Optional[View] = None
+        self._view: View | None = None
         server.initial_camera.fov = FIELD
 
     def look(self, view: View) -> None:

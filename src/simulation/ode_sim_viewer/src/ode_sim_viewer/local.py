@@ -5,9 +5,10 @@ from __future__ import annotations
 import queue
 import threading
 import time
+from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import replace
-from typing import Any, Callable, Dict, Optional, Tuple
+from typing import Any
 
 import numpy as np
 from ode_sim import math3
@@ -47,15 +48,15 @@ class LocalSimulation(Simulation):
         self._paused = paused
         self._watch = SceneWatch(world)
         self._calls: queue.SimpleQueue = queue.SimpleQueue()
-        self._frame: Optional[Frame] = None
+        self._frame: Frame | None = None
         self._revision = 1
         self._real_time = 0.0
         self._factor = 0.0
-        self._commands: Dict[str, Tuple] = {}
+        self._commands: dict[str, tuple] = {}
         self._pushes: list = []
         self._ended = False
         self._contacts = ContactWatch(world)
-        self._newest_contacts: Optional[np.ndarray] = None  # None: nobody wants them
+        self._newest_contacts: np.ndarray | None = None  # None: nobody wants them
         self._timeline = Timeline(world)
         world.before_step.append(self._drive)
         world.after_step.append(lambda world: self._timeline.after_step())
@@ -63,7 +64,7 @@ class LocalSimulation(Simulation):
         self._thread.start()
 
     @property
-    def problems(self) -> Tuple[str, ...]:
+    def problems(self) -> tuple[str, ...]:
         return tuple(str(problem) for problem in self._world.problems if problem.severity != "note")
 
     def call(self, f: Callable):
@@ -152,13 +153,13 @@ class LocalSimulation(Simulation):
 
     # ------------------------------------------------------------------------------------------ Simulation
 
-    def model_names(self) -> Dict[str, str]:
+    def model_names(self) -> dict[str, str]:
         return self._world.finder.models() if self._world.finder is not None else {}
 
     def finder(self) -> Any:
         return self._world.finder
 
-    def frame(self) -> Optional[Frame]:
+    def frame(self) -> Frame | None:
         return self._frame
 
     def describe(self) -> WorldRecord:
@@ -226,7 +227,7 @@ class LocalSimulation(Simulation):
     def set_joint_position(self, model: str, joint: str, position: float) -> None:
         self.call(lambda world: _model(world, model).joints[joint].set_position(position))
 
-    def command_joint(self, model: str, joint: str, mode: str, value: float, gains: Tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
+    def command_joint(self, model: str, joint: str, mode: str, value: float, gains: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
         def do(world):
             handle = _model(world, model).joints[joint]
             self._commands.pop(handle.scoped_name, None)
@@ -252,7 +253,7 @@ class LocalSimulation(Simulation):
 
         self.call(do)
 
-    def physics(self) -> Tuple[d.Physics, d.Vec3]:
+    def physics(self) -> tuple[d.Physics, d.Vec3]:
         return self.call(lambda world: (world.physics.record(), tuple(world.gravity)))
 
     def set_physics(self, physics: d.Physics, gravity: d.Vec3) -> None:
@@ -306,7 +307,7 @@ class LocalSimulation(Simulation):
         newest = self._newest_contacts
         return newest if newest is not None else np.zeros((0, 6), np.float32)
 
-    def moments(self) -> Tuple[KeptMoment, ...]:
+    def moments(self) -> tuple[KeptMoment, ...]:
         return self.call(lambda world: tuple(KeptMoment(moment.number, moment.time_ns * 1e-9) for moment in self._timeline.moments))
 
     def keep(self) -> None:

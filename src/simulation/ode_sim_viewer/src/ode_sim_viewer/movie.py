@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass, field
-from typing import Any, List
+from typing import Any
 
 import numpy as np
 from ode_sim.math3 import Vec3, vec3
@@ -45,8 +45,8 @@ class Movie:
 
     width: int
     height: int
-    scenes: List[SceneDescription] = field(default_factory=list)
-    shots: List[Shot] = field(default_factory=list)
+    scenes: list[SceneDescription] = field(default_factory=list)
+    shots: list[Shot] = field(default_factory=list)
     _revision: int = -1
 
     def __post_init__(self):

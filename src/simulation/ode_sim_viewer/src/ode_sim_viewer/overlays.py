@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any
 
 import numpy as np
 from ode_sim.description import model as d
@@ -31,9 +31,9 @@ class Overlays:
         self._page = page
         self._scene = page.server.scene
         self._assets = Assets()
-        self._nodes: Dict[str, List[Any]] = {}
+        self._nodes: dict[str, list[Any]] = {}
         self.shown: set = set()
-        self._contacts: Optional[Forces] = None
+        self._contacts: Forces | None = None
         self.force_scale = 0.01  # m of an arrow for each N
 
     def contacts(self, on: bool) -> None:
@@ -74,7 +74,7 @@ class Overlays:
         if kind not in self.shown:
             return
         draw = getattr(self, "_" + kind.replace(" ", "_"))
-        made: List[Any] = []
+        made: list[Any] = []
         with self._page.server.atomic():
             for record in world.models:
                 drawn = self._page.drawing.model_root(record.name)
@@ -85,7 +85,7 @@ class Overlays:
 
     # ------------------------------------------------------------------------------------------ kinds
 
-    def _collisions(self, record: ModelRecord, frames: Dict[str, str]) -> List[Any]:
+    def _collisions(self, record: ModelRecord, frames: dict[str, str]) -> list[Any]:
         made = []
         for link in record.description.links:
             for number, collision in enumerate(link.collisions):
@@ -113,7 +113,7 @@ class Overlays:
         self._assets.problems.clear()  # said already when the world was loaded
         return made
 
-    def _centres_of_mass(self, record: ModelRecord, frames: Dict[str, str]) -> List[Any]:
+    def _centres_of_mass(self, record: ModelRecord, frames: dict[str, str]) -> list[Any]:
         made = []
         for link in record.description.links if not record.static else ():
             radius = min(0.15, max(0.01, 0.5 * (3 * max(link.inertial.mass, 0.0) / (4 * math.pi * 11340.0)) ** (1 / 3)))
@@ -133,7 +133,7 @@ class Overlays:
             )
         return made
 
-    def _inertias(self, record: ModelRecord, frames: Dict[str, str]) -> List[Any]:
+    def _inertias(self, record: ModelRecord, frames: dict[str, str]) -> list[Any]:
         made = []
         for link in record.description.links if not record.static else ():
             box = inertia_box(link.inertial)
@@ -152,7 +152,7 @@ class Overlays:
                 )
         return made
 
-    def _joints(self, record: ModelRecord, frames: Dict[str, str]) -> List[Any]:
+    def _joints(self, record: ModelRecord, frames: dict[str, str]) -> list[Any]:
         made = []
         size = 0.12
         for number, joint in enumerate(record.description.joints):
@@ -176,17 +176,17 @@ class Overlays:
                 )
         return made
 
-    def _link_frames(self, record: ModelRecord, frames: Dict[str, str]) -> List[Any]:
+    def _link_frames(self, record: ModelRecord, frames: dict[str, str]) -> list[Any]:
         return [self._scene.add_frame(f"{frame}/axes", axes_length=0.15, axes_radius=0.005) for frame in frames.values()]
 
-    def _labels(self, record: ModelRecord, frames: Dict[str, str]) -> List[Any]:
+    def _labels(self, record: ModelRecord, frames: dict[str, str]) -> list[Any]:
         many = len(frames) > 1
         return [
             self._scene.add_label(f"{frame}/label", f"{record.name}::{name}" if many else record.name) for name, frame in frames.items()
         ]
 
 
-def inertia_box(inertial: d.Inertial) -> Optional[Tuple[Pose, Tuple[float, float, float]]]:
+def inertia_box(inertial: d.Inertial) -> tuple[Pose, tuple[float, float, float]] | None:
     """Pose X_LB and size, m, of the box of even density that has this inertia; None where no box has it."""
     i = inertial
     tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])

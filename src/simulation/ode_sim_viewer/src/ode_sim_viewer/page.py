@@ -6,7 +6,8 @@ import logging
 import queue
 import threading
 import time
-from typing import Any, Callable, List, Optional, Sequence, Type
+from collections.abc import Callable, Sequence
+from typing import Any
 
 from ode_sim.description.model import one_line
 
@@ -52,7 +53,7 @@ class Page:
         title: str = "Gazebo",
         panels: Sequence[type] = (),
         say: Callable[[str], None] = _log.warning,
-        website: Optional[Website] = None,
+        website: Website | None = None,
         later: Callable[[], Sequence[type]] = tuple,
         shadows: bool = True,
     ):
@@ -60,22 +61,22 @@ class Page:
         self.website = website or Website(port, listen, title)
         self.server = self.website.open()
         self.world = WorldRecord()
-        self.frame: Optional[Frame] = None
+        self.frame: Frame | None = None
         self._say = say
         for line in simulation.problems:
             say(line)
         self._jobs: queue.SimpleQueue = queue.SimpleQueue()
         self._ended = threading.Event()
         self._wake = threading.Event()  # there are jobs
-        self._drawer: Optional[threading.Thread] = None  # in run()
-        self._holder: Optional[int] = None  # the page that holds the controls
+        self._drawer: threading.Thread | None = None  # in run()
+        self._holder: int | None = None  # the page that holds the controls
         self.on_let_go: Callable[[], None] = lambda: None  # the page that held them has gone
         self._pages = 0
         self._counting = threading.Lock()
         self._next_text = 0.0
         self._absent = False
         self._expected = website is not None
-        self._came: Optional[float] = None  # when the first browser was there
+        self._came: float | None = None  # when the first browser was there
         self._begun = time.monotonic()
         self._settled = self._begun + _SETTLING
         self.server.gui.configure_theme(control_width="medium", show_logo=False, show_share_button=False)
@@ -89,14 +90,14 @@ class Page:
         self.overlays = Overlays(self)
         self.selection = Selection(self)
         self.resizing = Resizing(self)
-        self.panels: List[Panel] = []
+        self.panels: list[Panel] = []
         self._tabs: Any = None
-        self._later: Optional[Callable[[], Sequence[type]]] = later
+        self._later: Callable[[], Sequence[type]] | None = later
         self._build([*STANDARD, *panels])
         self.server.on_client_connect(self._on_connect)
         self.server.on_client_disconnect(self._on_disconnect)
 
-    def __enter__(self) -> "Page":
+    def __enter__(self) -> Page:
         return self
 
     def __exit__(self, *_: Any) -> None:
@@ -276,7 +277,7 @@ class Page:
         for panel in self.panels:
             f(panel)
 
-    def _build(self, kinds: Sequence[Type[Panel]]) -> None:
+    def _build(self, kinds: Sequence[type[Panel]]) -> None:
         gui = self.server.gui
         for kind in kinds:
             if not kind.title:  # above the tabs
@@ -284,7 +285,7 @@ class Page:
         self._tabs = gui.add_tab_group()
         self._add_tabs([kind for kind in kinds if kind.title])
 
-    def _add_tabs(self, kinds: Sequence[Type[Panel]]) -> None:
+    def _add_tabs(self, kinds: Sequence[type[Panel]]) -> None:
         for kind in kinds:
             with self._tabs.add_tab(kind.title):
                 self.panels.append(kind(self))

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, Callable, List, NamedTuple, Optional, Tuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from ode_sim.description import model as d
@@ -28,7 +29,7 @@ class Thing(NamedTuple):
     name: str
     text: str
     lift: Pose
-    model: Optional[d.Model] = None
+    model: d.Model | None = None
 
 
 class Placing:
@@ -40,12 +41,12 @@ class Placing:
     def __init__(self, page: Any):
         self._page = page
         self._assets = Assets()
-        self._thing: Optional[Thing] = None
-        self._client_id: Optional[int] = None
-        self._pointer: Optional[Pointer] = None
-        self._last: Tuple[Optional[int], float] = (None, 0.0)  # the page that put something down, and when
-        self._nodes: List[Any] = []
-        self._listening: List[Callable] = []
+        self._thing: Thing | None = None
+        self._client_id: int | None = None
+        self._pointer: Pointer | None = None
+        self._last: tuple[int | None, float] = (None, 0.0)  # the page that put something down, and when
+        self._nodes: list[Any] = []
+        self._listening: list[Callable] = []
         self.say: Callable[[str], None] = lambda line: None
 
     def begin(self, event: Any, thing: Thing) -> None:
@@ -117,12 +118,12 @@ class Placing:
         self.say(f"{name} is at {place[0]:.2f}, {place[1]:.2f} m" if name else "")
 
     @staticmethod
-    def _pose(thing: Thing, place: Tuple[float, float]) -> Pose:
+    def _pose(thing: Thing, place: tuple[float, float]) -> Pose:
         return compose(Pose((*place, 0.0)), thing.lift)
 
     # ------------------------------------------------------------------------------------------ the preview
 
-    def _draw(self, thing: Thing) -> List[Any]:
+    def _draw(self, thing: Thing) -> list[Any]:
         """The first node carries the others."""
         scene = self._page.server.scene
         nodes = [scene.add_frame("/ghost", show_axes=thing.model is None, axes_length=0.3, axes_radius=0.008)]

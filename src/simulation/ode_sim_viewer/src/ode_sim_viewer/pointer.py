@@ -7,7 +7,8 @@ import json
 import secrets
 import threading
 import time
-from typing import Any, Callable, Optional, Tuple
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from ode_sim.math3 import quat_to_matrix
@@ -32,7 +33,7 @@ canvas.addEventListener('pointermove', move);
 window.addEventListener('keydown', press);
 """
 
-Ray = Tuple[np.ndarray, np.ndarray]  # place of the eye and direction, (3,)
+Ray = tuple[np.ndarray, np.ndarray]  # place of the eye and direction, (3,)
 
 
 def ray_of(camera: Any, x: float, y: float) -> Ray:
@@ -48,7 +49,7 @@ def ray_of(camera: Any, x: float, y: float) -> Ray:
     return np.asarray(camera.position, float), way
 
 
-def on_plane(ray: Ray, height: float = 0.0, farthest: float = 1000.0) -> Optional[Tuple[float, float]]:
+def on_plane(ray: Ray, height: float = 0.0, farthest: float = 1000.0) -> tuple[float, float] | None:
     """(x, y) m where a ray meets the level at ``height``; None where it does not, or too far away."""
     origin, way = (np.asarray(part, float) for part in ray)
     if abs(way[2]) < 1e-9:

@@ -18,7 +18,8 @@ import select
 import socket
 import threading
 import time
-from typing import Any, Callable, Dict, Optional
+from collections.abc import Callable
+from typing import Any
 
 _LONGEST = 65536  # bytes of a request's head
 _PATIENCE = 5.0  # wall s that a browser may take to send it, or to read the answer
@@ -60,17 +61,17 @@ _SPARING = b"""<script>(() => {
 })();</script>"""
 
 #: What decides about a request: ``refuse(path, headers)``, None or (status, headers, text).
-Refuse = Callable[[str, "Headers"], Optional[tuple]]
+Refuse = Callable[[str, "Headers"], tuple | None]
 
 
-class Headers(Dict[str, str]):
+class Headers(dict[str, str]):
     """Of a request; names in any case."""
 
     def get(self, name: str, default: Any = None) -> Any:
         return super().get(name.lower(), default)
 
 
-def page_of_viser(title: str) -> Optional[bytes]:
+def page_of_viser(title: str) -> bytes | None:
     """Its HTML under another title; None where it is not found. Does not import viser."""
     found = importlib.util.find_spec("viser")
     for folder in found.submodule_search_locations or () if found else ():
@@ -145,8 +146,8 @@ class Porter(threading.Thread):
         self.knocked = threading.Event()
         self._door, self._refuse, self._title = door, refuse, title
         self._bell, self._ring = socket.socketpair()
-        self._begun: Dict[socket.socket, bytes] = {}  # requests of which a part has come
-        self._since: Dict[socket.socket, float] = {}
+        self._begun: dict[socket.socket, bytes] = {}  # requests of which a part has come
+        self._since: dict[socket.socket, float] = {}
 
     def leave(self) -> None:
         """Returns when it is gone; what has not been answered is hung up on, browsers then try again."""
@@ -219,7 +220,7 @@ class Porter(threading.Thread):
         return True
 
     @staticmethod
-    def _send(connection: socket.socket, status: http.HTTPStatus, headers: Dict[str, str], body: bytes) -> None:
+    def _send(connection: socket.socket, status: http.HTTPStatus, headers: dict[str, str], body: bytes) -> None:
         lines = [
             f"HTTP/1.1 {status.value} {status.phrase}",
             *(f"{name}: {value}" for name, value in headers.items()),

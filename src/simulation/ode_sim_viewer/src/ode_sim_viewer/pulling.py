@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import threading
-from typing import Any, Optional, Tuple
+from typing import Any
 
 import numpy as np
 from ode_sim.math3 import Vec3, add, cross, inverse, scale, sub, transform
@@ -26,10 +26,10 @@ class Pull:
         self._page = page
         self._arrow = Forces(page.server.scene, "/pull", (230, 120, 0))
         self._lock = threading.Lock()
-        self._news: Optional[Tuple] = None  # event, model, link: the newest
-        self._grip: Optional[Tuple[str, str, Tuple]] = None  # model, link, place in the link's frame
+        self._news: tuple | None = None  # event, model, link: the newest
+        self._grip: tuple[str, str, tuple] | None = None  # model, link, place in the link's frame
         self._event: Any = None
-        self._last: Optional[Tuple[float, Tuple]] = None  # sim time and place of the grip
+        self._last: tuple[float, tuple] | None = None  # sim time and place of the grip
 
     def attach(self, mesh: Any, model: str, link: str) -> None:
         """Let ``mesh`` be pulled at, with the left button and Ctrl, or turned with Shift as well."""

@@ -7,8 +7,9 @@ window inserts and scales them.
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, Callable, List, Optional, Tuple
+from typing import Any
 
 import numpy as np
 from ode_sim.description import model as d
@@ -25,7 +26,7 @@ _AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _COLOURS = ((220, 60, 60), (60, 180, 60), (60, 90, 220))
 
 
-def shape_of(model: d.Model) -> Optional[Tuple[Simple, Pose]]:
+def shape_of(model: d.Model) -> tuple[Simple, Pose] | None:
     """The geometry of a simple shape and X_LG, or None."""
     if len(model.links) != 1 or model.joints:
         return None
@@ -80,9 +81,9 @@ class Resizing:
         self._wanted = False
         self._snap = 0.0
         self._place = Pose()  # X_W of what was resized last
-        self._knobs: List[Any] = []
-        self._drag: Optional[Tuple[int, Simple]] = None  # axis, the shape as it would be
-        self._events: List[Tuple[int, Any, str, Tuple]] = []
+        self._knobs: list[Any] = []
+        self._drag: tuple[int, Simple] | None = None  # axis, the shape as it would be
+        self._events: list[tuple[int, Any, str, tuple]] = []
         self.on_pull: Callable[[Simple, bool], None] = lambda geometry, done: None  # a hand makes it so, or has made it so
         self._lock = threading.Lock()
 
@@ -143,7 +144,7 @@ class Resizing:
             knob.remove()
         self._knobs, self._drag = [], None
 
-    def _shown(self) -> List[Any]:
+    def _shown(self) -> list[Any]:
         if not self._knobs:
             scene = self._page.server.scene
             for axis, colour in enumerate(_COLOURS):
@@ -171,7 +172,7 @@ class Resizing:
         for axis, event, phase, place in events:
             self._page.attempt(event, lambda axis=axis, phase=phase, place=place: self._pull(axis, phase, place))
 
-    def _pull(self, axis: int, phase: str, place: Tuple) -> None:
+    def _pull(self, axis: int, phase: str, place: tuple) -> None:
         record, frame = self._page.selection.record, self._page.frame
         shape = shape_of(record.description) if record is not None else None
         if shape is None or frame is None or frame.revision != self._page.world.revision:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 import threading
 import time
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, Callable, Dict, List, Optional, Set, Tuple
+from typing import Any
 
 from ode_sim.description import model as d
 from ode_sim.description.sdf_writer import light_text, model_text
@@ -21,7 +22,7 @@ _TYPING = 2.0  # wall s between two keys of one number
 _AWAY = 0.5  # wall s that what is picked may be missing: another size or range makes it anew, and somebody types on
 
 
-def _on_grid(values: Tuple[float, float, float], step: float) -> Tuple[float, float, float]:
+def _on_grid(values: tuple[float, float, float], step: float) -> tuple[float, float, float]:
     x, y, z = (round(value / step) * step for value in values)
     return x, y, z
 
@@ -31,8 +32,8 @@ class History:
 
     def __init__(self):
         self._lock = threading.RLock()
-        self._done: List[Tuple[str, Callable[[], None], Callable[[], None]]] = []
-        self._undone: List[Tuple[str, Callable[[], None], Callable[[], None]]] = []
+        self._done: list[tuple[str, Callable[[], None], Callable[[], None]]] = []
+        self._undone: list[tuple[str, Callable[[], None], Callable[[], None]]] = []
         self._typed = -math.inf  # wall s of the last key, if that was the last step
 
     def alone(self) -> Any:
@@ -95,14 +96,14 @@ class Selection:
         self.link = ""
         self.light = ""
         self._wanted = ("", "", "")  # model, link, light: the last click
-        self.on_change: List[Callable[[], None]] = []
-        self._dragged: Optional[Pose] = None  # where the drag began
-        self._updates: List[Tuple[Any, Pose, str]] = []  # of the drag, to be done
+        self.on_change: list[Callable[[], None]] = []
+        self._dragged: Pose | None = None  # where the drag began
+        self._updates: list[tuple[Any, Pose, str]] = []  # of the drag, to be done
         self._lock = threading.Lock()
-        self._given: Set[str] = set()  # names of what was inserted and the world has not told of yet
-        self._missing: Optional[float] = None  # wall s since when what is picked is not there
-        self._latest: Optional[ModelRecord] = None
-        self._lights: Dict[str, Tuple[d.Light, d.Light]] = {}  # name -> as the world told of it, as it was set since
+        self._given: set[str] = set()  # names of what was inserted and the world has not told of yet
+        self._missing: float | None = None  # wall s since when what is picked is not there
+        self._latest: ModelRecord | None = None
+        self._lights: dict[str, tuple[d.Light, d.Light]] = {}  # name -> as the world told of it, as it was set since
         self._gizmo_wanted = False
         self._snap = self._snap_angle = 0.0
         scene = page.server.scene
@@ -113,19 +114,19 @@ class Selection:
     # ------------------------------------------------------------------------------------------ picking
 
     @property
-    def record(self) -> Optional[ModelRecord]:
+    def record(self) -> ModelRecord | None:
         return self._page.world.model(self.model) if self.model else None
 
     @property
-    def latest(self) -> Optional[ModelRecord]:
+    def latest(self) -> ModelRecord | None:
         """The same, or as it was before it went away for a moment."""
         return self.record or (self._latest if self._missing is not None else None)
 
     @property
-    def light_record(self) -> Optional[d.Light]:
+    def light_record(self) -> d.Light | None:
         return self._light(self.light)
 
-    def _light(self, name: str) -> Optional[d.Light]:
+    def _light(self, name: str) -> d.Light | None:
         """As it was set here, until the world tells of it: the next change must not take this one back."""
         told = next((light for light in self._page.world.lights if light.name == name), None)
         before, since = self._lights.get(name, (None, None))
@@ -168,7 +169,7 @@ class Selection:
             self._become(*now)
         self._latest = self.record
 
-    def _present(self, world: WorldRecord) -> Tuple[str, str, str]:
+    def _present(self, world: WorldRecord) -> tuple[str, str, str]:
         """What is wanted, if it is there; else nothing."""
         model, link, light = self._wanted
         record = world.model(model) if model else None
@@ -194,7 +195,7 @@ class Selection:
         told = frame is not None and frame.revision == self._page.world.revision
         return not (self.model or self.light) or told and self._missing is None
 
-    def pose(self) -> Optional[Pose]:
+    def pose(self) -> Pose | None:
         """X_W of what is picked, in the newest frame."""
         frame, record = self._page.frame, self.record
         if self.light_record is not None:
@@ -265,7 +266,7 @@ class Selection:
         if phase == "end":
             self._dragged = None
 
-    def _whole(self) -> Optional[Pose]:
+    def _whole(self) -> Pose | None:
         """X_W of the model or light that is picked."""
         record, frame, light = self.record, self._page.frame, self.light_record
         if light is not None:
@@ -314,7 +315,7 @@ class Selection:
             self._given.add(name)
         return name
 
-    def _text(self) -> Tuple[str, str, Pose]:
+    def _text(self) -> tuple[str, str, Pose]:
         """(name, SDF text about the origin, pose) of what is picked."""
         record, frame, light = self.record, self._page.frame, self.light_record
         if light is not None:

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Union
-
 from ode_sim.description import model as d
 from ode_sim.math3 import Pose
 
-Simple = Union[d.Box, d.Sphere, d.Cylinder]  # what the window inserts and gives other sizes
+Simple = d.Box | d.Sphere | d.Cylinder  # what the window inserts and gives other sizes
 _GREY = d.Material("Gazebo/Grey")
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field, replace
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any
 
 import numpy as np
 from ode_sim.description import model as d
@@ -25,10 +25,10 @@ class ModelRecord:
     name: str
     description: d.Model
     static: bool = False
-    links: Dict[str, int] = field(default_factory=dict)
-    joints: Dict[str, int] = field(default_factory=dict)
+    links: dict[str, int] = field(default_factory=dict)
+    joints: dict[str, int] = field(default_factory=dict)
 
-    def pose(self, frame: "Frame") -> Pose:
+    def pose(self, frame: Frame) -> Pose:
         """X_WM: the model frame, fixed to the first link."""
         if not self.links:
             return self.description.pose
@@ -48,12 +48,12 @@ class WorldRecord:
 
     revision: int = 0
     name: str = ""
-    models: Tuple[ModelRecord, ...] = ()
-    lights: Tuple[d.Light, ...] = ()
+    models: tuple[ModelRecord, ...] = ()
+    lights: tuple[d.Light, ...] = ()
     scene: d.Scene = d.Scene()
-    view: Optional[Pose] = None
+    view: Pose | None = None
 
-    def model(self, name: str) -> Optional[ModelRecord]:
+    def model(self, name: str) -> ModelRecord | None:
         return next((model for model in self.models if model.name == name), None)
 
 
@@ -84,8 +84,8 @@ class LinkProperties:
     """``mass`` kg, ``com`` m in the link frame, ``inertia`` ixx ixy ixz iyy iyz izz kg m^2 about it, link axes."""
 
     mass: float
-    com: Tuple[float, float, float]
-    inertia: Tuple[float, float, float, float, float, float]
+    com: tuple[float, float, float]
+    inertia: tuple[float, float, float, float, float, float]
     gravity: bool
 
 
@@ -107,7 +107,7 @@ class KeptMoment:
 
 
 #: Link name -> its visuals; of these only the material and the transparency count.
-Looks = Dict[str, Tuple[d.Visual, ...]]
+Looks = dict[str, tuple[d.Visual, ...]]
 #: How a joint is commanded: nothing, a force (N m or N), a position (rad or m) or velocity held by a PID of effort.
 JOINT_MODES = ("none", "force", "position", "velocity")
 
@@ -119,12 +119,12 @@ class Simulation(ABC):
     """
 
     @property
-    def problems(self) -> Tuple[str, ...]:
+    def problems(self) -> tuple[str, ...]:
         """Lines about what of the world had to be left out, if nobody else has said them."""
         return ()
 
     #: what :meth:`insert` may be given, by the name that a person sees -> URI or file
-    def model_names(self) -> Dict[str, str]:
+    def model_names(self) -> dict[str, str]:
         """Models of the model path: name -> path of the SDF file."""
         return {}
 
@@ -133,7 +133,7 @@ class Simulation(ABC):
         return None
 
     @abstractmethod
-    def frame(self) -> Optional[Frame]:
+    def frame(self) -> Frame | None:
         """The newest moment; None before the first one and while the simulator is away."""
 
     @abstractmethod
@@ -171,7 +171,7 @@ class Simulation(ABC):
         """Teleport a joint, rad or m."""
 
     @abstractmethod
-    def command_joint(self, model: str, joint: str, mode: str, value: float, gains: Tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
+    def command_joint(self, model: str, joint: str, mode: str, value: float, gains: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
         """From now on, until another command or a reset; see :data:`JOINT_MODES`."""
 
     @abstractmethod
@@ -181,7 +181,7 @@ class Simulation(ABC):
     def set_link_properties(self, model: str, link: str, properties: LinkProperties) -> None: ...
 
     @abstractmethod
-    def physics(self) -> Tuple[d.Physics, d.Vec3]:
+    def physics(self) -> tuple[d.Physics, d.Vec3]:
         """Settings and gravity."""
 
     @abstractmethod
@@ -223,7 +223,7 @@ class Simulation(ABC):
         """(N, 6) float32 of the newest moment: place m, force N on the body that can move, world axes."""
 
     @abstractmethod
-    def moments(self) -> Tuple[KeptMoment, ...]:
+    def moments(self) -> tuple[KeptMoment, ...]:
         """In the order of time."""
 
     @abstractmethod
@@ -248,7 +248,7 @@ class Simulation(ABC):
 
 def record_world(world, revision: int) -> WorldRecord:
     """Of a running :class:`ode_sim.World`; in the thread that steps it."""
-    models: List[ModelRecord] = []
+    models: list[ModelRecord] = []
     for model in world.models.values():
         models.append(
             ModelRecord(

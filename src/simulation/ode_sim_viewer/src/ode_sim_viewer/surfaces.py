@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, Tuple
+from typing import Any
 
 from ode_sim.description import model as d
 
@@ -53,7 +53,7 @@ def set_looks(model: Any, looks: Looks) -> int:
     return count
 
 
-def _show(link: Any, visuals: Tuple[d.Visual, ...]) -> None:
+def _show(link: Any, visuals: tuple[d.Visual, ...]) -> None:
     link.description = replace(link.description, visuals=visuals)
     model = link.model
     model.description = replace(

@@ -20,7 +20,7 @@ import secrets
 import socket
 import threading
 from http.cookies import CookieError, SimpleCookie
-from typing import Any, Optional
+from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
 from ode_sim.errors import Unavailable
@@ -42,12 +42,12 @@ class Guard:
     :param loopback: only this machine is answered; by default where there is no token
     """
 
-    def __init__(self, token: str = "", loopback: Optional[bool] = None):
+    def __init__(self, token: str = "", loopback: bool | None = None):
         self.token = token
         self._loopback = not token if loopback is None else loopback
         self._cookie = f"viewer_{secrets.token_hex(4)}"  # of its own for each server on this host
 
-    def refuse(self, path: str, headers) -> Optional[tuple]:
+    def refuse(self, path: str, headers) -> tuple | None:
         """None, or (status, headers, text) to answer with.
 
         :param headers: a mapping, as of websockets

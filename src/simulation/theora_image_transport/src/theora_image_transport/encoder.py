@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 from importlib.util import find_spec
-from typing import List, NamedTuple, Optional, Tuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -32,7 +32,7 @@ class Settings:
     """:param bitrate: bit/s to aim at, or None to keep ``quality``. :param quality: 0 (worst) to 63.
     :param keyframe_frequency: pictures from one key frame to the next, at most."""
 
-    bitrate: Optional[int] = None
+    bitrate: int | None = None
     quality: int = 31
     keyframe_frequency: int = 64
 
@@ -50,7 +50,7 @@ class Encoder:
     :raises ValueError: a stream that libtheora does not make, in one line. :raises ImportError: PyAV does not load.
     """
 
-    def __init__(self, shape: Tuple[int, int], encoding: str, settings: Settings = Settings()):
+    def __init__(self, shape: tuple[int, int], encoding: str, settings: Settings = Settings()):
         import av  # not before somebody wants a stream
 
         self._av = av
@@ -77,7 +77,7 @@ class Encoder:
         self._shift = (int.from_bytes(info[40:42], "big") >> 5) & 31
         self._frames = self._key = 0
 
-    def encode(self, data) -> List[Packet]:
+    def encode(self, data) -> list[Packet]:
         """
         :param data: buffer of a picture, rows without gaps. :returns: its packets, usually one.
         :raises ValueError: libtheora refuses it, in one line.
@@ -103,7 +103,7 @@ class Encoder:
         return Packet(data, 0, granulepos, len(self.headers) + self._frames - 1)
 
 
-def _split(extradata: bytes) -> List[bytes]:
+def _split(extradata: bytes) -> list[bytes]:
     """ffmpeg's three header packets, each behind its length in 16 bits."""
     headers, at = [], 0
     while at < len(extradata):
@@ -113,7 +113,7 @@ def _split(extradata: bytes) -> List[bytes]:
     return headers
 
 
-def _with_picture(info: bytes, shape: Tuple[int, int]) -> bytes:
+def _with_picture(info: bytes, shape: tuple[int, int]) -> bytes:
     """The info header with the size of the picture in the upper left corner of the coded frame.
 
     ffmpeg is given padded pictures, for it reads whole blocks whatever the size; so it knows the padded size alone.

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Dict, Optional, Tuple
-
 import rospy
 from dynamic_parameters import Parameter, Server
 
@@ -36,10 +34,10 @@ class TheoraPublisher(rospy.SubscribeListener):
     :param shape: (height, width), pixels.
     """
 
-    def __init__(self, topic: str, encoding: str, shape: Tuple[int, int], queue_size: int):
+    def __init__(self, topic: str, encoding: str, shape: tuple[int, int], queue_size: int):
         self._topic, self._encoding, self._shape = f"{topic}/theora", encoding, shape
         self._settings = encoder.Settings()
-        self._encoder: Optional[encoder.Encoder] = None
+        self._encoder: encoder.Encoder | None = None
         self._restart, self._silent, self._said = True, encoding not in encoder.ENCODINGS, False
         self._publisher = rospy.Publisher(self._topic, Packet, queue_size=queue_size + _HEADERS, subscriber_listener=self)
         self._parameters = Server(self._topic, PARAMETERS, self._configure)
@@ -77,7 +75,7 @@ class TheoraPublisher(rospy.SubscribeListener):
                 self._encoding,
             )
 
-    def _configure(self, config: Dict, _level: int) -> None:
+    def _configure(self, config: dict, _level: int) -> None:
         self._settings = encoder.Settings(
             config["target_bitrate"] if config["optimize_for"] == _BITRATE else None, config["quality"], config["keyframe_frequency"]
         )

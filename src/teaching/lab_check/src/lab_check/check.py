@@ -14,7 +14,6 @@ import socket
 import subprocess
 import uuid
 from dataclasses import asdict
-from typing import List, Optional
 
 from . import report
 from .errors import LabError
@@ -159,7 +158,7 @@ def _in_bounds() -> None:
     resource.setrlimit(resource.RLIMIT_FSIZE, (_LARGEST, resource.getrlimit(resource.RLIMIT_FSIZE)[1]))
 
 
-def _run(words: List[str], unsafe: bool, out: pathlib.Path, patience: float) -> str:
+def _run(words: list[str], unsafe: bool, out: pathlib.Path, patience: float) -> str:
     """'' or why there is no result."""
     with open(out / ".examiner.log", "w", encoding="utf-8") as log:
         streams = dict(stdout=log, stderr=log, start_new_session=True, preexec_fn=_in_bounds, env=sandbox.own_environment(), cwd="/")
@@ -182,7 +181,7 @@ def _run(words: List[str], unsafe: bool, out: pathlib.Path, patience: float) -> 
 
 def _read(out: pathlib.Path, fault: str, spec: Spec, submission) -> Result:
     path = out / "result.json"
-    data: Optional[dict] = None
+    data: dict | None = None
     if not fault:
         try:
             data = json.loads(path.read_text(encoding="utf-8"))

@@ -6,7 +6,6 @@ import argparse
 import os
 import pathlib
 import sys
-from typing import List, Optional
 
 
 def load_spec(path: str):
@@ -65,7 +64,7 @@ def sandbox_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--port", type=int, default=0, help="with --unsafe: first port to try for the ROS master")
 
 
-def check(arguments: Optional[List[str]] = None) -> int:
+def check(arguments: list[str] | None = None) -> int:
     """Exit code 0 full marks, 1 less, 2 the spec is faulty, 3 no sandbox, 4 the checker itself failed, 5 no reports can be written."""
     from .check import NoPlace
     from .check import check as examine
@@ -112,31 +111,31 @@ def shown(text: str) -> str:
     return "".join(c if c.isprintable() or c == " " else "\ufffd" for c in readable(text))
 
 
-def grade(arguments: Optional[List[str]] = None) -> int:
+def grade(arguments: list[str] | None = None) -> int:
     from .classroom.grade import main
 
     return main(arguments)
 
 
-def new(arguments: Optional[List[str]] = None) -> int:
+def new(arguments: list[str] | None = None) -> int:
     from .specs.new_spec import main
 
     return main(arguments)
 
 
-def similar(arguments: Optional[List[str]] = None) -> int:
+def similar(arguments: list[str] | None = None) -> int:
     from .classroom.similar import main
 
     return main(arguments)
 
 
-def faults(arguments: Optional[List[str]] = None) -> int:
+def faults(arguments: list[str] | None = None) -> int:
     from .faults import main
 
     return main(arguments)
 
 
-def sweep(arguments: Optional[List[str]] = None) -> int:
+def sweep(arguments: list[str] | None = None) -> int:
     from .sweep import main
 
     return main(arguments)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import signal
 from itertools import takewhile
-from typing import List, Optional, Tuple
 
 # All text comes from submissions: each pattern takes time in proportion to what it reads, and a line is cut first.
 _LONGEST = 2000  # characters of a line that are looked at
@@ -25,7 +24,7 @@ _REFUSAL = re.compile(
 )
 # Signals by which a program ends that did something it may not; abort is how C++ ends at an exception that nobody catches.
 _CRASHES = frozenset(map(int, (signal.SIGILL, signal.SIGTRAP, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGSEGV, signal.SIGSYS)))
-_MEANINGS: List[Tuple[re.Pattern, str]] = [
+_MEANINGS: list[tuple[re.Pattern, str]] = [
     (re.compile(pattern), meaning)
     for pattern, meaning in (
         (
@@ -78,7 +77,7 @@ _MEANINGS: List[Tuple[re.Pattern, str]] = [
 ]
 
 
-def lines_of(text: str) -> List[str]:
+def lines_of(text: str) -> list[str]:
     return [line.rstrip() for line in (_COLOURS.sub("", whole[: 2 * _LONGEST])[:_LONGEST] for whole in text.splitlines()) if line.strip()]
 
 
@@ -92,13 +91,13 @@ def _makes_own(line: str) -> bool:
     return target >= 0 and ("Makefile" in line[target:] or "all" in line[target:])
 
 
-def error_lines(text: str) -> List[str]:
+def error_lines(text: str) -> list[str]:
     """In the order in which they were printed; CMake's with the sentence that it says in the lines below."""
     lines = lines_of(text)
     return [_whole(lines, i) for i, line in enumerate(lines) if _is_error(line)]
 
 
-def _whole(lines: List[str], index: int) -> str:
+def _whole(lines: list[str], index: int) -> str:
     more = takewhile(lambda line: line.startswith("  "), lines[index + 1 : index + 5]) if lines[index].startswith("CMake Error") else ()
     return " ".join([lines[index], *(line.strip() for line in more)])
 
@@ -108,7 +107,7 @@ def refusal(text: str) -> str:
     return next((line for line in lines_of(text) if _REFUSAL.search(timeless(line))), "")
 
 
-def crashed(code: Optional[int], text: str) -> bool:
+def crashed(code: int | None, text: str) -> bool:
     """Whether a program that ended with ``code`` crashed: by a signal, which a shell and bwrap tell as 128 + its number, or in Python."""
     return code is not None and (code < 0 or code - 128 in _CRASHES) or "Traceback (most recent call last)" in text
 
@@ -123,7 +122,7 @@ def meaning(line: str) -> str:
     return next((text for pattern, text in _MEANINGS if pattern.search(line)), "")
 
 
-def excerpt(text: str, before: int = 2, after: int = 6, most: int = 40) -> List[str]:
+def excerpt(text: str, before: int = 2, after: int = 6, most: int = 40) -> list[str]:
     """The first cause and what stands round it, then other errors, each once; the last lines when there is no error."""
     lines = lines_of(text)
     errors = [index for index, line in enumerate(lines) if _is_error(line)]
@@ -140,7 +139,7 @@ def excerpt(text: str, before: int = 2, after: int = 6, most: int = 40) -> List[
     return [line[:300] for line in shown[:most]]
 
 
-def first_cause(text: str) -> Tuple[str, str]:
+def first_cause(text: str) -> tuple[str, str]:
     """(line, what it means); ('', '') when nothing is an error."""
     for line in error_lines(text):
         return timeless(line)[:300], meaning(line)

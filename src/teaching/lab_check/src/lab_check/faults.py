@@ -8,8 +8,8 @@ import pathlib
 import random
 import re
 import shutil
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable, List, Optional
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ def _one_joint_wrong(copy: pathlib.Path, dice: random.Random) -> bool:
     return _in("*.yaml", rf"joint: j{joint}$", f"joint: j{joint}{joint}")(copy, dice)
 
 
-FAULTS: List[Fault] = [
+FAULTS: list[Fault] = [
     Fault("none", "nothing is wrong", lambda copy, dice: True),
     Fault("compile_error", "the node does not compile", _in("*.cpp", r";\s*$", "")),
     Fault("no_package_xml", "a package has no manifest", _without("arm_controller/package.xml")),
@@ -84,7 +84,7 @@ FAULTS: List[Fault] = [
 ]
 
 
-def make(good: pathlib.Path, folder: pathlib.Path, count: int, seed: int = 0, faults: Optional[List[Fault]] = None) -> List[dict]:
+def make(good: pathlib.Path, folder: pathlib.Path, count: int, seed: int = 0, faults: list[Fault] | None = None) -> list[dict]:
     """Copies named ``NN_fault``; what was done to each, also as ``faults.json`` there.
 
     :raises ValueError: a fault fits no file of the submission
@@ -103,7 +103,7 @@ def make(good: pathlib.Path, folder: pathlib.Path, count: int, seed: int = 0, fa
     return made
 
 
-def main(arguments: Optional[List[str]] = None) -> int:
+def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(
         prog="rosrun lab_check faults", description="Copies of a good arm homework, each with one known fault."
     )

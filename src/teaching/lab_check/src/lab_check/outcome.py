@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import asdict, dataclass, field
-from typing import Any, Dict, List
+from typing import Any
 
 
 @dataclass
@@ -16,7 +16,7 @@ class Verdict:
     reason: str
     points: float = 0.0
     of: float = 0.0
-    figures: Dict[str, Any] = field(default_factory=dict)
+    figures: dict[str, Any] = field(default_factory=dict)
 
 
 @dataclass
@@ -24,13 +24,13 @@ class TaskResult:
     name: str
     points: float
     of: float
-    verdicts: List[Verdict] = field(default_factory=list)
-    commands: List[str] = field(default_factory=list)  # to repeat it by hand
-    pictures: List[str] = field(default_factory=list)
+    verdicts: list[Verdict] = field(default_factory=list)
+    commands: list[str] = field(default_factory=list)  # to repeat it by hand
+    pictures: list[str] = field(default_factory=list)
     film: str = ""
-    log: List[str] = field(default_factory=list)  # excerpt, first cause first
+    log: list[str] = field(default_factory=list)  # excerpt, first cause first
     hint: str = ""
-    series: Dict[str, List[List[float]]] = field(default_factory=dict)  # name -> [[time, value], ...]
+    series: dict[str, list[list[float]]] = field(default_factory=dict)  # name -> [[time, value], ...]
 
 
 @dataclass
@@ -41,8 +41,8 @@ class Result:
     submission: str
     points: float = 0.0
     of: float = 0.0
-    tasks: List[TaskResult] = field(default_factory=list)
-    notes: List[str] = field(default_factory=list)  # of the sandbox and of staging
+    tasks: list[TaskResult] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)  # of the sandbox and of staging
     fault: str = ""
     seconds: float = 0.0
     sandbox: str = ""
@@ -52,16 +52,16 @@ class Result:
         self.points = rounded(sum(t.points for t in self.tasks))
         self.of = rounded(sum(t.of for t in self.tasks))
 
-    def data(self) -> Dict[str, Any]:
+    def data(self) -> dict[str, Any]:
         return asdict(self)
 
     @classmethod
-    def from_data(cls, data: Dict[str, Any]) -> Result:
+    def from_data(cls, data: dict[str, Any]) -> Result:
         tasks = [task_from(task) for task in data["tasks"]]
         return cls(**{**data, "tasks": tasks})
 
 
-def task_from(data: Dict[str, Any]) -> TaskResult:
+def task_from(data: dict[str, Any]) -> TaskResult:
     return TaskResult(**{**data, "verdicts": [Verdict(**verdict) for verdict in data["verdicts"]]})
 
 
@@ -96,7 +96,7 @@ def sentence(text: str) -> str:
     return text if len(text) <= _LONGEST_SENTENCE else f"{text[:_LONGEST_SENTENCE]} ..."
 
 
-def share(task: Dict[str, Any], verdicts: List[Verdict]) -> TaskResult:
+def share(task: dict[str, Any], verdicts: list[Verdict]) -> TaskResult:
     """Deals a task's points out to its verdicts.
 
     Expectations with ``points`` of their own weigh that much, the others equally; the sum is the task's points.
@@ -117,7 +117,7 @@ def share(task: Dict[str, Any], verdicts: List[Verdict]) -> TaskResult:
     return TaskResult(task["name"], rounded(points), rounded(task["points"]), verdicts, hint=task.get("hint", ""))
 
 
-def failed_task(task: Dict[str, Any], reason: str) -> TaskResult:
+def failed_task(task: dict[str, Any], reason: str) -> TaskResult:
     """No marks for any expectation, for one reason."""
     kinds = [next(k for k in e if k not in ("points", "say")) for e in task["expect"]]
     return share(task, [Verdict(kind, False, reason) for kind in kinds])

@@ -9,7 +9,7 @@ import json
 import os
 import pathlib
 import sys
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any
 
 from .classroom.engines import How, Pool
 from .classroom.grade import run
@@ -22,7 +22,7 @@ from .specs.sweep_spec import PlaceError, Sweep, load_sweep
 _MOST_PLOTS = 24
 
 
-def main(arguments: Optional[List[str]] = None) -> int:
+def main(arguments: list[str] | None = None) -> int:
     from .cli import allowed, sandbox_options
 
     parser = argparse.ArgumentParser(
@@ -90,7 +90,7 @@ def examine(sweep: Sweep, options: argparse.Namespace) -> int:
 class Cases(Pool):
     """A pool that writes each case down just before it is examined, so that thousands of copies never lie about."""
 
-    def __init__(self, sweep: Sweep, inputs: Dict[str, Dict[str, Any]], out: pathlib.Path, how: How, workers: int):
+    def __init__(self, sweep: Sweep, inputs: dict[str, dict[str, Any]], out: pathlib.Path, how: How, workers: int):
         super().__init__(lambda name: out / name / "case" / "spec.yaml", out, how, workers)
         self._sweep, self._inputs = sweep, inputs
 
@@ -108,7 +108,7 @@ class Cases(Pool):
 # ---------------------------------------------------------------------------------------------- the table
 
 
-def table(inputs: Dict[str, Dict[str, Any]], store: Store) -> Tuple[List[str], List[Dict[str, Any]]]:
+def table(inputs: dict[str, dict[str, Any]], store: Store) -> tuple[list[str], list[dict[str, Any]]]:
     """A row for each case that was examined: its parameters, points, points of each task, and each figure that was measured."""
     rows, columns = [], ["case", *next(iter(inputs.values()))]
     for stored in store.rows():
@@ -120,11 +120,11 @@ def table(inputs: Dict[str, Dict[str, Any]], store: Store) -> Tuple[List[str], L
     return columns, rows
 
 
-def figures(result: Optional[Result]) -> Dict[str, Any]:
+def figures(result: Result | None) -> dict[str, Any]:
     """What of a result is a number, by names that are the same in every case."""
     if result is None:
         return {}
-    found: Dict[str, Any] = {"points": result.points, "of": result.of, "seconds": result.seconds}
+    found: dict[str, Any] = {"points": result.points, "of": result.of, "seconds": result.seconds}
     for task in result.tasks:
         found[task.name] = task.points
         for number, verdict in enumerate(task.verdicts):
@@ -134,7 +134,7 @@ def figures(result: Optional[Result]) -> Dict[str, Any]:
     return found
 
 
-def write_table(columns: List[str], rows: List[Dict[str, Any]], out: pathlib.Path, as_csv: bool) -> pathlib.Path:
+def write_table(columns: list[str], rows: list[dict[str, Any]], out: pathlib.Path, as_csv: bool) -> pathlib.Path:
     """Parquet, or CSV where pyarrow is not there."""
     try:
         if as_csv:
@@ -164,7 +164,7 @@ def write_table(columns: List[str], rows: List[Dict[str, Any]], out: pathlib.Pat
 # ---------------------------------------------------------------------------------------------- plots
 
 
-def plots(sweep: Sweep, columns: List[str], rows: List[Dict[str, Any]], out: pathlib.Path) -> List[Tuple[str, pathlib.Path]]:
+def plots(sweep: Sweep, columns: list[str], rows: list[dict[str, Any]], out: pathlib.Path) -> list[tuple[str, pathlib.Path]]:
     """One picture for the points and each figure that differs between the cases; in each, one plot for every parameter."""
     import matplotlib
 
@@ -201,13 +201,13 @@ def plots(sweep: Sweep, columns: List[str], rows: List[Dict[str, Any]], out: pat
     return made
 
 
-def _differs(values: List[Any]) -> bool:
+def _differs(values: list[Any]) -> bool:
     """By more than the last digits of a sum."""
     known = [value for value in values if value is not None]
     return bool(known) and max(known) - min(known) > 1e-9 * max(1.0, *map(abs, known))
 
 
-def write_page(sweep: Sweep, columns: List[str], rows: List[Dict[str, Any]], pictures, out: pathlib.Path) -> None:
+def write_page(sweep: Sweep, columns: list[str], rows: list[dict[str, Any]], pictures, out: pathlib.Path) -> None:
     """``sweep.html``: the plots, and the table's first columns with a link to each report."""
     parameters = list(sweep.data["parameters"])
     shown = [*parameters, "points", "of"]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import sys
 from pathlib import Path
-from typing import List
 
 from bag_tools.convert import convert
 from bag_tools.files import BagError
@@ -18,7 +17,7 @@ EXAMPLES = """\
 """
 
 
-def main(arguments: List[str]) -> int:
+def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(
         prog="rosrun bag_tools convert",
         description="One kind of bag into another.",

@@ -7,8 +7,9 @@ import os
 import shutil
 import sys
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, Iterator, Optional, Union
+from typing import Any
 
 from bag_tools.files import BAG_COMPRESSIONS, MCAP_COMPRESSIONS, BagError, BagSink, BagSource, McapSink, McapSource
 
@@ -17,7 +18,7 @@ USUAL = {".bag": "none", ".mcap": "zstd"}  # compression
 ROS2_VERSION = 9  # of metadata.yaml, as in ROS 2 Jazzy
 
 
-def convert(source: Path, target: Path, compression: Optional[str] = None, storage: str = "mcap", quiet: bool = True) -> int:
+def convert(source: Path, target: Path, compression: str | None = None, storage: str = "mcap", quiet: bool = True) -> int:
     """Every message of ``source`` in ``target``, which appears when it is whole. :returns: how many, of ROS 1; else 0
 
     :param compression: of the target; None: zstd in MCAP, none else
@@ -41,7 +42,7 @@ def convert(source: Path, target: Path, compression: Optional[str] = None, stora
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def _check(source: Path, target: Path, compression: Optional[str]) -> None:
+def _check(source: Path, target: Path, compression: str | None) -> None:
     if not source.exists():
         raise BagError(f"there is no {source}")
     if source.is_dir() and not (source / "metadata.yaml").exists():
@@ -61,11 +62,11 @@ def _check(source: Path, target: Path, compression: Optional[str]) -> None:
         raise BagError(f"{target.suffix or 'a bag of ROS 2'} cannot be compressed by {compression}, but by {', '.join(sorted(known))}")
 
 
-def _open(path: Path) -> Union[BagSource, McapSource]:
+def _open(path: Path) -> BagSource | McapSource:
     return BagSource(path) if path.suffix == ".bag" else McapSource(path)
 
 
-def _copy(source: Path, target: Path, compression: Optional[str], quiet: bool) -> int:
+def _copy(source: Path, target: Path, compression: str | None, quiet: bool) -> int:
     count = 0
     chosen = compression or USUAL[target.suffix]
     with (
@@ -80,7 +81,7 @@ def _copy(source: Path, target: Path, compression: Optional[str], quiet: bool) -
     return count
 
 
-def _with_ros2(source: Path, target: Path, folder: Path, compression: Optional[str], storage: str, quiet: bool) -> int:
+def _with_ros2(source: Path, target: Path, folder: Path, compression: str | None, storage: str, quiet: bool) -> int:
     """From or to a bag of ROS 2, by way of a bag of ROS 1 where the other is MCAP."""
     between = folder / "between.bag"
     if source.is_dir():
@@ -97,7 +98,7 @@ def _with_ros2(source: Path, target: Path, folder: Path, compression: Optional[s
     return count
 
 
-def _by_rosbags(source: Path, target: Path, compression: Optional[str], storage: str) -> None:
+def _by_rosbags(source: Path, target: Path, compression: str | None, storage: str) -> None:
     from rosbags.convert import ConverterError
     from rosbags.convert import convert as rosbags_convert
     from rosbags.typesys import Stores, get_typestore
@@ -125,7 +126,7 @@ def _by_rosbags(source: Path, target: Path, compression: Optional[str], storage:
 
 
 @contextlib.contextmanager
-def _progress(count: Optional[int], name: str, quiet: bool) -> Iterator[Any]:
+def _progress(count: int | None, name: str, quiet: bool) -> Iterator[Any]:
     from tqdm import tqdm
 
     with tqdm(total=count, desc=name, unit=" messages", disable=quiet or not sys.stderr.isatty()) as bar:

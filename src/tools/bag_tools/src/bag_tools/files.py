@@ -7,9 +7,10 @@ messages ``ros1``, schemas ``ros1msg``, and ``callerid``, ``latching`` and ``md5
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, Iterator, Optional, Tuple
+from typing import Any
 
 from mcap.reader import make_reader
 from mcap.writer import CompressionType
@@ -17,7 +18,7 @@ from mcap.writer import Writer as McapFile
 from rosbags.rosbag1 import Reader, ReaderError
 from rosbags.rosbag1 import Writer as BagFile
 
-Message = Tuple["Channel", int, bytes]  # channel, ns since the epoch (when it was received), serialized message
+Message = tuple["Channel", int, bytes]  # channel, ns since the epoch (when it was received), serialized message
 MCAP_COMPRESSIONS = {"none": CompressionType.NONE, "lz4": CompressionType.LZ4, "zstd": CompressionType.ZSTD}
 BAG_COMPRESSIONS = {"none": None, "bz2": BagFile.CompressionFormat.BZ2}  # roslz4 does not read the frames of python3-lz4
 
@@ -33,7 +34,7 @@ class Channel:
     type: str  # package/Type
     md5sum: str
     definition: str  # with those of all types that it uses, as gendeps --cat prints them
-    callerid: Optional[str]
+    callerid: str | None
     latching: bool
 
 
@@ -68,7 +69,7 @@ class BagSource:
 
         :raises BagError: damaged
         """
-        channels: Dict[int, Channel] = {}
+        channels: dict[int, Channel] = {}
         try:
             for connection, stamp, data in self._bag.messages():
                 if connection.id not in channels:
@@ -117,7 +118,7 @@ class McapSource:
         self._file.close()
 
     @property
-    def count(self) -> Optional[int]:
+    def count(self) -> int | None:
         """None where the file does not say."""
         return self._summary.statistics.message_count if self._summary and self._summary.statistics else None
 
@@ -126,7 +127,7 @@ class McapSource:
 
         :raises BagError: damaged, or a message without definition
         """
-        channels: Dict[int, Channel] = {}
+        channels: dict[int, Channel] = {}
         try:
             for schema, channel, message in self._reader.iter_messages():
                 if channel.id not in channels:
@@ -165,7 +166,7 @@ class BagSink:
         if chosen is not None:
             self._bag.set_compression(chosen)
         self._bag.open()
-        self._connections: Dict[Channel, Any] = {}
+        self._connections: dict[Channel, Any] = {}
 
     def __enter__(self) -> BagSink:
         return self
@@ -193,9 +194,9 @@ class McapSink:
         self._stream = open(path, "wb")
         self._file = McapFile(self._stream, compression=MCAP_COMPRESSIONS[compression])
         self._file.start(profile="ros1", library="noetic_labs bag_tools")
-        self._schemas: Dict[Tuple[str, str], int] = {}
-        self._channels: Dict[Channel, int] = {}
-        self._sequences: Dict[int, int] = {}
+        self._schemas: dict[tuple[str, str], int] = {}
+        self._channels: dict[Channel, int] = {}
+        self._sequences: dict[int, int] = {}
 
     def __enter__(self) -> McapSink:
         return self

@@ -9,13 +9,12 @@ import subprocess
 import sys
 import time
 from pathlib import Path
-from typing import List, Tuple
 
 from bag_tools.convert import convert
 from bag_tools.files import BagError
 
 
-def named(arguments: List[str], now: float) -> Tuple[List[str], Path]:
+def named(arguments: list[str], now: float) -> tuple[list[str], Path]:
     """The recorder's arguments with a name for its bag, as it would choose it, and that name without ending."""
     parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
     parser.add_argument("-O", "--output-name")
@@ -29,13 +28,13 @@ def named(arguments: List[str], now: float) -> Tuple[List[str], Path]:
     return [*rest, "-O", f"{stem}.bag"], Path(stem)
 
 
-def bags(stem: Path) -> List[Path]:
+def bags(stem: Path) -> list[Path]:
     """Of that name, with --split numbered."""
     name = re.compile(re.escape(stem.name) + r"(_\d+)?\.bag")
     return sorted(path for path in stem.parent.glob("*.bag") if name.fullmatch(path.name))
 
 
-def main(arguments: List[str]) -> int:
+def main(arguments: list[str]) -> int:
     """:returns: exit code of the recorder, or 1 if a bag could not be converted"""
     words, stem = named([word for word in arguments if word != "--mcap"], time.time())
     if any(word in ("-h", "--help") for word in words):

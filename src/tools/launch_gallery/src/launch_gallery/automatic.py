@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Dict, List, Tuple
 
 import rospy
 import tf2_ros
@@ -28,7 +27,7 @@ DISPLAYS = {
 _IMAGES = 2  # panels that fit in the dock
 
 
-def frames(seconds: float) -> Dict[str, str]:
+def frames(seconds: float) -> dict[str, str]:
     """Transforms heard within ``seconds`` of wall time: child frame to parent frame."""
     buffer = tf2_ros.Buffer()
     listener = tf2_ros.TransformListener(buffer)
@@ -39,9 +38,9 @@ def frames(seconds: float) -> Dict[str, str]:
     return {str(child): str(known["parent"]) for child, known in dict(heard).items()}
 
 
-def root_of(parents: Dict[str, str]) -> str:
+def root_of(parents: dict[str, str]) -> str:
     """The root below which most frames are; 'map' without any."""
-    counts: Dict[str, int] = {}
+    counts: dict[str, int] = {}
     for frame in parents:
         seen = set()
         while frame in parents and frame not in seen:
@@ -51,7 +50,7 @@ def root_of(parents: Dict[str, str]) -> str:
     return max(counts, key=lambda frame: counts[frame]) if counts else "map"
 
 
-def config(topics: List[Tuple[str, str]], description: bool, root: str, reach: float) -> dict:
+def config(topics: list[tuple[str, str]], description: bool, root: str, reach: float) -> dict:
     """The set-up as RViz's YAML has it.
 
     :param topics: (name, message type) of what is published.
@@ -59,7 +58,7 @@ def config(topics: List[Tuple[str, str]], description: bool, root: str, reach: f
     :param root: fixed frame.
     :param reach: how far from the root's origin there is something to see, m.
     """
-    shown: List[dict] = [{"Class": "rviz/Grid", "Name": "Grid"}]
+    shown: list[dict] = [{"Class": "rviz/Grid", "Name": "Grid"}]
     if description:
         shown.append({"Class": "rviz/RobotModel", "Name": "RobotModel"})
     shown.append({"Class": "rviz/TF", "Name": "TF", "Marker Scale": max(0.1, round(reach / 3, 2))})

@@ -12,7 +12,6 @@ import re
 import shlex
 import signal
 import sys
-from typing import Dict, List, Optional
 
 from rviz_offscreen.errors import DisplayError
 
@@ -45,7 +44,7 @@ def parser() -> argparse.ArgumentParser:
     return p
 
 
-def visit(launch: Launch, given: Dict[str, str], folder: str, options: argparse.Namespace) -> Entry:
+def visit(launch: Launch, given: dict[str, str], folder: str, options: argparse.Namespace) -> Entry:
     """Launch, take pictures, stop. Never raises for what is wrong with the launch file: the entry's notes say it."""
     entry = Entry(launch.name, shlex.join(["roslaunch", *launch.words]))
     try:
@@ -77,12 +76,12 @@ def visit(launch: Launch, given: Dict[str, str], folder: str, options: argparse.
     return entry
 
 
-def main(argv: Optional[List[str]] = None) -> int:
+def main(argv: list[str] | None = None) -> int:
     """Exit code 0: every launch file has pictures; 1: one has none, or there was nothing to launch; 2: wrong options."""
     options = parser().parse_args(sys.argv[1:] if argv is None else argv)
     given = dict(word.split(":=", 1) for word in options.targets if ":=" in word)
     folder = os.path.abspath(options.output)
-    entries: List[Entry] = []
+    entries: list[Entry] = []
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     try:
         launches = [launch for target in options.targets if ":=" not in target for launch in find(target)]

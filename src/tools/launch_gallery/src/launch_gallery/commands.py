@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Callable, Dict, List, Sequence, Tuple
+from collections.abc import Callable, Sequence
 
 import lenient_xml
 import rospy
@@ -20,7 +20,7 @@ def _ackermann(message, speed: float, turn: float, _aside: float) -> None:
 
 
 #: Message type to what fills it; ``.field`` says where in the message the command is.
-KINDS: Dict[str, Tuple[str, Callable]] = {
+KINDS: dict[str, tuple[str, Callable]] = {
     "geometry_msgs/Twist": ("", _twist),
     "geometry_msgs/TwistStamped": ("twist", _twist),
     "ackermann_msgs/AckermannDrive": ("", _ackermann),
@@ -28,7 +28,7 @@ KINDS: Dict[str, Tuple[str, Callable]] = {
 }
 
 
-def choose(heard: Sequence[Tuple[str, str]], published: Sequence[str], wanted: str = "") -> Tuple[str, str]:
+def choose(heard: Sequence[tuple[str, str]], published: Sequence[str], wanted: str = "") -> tuple[str, str]:
     """The topic to send commands to, and its message type.
 
     Without a wish: the one named cmd_vel with the shortest name, rather one that nobody publishes (a multiplexer's input,
@@ -51,7 +51,7 @@ def choose(heard: Sequence[Tuple[str, str]], published: Sequence[str], wanted: s
     return best, topics[best]
 
 
-def _listed(heard: Sequence[Tuple[str, str]]) -> str:
+def _listed(heard: Sequence[tuple[str, str]]) -> str:
     return ", ".join(sorted(topic for topic, kind in heard if kind in KINDS)) or "none"
 
 
@@ -76,9 +76,9 @@ class Wheel:
         self._publisher.publish(message)
 
 
-def joint_limits(description: str) -> Dict[str, Tuple[float, float]]:
+def joint_limits(description: str) -> dict[str, tuple[float, float]]:
     """Limits of the joints of a URDF that have some, rad or m."""
-    found: Dict[str, Tuple[float, float]] = {}
+    found: dict[str, tuple[float, float]] = {}
     for joint in lenient_xml.fromstring(description).iter("joint"):
         limit = joint.find("limit")
         if joint.get("type") in ("revolute", "prismatic") and limit is not None:
@@ -86,7 +86,7 @@ def joint_limits(description: str) -> Dict[str, Tuple[float, float]]:
     return found
 
 
-def nominal_rates(description: str) -> List[Tuple[str, float]]:
+def nominal_rates(description: str) -> list[tuple[str, float]]:
     """(sensor, rate in Hz) of the sensors in a URDF that ask for one, on links that it has."""
     robot = lenient_xml.fromstring(description)
     links = {link.get("name") for link in robot.iter("link")}

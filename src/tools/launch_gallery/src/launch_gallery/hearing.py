@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import struct
-from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 import rospy
@@ -22,11 +21,11 @@ def is_sensor(kind: str) -> bool:
 class Ear:
     """Listens to topics without taking the messages apart: only the stamp is read, the last message is kept."""
 
-    def __init__(self, topics: List[Tuple[str, str]]):
+    def __init__(self, topics: list[tuple[str, str]]):
         """:param topics: (name, message type), each a message that begins with a header."""
         self._kinds = dict(topics)
-        self._stamps: Dict[str, List[float]] = {topic: [] for topic in self._kinds}
-        self._last: Dict[str, bytes] = {}
+        self._stamps: dict[str, list[float]] = {topic: [] for topic in self._kinds}
+        self._last: dict[str, bytes] = {}
         self._subscribers = [
             rospy.Subscriber(topic, rospy.AnyMsg, self._hear, topic, queue_size=100, buff_size=1 << 24) for topic in self._kinds
         ]
@@ -40,7 +39,7 @@ class Ear:
         for stamps in self._stamps.values():
             stamps.clear()
 
-    def close(self, seconds: float) -> List[dict]:
+    def close(self, seconds: float) -> list[dict]:
         """What was heard since :meth:`forget`: topic, kind, rate in Hz (None: not two messages) and what it says.
 
         :param seconds: of simulation since then
@@ -63,7 +62,7 @@ class Ear:
             return f"unreadable: {error}"
 
 
-def rate(stamps: List[float], seconds: float) -> Optional[float]:
+def rate(stamps: list[float], seconds: float) -> float | None:
     """Mean rate, Hz, of stamps in s: None where there are not two. Where all were left at 0, as many messages came within ``seconds``."""
     if len(stamps) > 1 and not any(stamps):
         return len(stamps) / seconds

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import shlex
 from dataclasses import dataclass
-from typing import Dict, List, Tuple
 from xml.etree import ElementTree
 
 import rospkg
@@ -31,10 +30,10 @@ class Launch:
 
     path: str
     name: str
-    words: Tuple[str, ...]
+    words: tuple[str, ...]
 
 
-def find(target: str) -> List[Launch]:
+def find(target: str) -> list[Launch]:
     """Launch files of ``PACKAGE``, the one of ``PACKAGE/FILE``, or the file at a path.
 
     :raises LaunchError: there is none.
@@ -59,7 +58,7 @@ def find(target: str) -> List[Launch]:
     return found
 
 
-def arguments(launch: Launch, given: Dict[str, str]) -> Dict[str, str]:
+def arguments(launch: Launch, given: dict[str, str]) -> dict[str, str]:
     """Values for the arguments that the launch file declares: ``given``, and no windows.
 
     :raises LaunchError: the file cannot be read, or an argument without default has no value.
@@ -84,12 +83,12 @@ class Content:
     ``rviz``: path of the RViz set-up of its RViz, also of one that is switched off; '' without one.
     """
 
-    nodes: Tuple[str, ...]
-    passing: Tuple[str, ...]
+    nodes: tuple[str, ...]
+    passing: tuple[str, ...]
     rviz: str
 
 
-def content(launch: Launch, values: Dict[str, str]) -> Content:
+def content(launch: Launch, values: dict[str, str]) -> Content:
     """:raises LaunchError: the launch file cannot be read."""
     switched_on = {name: "true" if name in WINDOWLESS and name != "gui" else value for name, value in values.items()}
     nodes = _load(launch, values)
@@ -102,7 +101,7 @@ def content(launch: Launch, values: Dict[str, str]) -> Content:
     )
 
 
-def _load(launch: Launch, values: Dict[str, str]) -> list:
+def _load(launch: Launch, values: dict[str, str]) -> list:
     typed = [f"{name}:={value}" for name, value in values.items()]
     try:
         return load_config_default([(launch.path, typed)], None, verbose=False, assign_machines=False).nodes

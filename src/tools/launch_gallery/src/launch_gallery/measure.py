@@ -14,7 +14,6 @@ import re
 import shlex
 import signal
 import sys
-from typing import Dict, List, Optional
 
 from rviz_offscreen.errors import DisplayError
 
@@ -71,9 +70,9 @@ def parser() -> argparse.ArgumentParser:
     return p
 
 
-def errors(log: str, most: int = 4) -> List[str]:
+def errors(log: str, most: int = 4) -> list[str]:
     """Different lines in which something complained, the first ``most`` of them."""
-    found: List[str] = []
+    found: list[str] = []
     for line in session.lines(log):
         match = _ERROR.search(line)
         said = next(filter(None, match.groups()), "") if match else ""
@@ -82,14 +81,14 @@ def errors(log: str, most: int = 4) -> List[str]:
     return found[:most] + ([f"and {len(found) - most} more errors in the log"] if len(found) > most else [])
 
 
-def measure(launches: List[Launch], given: Dict[str, str], options: argparse.Namespace) -> dict:
+def measure(launches: list[Launch], given: dict[str, str], options: argparse.Namespace) -> dict:
     """The figures, as :mod:`.measuring` finds them, with the notes of what went wrong.
 
     :raises LaunchError: a launch file cannot be read, or lacks an argument.
     """
-    values: Dict[str, str] = {}
-    nodes: List[str] = []
-    passing: List[str] = []
+    values: dict[str, str] = {}
+    nodes: list[str] = []
+    passing: list[str] = []
     for launch in launches:
         own = arguments(launch, given)
         shown = content(launch, own)
@@ -125,7 +124,7 @@ def measure(launches: List[Launch], given: Dict[str, str], options: argparse.Nam
     return found
 
 
-def main(argv: Optional[List[str]] = None) -> int:
+def main(argv: list[str] | None = None) -> int:
     """Exit code 0: the robot came up and was measured; 1: it did not; 2: wrong options."""
     options = parser().parse_args(sys.argv[1:] if argv is None else argv)
     given = dict(word.split(":=", 1) for word in options.targets if ":=" in word)

@@ -9,8 +9,8 @@ import contextlib
 import json
 import os
 import sys
+from collections.abc import Iterator
 from dataclasses import asdict
-from typing import Iterator, List
 
 import cv2
 import numpy as np
@@ -121,7 +121,7 @@ class Measurement:
         job = self.job
         topic, kind = choose(self.system.heard(), [name for name, _ in self.system.published()], job["command"])
         wheel = Wheel(topic, kind)
-        sent: List[float] = []  # s of simulation
+        sent: list[float] = []  # s of simulation
 
         def say(time: float, *speeds: float) -> None:
             sent.append(time)
@@ -171,7 +171,7 @@ class Measurement:
             raise MeasuringError(answer.status_message)
         return answer.position[0]
 
-    def _reach(self, topic: str, joints: List[str], limits: dict) -> float:
+    def _reach(self, topic: str, joints: list[str], limits: dict) -> float:
         """:returns: how far the worst joint is off after twice the trajectory's time, rad or m."""
         step = self.job["reach"]
         targets = [reachable(self._position(joint), step, *limits.get(joint, (None, None))) for joint in joints]

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Optional, Sequence, Tuple
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ def turned(samples: Sequence[Sample]) -> float:
     return sum(math.remainder(after.yaw - before.yaw, 2 * math.pi) for before, after in zip(samples, samples[1:]))
 
 
-def advanced(samples: Sequence[Sample]) -> Tuple[float, float]:
+def advanced(samples: Sequence[Sample]) -> tuple[float, float]:
     """Way from the first sample to the last one, m: (ahead, to the left) as the robot headed on average on the way."""
     first, last = samples[0], samples[-1]
     dx, dy = last.x - first.x, last.y - first.y
@@ -60,12 +60,12 @@ class Motion:
     tilt: float
 
     @staticmethod
-    def of(samples: Sequence[Sample]) -> "Motion":
+    def of(samples: Sequence[Sample]) -> Motion:
         ahead, left = advanced(samples)
         return Motion(samples[-1].time - samples[0].time, ahead, left, turned(samples), samples[-1].z - samples[0].z, samples[-1].tilt)
 
 
-def reachable(angle: float, step: float, lower: Optional[float], upper: Optional[float]) -> float:
+def reachable(angle: float, step: float, lower: float | None, upper: float | None) -> float:
     """A place for a joint to go: ``step`` further, or back where a limit is in the way; None is no limit."""
     low, high = -math.inf if lower is None else lower, math.inf if upper is None else upper
     for target in (angle + step, angle - step):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import html
 from dataclasses import dataclass, field
-from typing import List, Tuple
 
 _STYLE = """body {font: 15px sans-serif; max-width: 1200px; margin: 2em auto; padding: 0 1em}
 img {max-width: 100%; border: 1px solid #ccc}
@@ -18,11 +17,11 @@ class Entry:
 
     name: str
     command: str
-    pictures: List[Tuple[str, str]] = field(default_factory=list)
-    notes: List[str] = field(default_factory=list)
+    pictures: list[tuple[str, str]] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
 
 
-def render(title: str, entries: List[Entry]) -> str:
+def render(title: str, entries: list[Entry]) -> str:
     """HTML that stands beside the pictures."""
     sections = []
     for entry in entries:

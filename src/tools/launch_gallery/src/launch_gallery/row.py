@@ -6,7 +6,6 @@ import math
 import os
 import re
 import subprocess
-from typing import List
 
 HEADER = "| robot | launch | straight | turn | drift in 60 s | sensors | notes |\n|---|---|---|---|---|---|---|"
 _PLAIN = ("sensor_msgs/JointState", "nav_msgs/Odometry")
@@ -73,7 +72,7 @@ def drift(found: dict) -> str:
 
 def sensors(found: dict) -> str:
     """Each topic with its rate and what it says; joints and odometry last."""
-    lines: List[str] = []
+    lines: list[str] = []
     for sensor in sorted(found.get("sensors", ()), key=lambda sensor: sensor["kind"] in _PLAIN):
         rate = "silent" if sensor["rate"] is None else f"{sensor['rate']:.1f} Hz"
         says = f" ({sensor['says']})" if sensor["says"] and sensor["says"] != rate else ""
@@ -81,7 +80,7 @@ def sensors(found: dict) -> str:
     return "<br>".join(lines) or "-"
 
 
-def reach(found: dict) -> List[str]:
+def reach(found: dict) -> list[str]:
     return [f"{name} ends {_number(error, 'rad')} from its goal" for name, error in found.get("reach", {}).items()]
 
 

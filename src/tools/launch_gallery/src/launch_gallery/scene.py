@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from typing import List, Tuple
 
 import rospy
 from rostopic import get_topic_class
@@ -28,7 +27,7 @@ def subject(simulator: Simulator, seconds: float) -> str:
     return max(movable, key=lambda name: len(known[name].joint_names), default="")
 
 
-def pictures(simulator: Simulator, folder: str, stem: str, seconds: float) -> List[Tuple[str, str]]:
+def pictures(simulator: Simulator, folder: str, stem: str, seconds: float) -> list[tuple[str, str]]:
     """The robot filling the frame, and all that stands on the ground.
 
     :returns: (file name, caption) of each

@@ -11,8 +11,8 @@ import socket
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Dict, Iterator, List, Optional
 
 from rviz_offscreen.display import private_display
 
@@ -28,7 +28,7 @@ def free_port() -> int:
 
 
 @contextlib.contextmanager
-def running(words: List[str], environment: Dict[str, str], log: "str | os.PathLike") -> Iterator[subprocess.Popen]:
+def running(words: list[str], environment: dict[str, str], log: str | os.PathLike) -> Iterator[subprocess.Popen]:
     """roslaunch in a process group of its own, which gets Ctrl-C's signal at the end, and SIGKILL if that is in vain."""
     with open(log, "w") as file:
         process = subprocess.Popen(
@@ -45,7 +45,7 @@ def running(words: List[str], environment: Dict[str, str], log: "str | os.PathLi
                     break
 
 
-def lines(log: str) -> List[str]:
+def lines(log: str) -> list[str]:
     """What roslaunch and its nodes printed so far, without colours and blank lines."""
     with open(log, errors="replace") as file:
         return [line for line in (_COLOURS.sub("", line).strip() for line in file) if line]
@@ -61,11 +61,11 @@ def last_words(log: str) -> str:
 class Outcome:
     """``answer``: what the looking process found, None when it found nothing; ``notes``: why, one line each."""
 
-    answer: Optional[dict] = None
-    notes: List[str] = field(default_factory=list)
+    answer: dict | None = None
+    notes: list[str] = field(default_factory=list)
 
 
-def look(module: str, words: List[str], log: str, job: dict, windows: bool = True, variables: Optional[Dict[str, str]] = None) -> Outcome:
+def look(module: str, words: list[str], log: str, job: dict, windows: bool = True, variables: dict[str, str] | None = None) -> Outcome:
     """Launch, have ``module`` look, stop.
 
     :param module: run as ``python3 -m`` with ``job`` as JSON on standard input; answers with a JSON line.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Iterable, Optional
+from collections.abc import Iterable
 
 import rospy
 from rosservice import get_service_class_by_name
@@ -30,7 +30,7 @@ class Simulator:
         return rospy.get_param(f"{self.space}/{name}", rospy.get_param(f"/{name}", default))
 
 
-def find(services: Iterable[str]) -> Optional[Simulator]:
+def find(services: Iterable[str]) -> Simulator | None:
     """The one among ``services`` (full names) in the outermost namespace; None if nobody simulates."""
     spaces = [name[: -len(_KNOWN_BY)] for name in services if name.endswith(_KNOWN_BY)]
     return Simulator(min(spaces, key=lambda space: (space.count("/"), space))) if spaces else None

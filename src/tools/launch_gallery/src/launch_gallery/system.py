@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import sys
 import time
-from typing import Iterable, List, Tuple
+from collections.abc import Iterable
 
 import rosgraph
 import rospy
@@ -57,18 +57,18 @@ class System:
         """Nodes of which roslaunch has said that they finished or died."""
         return {"/" + name for name in re.findall(r"\[([\w/]+)-\d+\] process has", "\n".join(session.lines(self.log)))}
 
-    def services(self) -> List[str]:
+    def services(self) -> list[str]:
         return [name for name, _ in self.master.getSystemState()[2]]
 
-    def published(self) -> List[Tuple[str, str]]:
+    def published(self) -> list[tuple[str, str]]:
         """(topic, message type) of all that somebody else publishes."""
         return self._topics(0)
 
-    def heard(self) -> List[Tuple[str, str]]:
+    def heard(self) -> list[tuple[str, str]]:
         """(topic, message type) of all that somebody else subscribes to."""
         return self._topics(1)
 
-    def _topics(self, side: int) -> List[Tuple[str, str]]:
+    def _topics(self, side: int) -> list[tuple[str, str]]:
         own = rospy.get_name()
         nodes = dict(self.master.getSystemState()[side])
         return [(topic, kind) for topic, kind in self.master.getTopicTypes() if set(nodes.get(topic, ())) - {own}]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from typing import Callable, List, Optional
+from collections.abc import Callable
 
 import rospy
 
@@ -35,13 +35,13 @@ class Truth:
             raise MeasuringError(f"model {self.model}: its pose is not a number")
         return found
 
-    def pace(self, factor: Optional[float]) -> None:
+    def pace(self, factor: float | None) -> None:
         """:param factor: simulated seconds per wall second; 0 as fast as possible, None as the world file says."""
         physics = self._physics()
         rate = self._own_rate if factor is None else factor / physics.time_step
         self._set_physics(physics.time_step, rate, physics.gravity, physics.ode_config)
 
-    def follow(self, seconds: float, meanwhile: Optional[Callable[[float], None]] = None) -> List[Sample]:
+    def follow(self, seconds: float, meanwhile: Callable[[float], None] | None = None) -> list[Sample]:
         """Samples over ``seconds`` of simulation.
 
         :param meanwhile: called with the simulated time about every 0.05 s of it.

@@ -11,7 +11,6 @@ import os
 import sys
 import tempfile
 import threading
-from typing import List, Tuple
 
 import rosgraph
 import rospy
@@ -34,8 +33,8 @@ class Visit:
 
     def __init__(self, job: dict):
         self.job = job
-        self.pictures: List[Tuple[str, str]] = []  # file name, caption
-        self.notes: List[str] = []
+        self.pictures: list[tuple[str, str]] = []  # file name, caption
+        self.notes: list[str] = []
         self.system = System(job["log"], job["nodes"], job["passing"])
 
     def take_scene(self) -> None:
@@ -90,7 +89,7 @@ class Visit:
 class Driving:
     """While in the context: a speed on every topic of Twist messages that somebody listens to; zero at its end."""
 
-    def __init__(self, speed: List[float]):
+    def __init__(self, speed: list[float]):
         self.twist = Twist()
         self.twist.linear.x, self.twist.angular.z = speed
         self.ended = threading.Event()

@@ -10,8 +10,9 @@ import shlex
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple
+from typing import Any
 
 import rospkg
 
@@ -58,7 +59,7 @@ def workspace_of(folder: Path) -> Path:
     raise EditorError(f"{folder} is in no catkin workspace (a folder with packages in src); rosrun noetic_environment vscode WORKSPACE")
 
 
-def environment_of(workspace: Path, present: Mapping[str, str]) -> Dict[str, str]:
+def environment_of(workspace: Path, present: Mapping[str, str]) -> dict[str, str]:
     """The environment of a shell that has sourced the workspace; the present one where it is not built yet.
 
     :raises EditorError: its setup file fails
@@ -94,10 +95,10 @@ def uses_catkin_make(workspace: Path) -> bool:
 # ---------------------------------------------------------------------------------------------- the files
 
 
-def tasks(workspace: Path, environment: Mapping[str, str]) -> Dict[str, Any]:
+def tasks(workspace: Path, environment: Mapping[str, str]) -> dict[str, Any]:
     begin = sourcing(workspace, environment)
 
-    def task(label: str, command: str, **more: Any) -> Dict[str, Any]:
+    def task(label: str, command: str, **more: Any) -> dict[str, Any]:
         return {
             "label": label,
             "type": "shell",
@@ -145,11 +146,11 @@ def tasks(workspace: Path, environment: Mapping[str, str]) -> Dict[str, Any]:
     }
 
 
-def inputs(*asked: Tuple[str, str]) -> List[Dict[str, str]]:
+def inputs(*asked: tuple[str, str]) -> list[dict[str, str]]:
     return [{"id": name, "type": "promptString", "description": words} for name, words in asked]
 
 
-def launch() -> Dict[str, Any]:
+def launch() -> dict[str, Any]:
     file = f"${{workspaceFolder}}/{FOLDER}/{ENVIRONMENT}"
     node = "${workspaceFolder}/devel/lib/${input:package}/${input:node}"
     gdb = {
@@ -200,7 +201,7 @@ def packages(environment: Mapping[str, str]) -> Iterator[Path]:
             yield place
 
 
-def system_headers() -> List[str]:
+def system_headers() -> list[str]:
     """Folders that packages of Debian add to the compiler's own."""
     system = Path("/usr/include")
     doubled = [
@@ -211,7 +212,7 @@ def system_headers() -> List[str]:
     return [str(place) for place in (*doubled, *(place for name in LIBRARIES for place in sorted(system.glob(name))))]
 
 
-def properties(workspace: Path, environment: Mapping[str, str]) -> Dict[str, Any]:
+def properties(workspace: Path, environment: Mapping[str, str]) -> dict[str, Any]:
     headers = [str(Path(prefix, "include")) for prefix in environment.get("CMAKE_PREFIX_PATH", "").split(":") if prefix]
     headers += [str(place / "include") for place in packages(environment)]
     machine = {"x86_64": "x64", "aarch64": "arm64", "armv7l": "arm"}.get(platform.machine(), "x64")
@@ -233,7 +234,7 @@ def properties(workspace: Path, environment: Mapping[str, str]) -> Dict[str, Any
     }
 
 
-def settings(environment: Mapping[str, str]) -> Dict[str, Any]:
+def settings(environment: Mapping[str, str]) -> dict[str, Any]:
     """Python's modules lie in source folders, to which the devel space only points."""
     modules = [str(place / "src") for place in packages(environment) if (place / "setup.py").is_file() and (place / "src").is_dir()]
     modules += [path for path in environment.get("PYTHONPATH", "").split(":") if path]
@@ -254,7 +255,7 @@ def variables(environment: Mapping[str, str]) -> str:
     )
 
 
-def files(workspace: Path, environment: Mapping[str, str]) -> Dict[str, str]:
+def files(workspace: Path, environment: Mapping[str, str]) -> dict[str, str]:
     """Name -> text of all of them."""
     made = {
         "tasks.json": tasks(workspace, environment),
@@ -269,12 +270,12 @@ def files(workspace: Path, environment: Mapping[str, str]) -> Dict[str, str]:
 # ---------------------------------------------------------------------------------------------- writing them
 
 
-def write(folder: Path, texts: Mapping[str, str], force: bool) -> List[Tuple[str, Optional[str]]]:
+def write(folder: Path, texts: Mapping[str, str], force: bool) -> list[tuple[str, str | None]]:
     """
     :param force: write what is there anew, too; the old one is kept beside it with the ending ``.bak``
     :return: name of each file, and what happened to it; None: it is what it should be
     """
-    said: List[Tuple[str, Optional[str]]] = []
+    said: list[tuple[str, str | None]] = []
     folder.mkdir(exist_ok=True)
     for name, text in texts.items():
         path = folder / name

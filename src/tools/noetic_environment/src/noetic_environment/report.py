@@ -10,8 +10,8 @@ import re
 import socket
 import subprocess
 import sys
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Iterator, List, Mapping, Tuple
 from xml.etree import ElementTree
 
 import rospkg
@@ -75,7 +75,7 @@ def _asked(*command: str) -> str:
     return said if ended.returncode == 0 else f"({said.splitlines()[-1] if said else f'exit code {ended.returncode}'})"
 
 
-def machine() -> Iterator[Tuple[str, str]]:
+def machine() -> Iterator[tuple[str, str]]:
     """(what, value) of system, processor, memory and what draws."""
     try:
         system = platform.freedesktop_os_release().get("PRETTY_NAME", "")
@@ -88,7 +88,7 @@ def machine() -> Iterator[Tuple[str, str]]:
     yield "OpenGL", _asked(sys.executable, "-c", _DRAWS)
 
 
-def versions() -> Iterator[Tuple[str, str]]:
+def versions() -> Iterator[tuple[str, str]]:
     """(what, version) of this platform, of Debian's packages and of Python's."""
     own = Path(rospkg.RosPack().get_path("noetic_environment"))
     yield "noetic_labs", ElementTree.parse(own / "package.xml").findtext("version", "")
@@ -102,7 +102,7 @@ def versions() -> Iterator[Tuple[str, str]]:
             yield name, version
 
 
-def workspaces(environment: Mapping[str, str]) -> Iterator[Tuple[str, str]]:
+def workspaces(environment: Mapping[str, str]) -> Iterator[tuple[str, str]]:
     """(folder, how many packages it adds) of each sourced workspace, the newest first."""
     for folder in environment.get("CMAKE_PREFIX_PATH", "").split(":"):
         if folder:
@@ -111,7 +111,7 @@ def workspaces(environment: Mapping[str, str]) -> Iterator[Tuple[str, str]]:
             yield folder, f"{len(sources) or len(list(Path(folder).glob('share/*/package.xml')))} packages"
 
 
-def logs(folder: Path) -> Iterator[Tuple[str, str]]:
+def logs(folder: Path) -> Iterator[tuple[str, str]]:
     """(name, last lines) of the newest logs of the last run."""
     latest = folder / "latest"
     place = latest if latest.is_dir() else folder
@@ -126,7 +126,7 @@ def logs(folder: Path) -> Iterator[Tuple[str, str]]:
 def text(environment: Mapping[str, str]) -> str:
     """The whole report, veiled."""
     kept = {name: value for name, value in environment.items() if VARIABLES.match(name) and name != "ROS_PACKAGE_PATH"}
-    parts: List[str] = []
+    parts: list[str] = []
     for title, pairs in (
         ("Machine", machine()),
         ("Versions", versions()),

@@ -11,7 +11,6 @@ import math
 import os
 import re
 from dataclasses import dataclass, field
-from typing import List, Optional
 
 import rospkg
 
@@ -85,7 +84,7 @@ class Options:
     """What the user asked for. Times in s, ``memory_limit`` in bytes, ``cpu_limit`` in cores."""
 
     file: str = ""
-    arguments: List[str] = field(default_factory=list)
+    arguments: list[str] = field(default_factory=list)
     benchmark: bool = False
     list_args: bool = False
     disable_ui: bool = False
@@ -94,9 +93,9 @@ class Options:
     help: bool = False
     no_start: bool = False
     disable_diagnostics: bool = False
-    log: Optional[str] = None
-    name: Optional[str] = None
-    diagnostics_prefix: Optional[str] = None
+    log: str | None = None
+    name: str | None = None
+    diagnostics_prefix: str | None = None
     stop_timeout: float = 5.0
     cpu_limit: float = 0.9
     memory_limit: int = 500 * 2**20
@@ -150,7 +149,7 @@ def find_launch_file(package: str, name: str) -> str:
     return found[0]
 
 
-def parse(words: List[str]) -> Options:
+def parse(words: list[str]) -> Options:
     """Options from the words behind ``mon launch``. :raises RosmonError: a word cannot be understood."""
     options = Options()
     try:

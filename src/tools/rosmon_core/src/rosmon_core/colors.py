@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import colorsys
 import os
-from typing import Mapping, Tuple
+from collections.abc import Mapping
 
 #: Text and background of labels on 16 colours. Light text is on the dark three (97 is unknown to some, which then keep 37). Yellow is
 #: left out: it is a dark brown on some consoles, a bright yellow on others.
@@ -23,7 +23,7 @@ def mode(environment: Mapping[str, str] = os.environ) -> str:
     return "256colors" if "256" in environment.get("TERM", "") else "ansi"
 
 
-def rgb(index: int, count: int) -> Tuple[int, int, int]:
+def rgb(index: int, count: int) -> tuple[int, int, int]:
     """Evenly spread hues, light enough for black text."""
     red, green, blue = (round(255 * c) for c in colorsys.hsv_to_rgb(index / max(1, count), 0.45, 0.9))
     return red, green, blue

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from typing import Any, Dict, List
+from typing import Any
 
 import roslaunch.config
 import roslaunch.loader
@@ -44,11 +44,11 @@ class NodeSpec:
 class LaunchFile:
     """A loaded launch file."""
 
-    nodes: List[NodeSpec] = field(default_factory=list)
-    params: Dict[str, Any] = field(default_factory=dict)
-    clear_params: List[str] = field(default_factory=list)
-    problems: List[str] = field(default_factory=list)
-    attributes: Dict[str, str] = field(default_factory=dict)
+    nodes: list[NodeSpec] = field(default_factory=list)
+    params: dict[str, Any] = field(default_factory=dict)
+    clear_params: list[str] = field(default_factory=list)
+    problems: list[str] = field(default_factory=list)
+    attributes: dict[str, str] = field(default_factory=dict)
 
 
 def _boolean(text: str, what: str) -> bool:
@@ -64,16 +64,16 @@ class _Loader(XmlLoader):
 
     def __init__(self, options: Options) -> None:
         super().__init__()
-        self.specs: List[NodeSpec] = []
-        self.attributes: Dict[str, str] = {}
+        self.specs: list[NodeSpec] = []
+        self.attributes: dict[str, str] = {}
         self._options = options
-        self._inherited: List[Dict[str, str]] = [{}]
+        self._inherited: list[dict[str, str]] = [{}]
         self._scope: Any = None  # the LoaderContext of what was read last
 
     def _check_attrs(self, tag, context, ros_config, attrs):
         super()._check_attrs(tag, context, ros_config, [*attrs, *_INHERITED, *_OF_NODE, *_OF_INCLUDE])
 
-    def _attributes_of(self, tag, context) -> Dict[str, str]:
+    def _attributes_of(self, tag, context) -> dict[str, str]:
         """rosmon's attributes of ``tag`` and of everything around it, the innermost winning."""
         chain = []
         while tag is not None and tag.nodeType == tag.ELEMENT_NODE:
@@ -117,7 +117,7 @@ class _Loader(XmlLoader):
             self.specs.append(self._spec(node, self._attributes_of(tag, context)))
         return node
 
-    def _spec(self, node: Node, given: Dict[str, str]) -> NodeSpec:
+    def _spec(self, node: Node, given: dict[str, str]) -> NodeSpec:
         options, what = self._options, f"node '{node.name}': "
         threshold = given.get("rosmon-restart-warn-threshold", "0")
         if not re.fullmatch(r"-?\d+", threshold):
@@ -172,7 +172,7 @@ def load(options: Options) -> LaunchFile:
     )
 
 
-def list_arguments(options: Options) -> List[str]:
+def list_arguments(options: Options) -> list[str]:
     """Names of the launch file's arguments. :raises RosmonError: it cannot be read."""
     loader = XmlLoader(resolve_anon=False, args_only=True)
     loader.ignore_unset_args = True

@@ -6,7 +6,6 @@ import logging
 import logging.handlers
 import os
 import time
-from typing import Optional
 
 from rosmon_core import RosmonError
 from rosmon_core.severity import without_escapes
@@ -20,7 +19,7 @@ class Log:
     :raises RosmonError: the file cannot be written.
     """
 
-    def __init__(self, target: Optional[str], flush: bool) -> None:
+    def __init__(self, target: str | None, flush: bool) -> None:
         self._syslog = None
         self._file = None
         self._flush = flush

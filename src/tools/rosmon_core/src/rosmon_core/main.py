@@ -6,7 +6,6 @@ import asyncio
 import signal
 import sys
 import time
-from typing import List, Optional, Union
 
 from rosmon_core import RosmonError, cli, master
 from rosmon_core.launch_file import LaunchFile, list_arguments, load
@@ -25,12 +24,12 @@ class _Session:
         self._options, self._file, self._log = options, launch_file, log
         self._interactive = not options.disable_ui and sys.stdin.isatty() and sys.stdout.isatty()
         labels = [OWN_LABEL, *(spec.full_name.lstrip("/") for spec in launch_file.nodes)]
-        self._display: Union[Terminal, Plain] = (
+        self._display: Terminal | Plain = (
             Terminal(labels, launch_file.attributes.get("rosmon-window-title"))
             if self._interactive
             else Plain(labels, options.flush_stdout)
         )
-        self._monitor: Optional[Monitor] = None
+        self._monitor: Monitor | None = None
         self._stopping = asyncio.Event()
 
     async def run(self) -> int:
@@ -78,7 +77,7 @@ class _Session:
             return 0
         return await self._monitor_nodes(uri, master.log_directory(waiting.result()))
 
-    async def _monitor_nodes(self, uri: str, log_dir: Optional[str]) -> int:
+    async def _monitor_nodes(self, uri: str, log_dir: str | None) -> int:
         loop = asyncio.get_running_loop()
         monitor = self._monitor = Monitor(self._file, uri, log_dir, self._log, self._display.show)
         interface = await loop.run_in_executor(None, self._connect, monitor, loop)
@@ -126,7 +125,7 @@ async def _start(options: cli.Options, launch_file: LaunchFile, log: Log) -> int
     return await _Session(options, launch_file, log).run()
 
 
-def main(words: Optional[List[str]] = None) -> int:
+def main(words: list[str] | None = None) -> int:
     """Run rosmon with the words behind ``mon launch``; returns the exit code."""
     words = sys.argv[1:] if words is None else words
     try:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import os
-import socket
 import xmlrpc.client
-from typing import Any, Callable, Optional, Tuple
+from collections.abc import Callable
+from typing import Any
 
 import rosgraph
 import rospkg
@@ -18,7 +18,7 @@ _CALLER = "/rosmon"
 _POLL = 0.2  # s
 
 
-def _ask_run_id(uri: str) -> Optional[str]:
+def _ask_run_id(uri: str) -> str | None:
     """The master's run id ('' before it is set); None when no master answers."""
     try:
         master: Any = xmlrpc.client.ServerProxy(uri)
@@ -44,7 +44,7 @@ async def wait(uri: str, say: Callable[[str], None]) -> str:
     return run_id
 
 
-def log_directory(run_id: str) -> Optional[str]:
+def log_directory(run_id: str) -> str | None:
     """Where nodes write their own logs; made if necessary, None if that is impossible."""
     directory = os.path.join(rospkg.get_log_dir(), run_id)
     try:
@@ -54,7 +54,7 @@ def log_directory(run_id: str) -> Optional[str]:
     return directory
 
 
-def _check(results, calls: Tuple[str, ...]) -> None:
+def _check(results, calls: tuple[str, ...]) -> None:
     for (code, message, _), name in zip(results, calls):
         if code != 1:
             raise RosmonError(f"roscore refuses parameter {name}: {message}")
@@ -72,7 +72,7 @@ def set_parameters(uri: str, launch_file: LaunchFile) -> None:
         for name, value in launch_file.params.items():
             multi.setParam(_CALLER, name, value)
         _check(multi(), tuple(launch_file.params))
-    except (OSError, socket.error, xmlrpc.client.Error) as error:
+    except (OSError, xmlrpc.client.Error) as error:
         raise RosmonError(f"cannot set parameters on the roscore at {uri}: {error}") from None
     except (TypeError, OverflowError) as error:
         raise RosmonError(f"a parameter cannot be sent to the roscore: {error}; integers have 32 bits there") from None

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable, Dict, List, Optional
 
 import psutil
 
@@ -34,22 +34,17 @@ class Monitor:
     """
 
     def __init__(
-        self,
-        launch_file: LaunchFile,
-        master_uri: str,
-        log_dir: Optional[str],
-        log: Log,
-        show: Callable[[str, str, str, Optional[int]], None],
+        self, launch_file: LaunchFile, master_uri: str, log_dir: str | None, log: Log, show: Callable[[str, str, str, int | None], None]
     ) -> None:
         self.warnings_only = False
         self.failed = False
         self.done = asyncio.Event()
-        self.changed: List[Callable[[], None]] = []
+        self.changed: list[Callable[[], None]] = []
         self._show, self._log = show, log
         self._closing = False
-        self._times: Dict[int, tuple] = {}
-        self._sampled: Optional[float] = None
-        self.usage: Dict[NodeProcess, Usage] = {}
+        self._times: dict[int, tuple] = {}
+        self._sampled: float | None = None
+        self.usage: dict[NodeProcess, Usage] = {}
         self.nodes = [NodeProcess(spec, master_uri, log_dir, self._on_line, self._on_event, self._on_exit) for spec in launch_file.nodes]
 
     @property
@@ -80,7 +75,7 @@ class Monitor:
             node.muted = muted
         self._tell()
 
-    def matching(self, name: str, namespace: str) -> List[NodeProcess]:
+    def matching(self, name: str, namespace: str) -> list[NodeProcess]:
         """Nodes whose full name matches the regular expression ``/namespace/name`` as a whole.
 
         :raises re.error: no regular expression.
@@ -118,7 +113,7 @@ class Monitor:
         elapsed = now - self._sampled if self._sampled is not None else 0.0
         self._sampled = now
         self.usage = {node: Usage() for node in self.nodes}
-        times: Dict[int, tuple] = {}
+        times: dict[int, tuple] = {}
         for node, usage in self.usage.items():
             for process in _family(node.pid):
                 try:
@@ -164,7 +159,7 @@ class Monitor:
             callback()
 
 
-def _family(pid: Optional[int]) -> List[psutil.Process]:
+def _family(pid: int | None) -> list[psutil.Process]:
     """A process and all that it started; nothing for None."""
     try:
         root = psutil.Process(pid) if pid else None

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import sys
-from typing import List, Optional
 
 from rosmon_core import colors, severity
 
@@ -20,7 +19,7 @@ class Plain:
         self._flush = flush
         self._colour = colors.mode() if sys.stdout.isatty() else None
 
-    def show(self, label: str, text: str, level: str, index: Optional[int]) -> None:
+    def show(self, label: str, text: str, level: str, index: int | None) -> None:
         if self._colour:
             print(format_line(label, text, level, index, self._width, self._count, self._colour), flush=self._flush)
         else:
@@ -30,7 +29,7 @@ class Plain:
         sys.stdout.flush()
 
 
-def format_line(label: str, text: str, level: str, index: Optional[int], width: int, count: int, mode: str, columns: int = 0) -> str:
+def format_line(label: str, text: str, level: str, index: int | None, width: int, count: int, mode: str, columns: int = 0) -> str:
     """A line with a coloured, right-aligned label of ``width`` columns.
 
     :param columns: of the terminal; longer lines go on in the next one behind a ``~``. 0: never.
@@ -40,7 +39,7 @@ def format_line(label: str, text: str, level: str, index: Optional[int], width: 
     return "\n".join(f"{start}{label if i == 0 else '~':>{width}}:{colors.RESET} {piece}{colors.RESET}" for i, piece in enumerate(pieces))
 
 
-def _wrap(text: str, width: int) -> List[str]:
+def _wrap(text: str, width: int) -> list[str]:
     """Pieces of at most ``width`` visible characters, each starting with the colours in force."""
     if width < 8 or len(text) <= width:
         return [text]

@@ -12,8 +12,8 @@ import signal
 import subprocess
 import sys
 import tty
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable, Dict, List, Optional, Tuple
 
 import rospkg
 from node_signals.interpreter import as_it_can_run
@@ -57,23 +57,23 @@ class NodeProcess:
     :param on_exit: called with (process, exit code) after the process has ended.
     """
 
-    def __init__(self, spec: NodeSpec, master_uri: str, log_dir: Optional[str], emit: Callable, event: Callable, on_exit: Callable) -> None:
+    def __init__(self, spec: NodeSpec, master_uri: str, log_dir: str | None, emit: Callable, event: Callable, on_exit: Callable) -> None:
         self.spec = spec
         self.state = State.IDLE
         self.muted = False
         self.restart_count = 0
-        self.pid: Optional[int] = None
-        self.last_pid: Optional[int] = None
+        self.pid: int | None = None
+        self.last_pid: int | None = None
         self._master_uri, self._log_dir = master_uri, log_dir
         self._emit, self._event, self._on_exit = emit, event, on_exit
         self._loop = asyncio.get_running_loop()
-        self._process: Optional[subprocess.Popen] = None
-        self._readers: Dict[int, _Stream] = {}
-        self._timer: Optional[asyncio.TimerHandle] = None
+        self._process: subprocess.Popen | None = None
+        self._readers: dict[int, _Stream] = {}
+        self._timer: asyncio.TimerHandle | None = None
         self._wanted = False
         self._first = True
         self._restarting = False
-        self._left_behind: List[int] = []
+        self._left_behind: list[int] = []
         self.executable = ""
 
     @property
@@ -134,7 +134,7 @@ class NodeProcess:
             _signal_group(self.pid, signal.SIGKILL)
         self._kill_left_behind()
 
-    def command(self) -> List[str]:
+    def command(self) -> list[str]:
         """Arguments of the process. :raises NodeParamsException: no such executable."""
         arguments = create_local_process_args(self.spec.node, None)
         if self._log_dir:
@@ -284,7 +284,7 @@ def console_format(executable: str) -> str:
     return CONSOLE_FORMAT_OF_SCRIPTS if first.startswith(b"#!") and b"python" in first else CONSOLE_FORMAT
 
 
-def _describe(code: int) -> Tuple[str, str]:
+def _describe(code: int) -> tuple[str, str]:
     if code == 0:
         return "exited with status 0", "info"
     if code > 0:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import re
-from typing import Optional
 
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
@@ -26,7 +25,7 @@ class RosInterface:
     Create it outside the loop's thread: :func:`rospy.init_node` talks to the master.
     """
 
-    def __init__(self, monitor: Monitor, options: Options, name: Optional[str], loop: asyncio.AbstractEventLoop) -> None:
+    def __init__(self, monitor: Monitor, options: Options, name: str | None, loop: asyncio.AbstractEventLoop) -> None:
         self._monitor, self._options, self._loop = monitor, options, loop
         rospy.init_node(name or "rosmon", anonymous=name is None, disable_signals=True)
         self._state = rospy.Publisher("~state", State, queue_size=1, latch=True)

@@ -9,7 +9,6 @@ from __future__ import annotations
 import asyncio
 import string
 import sys
-from typing import List, Optional, Tuple
 
 from prompt_toolkit.application import Application, run_in_terminal
 from prompt_toolkit.input import create_input
@@ -54,20 +53,20 @@ _GLOBAL_KEYS = (
 _NODE_KEYS = (("s", "start"), ("k", "stop"), ("d", "debug"), ("m", "mute"), ("u", "unmute"))
 _ACTIONS = {"s": "start", "k": "stop", "m": "mute", "u": "unmute"}
 
-Fragments = List[Tuple[str, str]]
+Fragments = list[tuple[str, str]]
 
 
 class Terminal:
     """Shows a monitor and carries out keys. :meth:`show` may be called before :meth:`run`."""
 
-    def __init__(self, labels, title: Optional[str]) -> None:
+    def __init__(self, labels, title: str | None) -> None:
         self._width = max(map(len, labels))
         self._count = len(labels) - 1
         self._colour = colors.mode()
-        self._lines: List[Tuple[str, str, str, Optional[int]]] = []
-        self._running: Optional[Monitor] = None
-        self._selected: Optional[NodeProcess] = None
-        self._search: Optional[str] = None
+        self._lines: list[tuple[str, str, str, int | None]] = []
+        self._running: Monitor | None = None
+        self._selected: NodeProcess | None = None
+        self._search: str | None = None
         self._match = 0
         self._output = Vt100_Output.from_pty(sys.stdout)
         self._output.enable_cpr = False  # not every terminal answers where its cursor is, and none needs to
@@ -88,7 +87,7 @@ class Terminal:
         assert self._running is not None  # nothing is drawn and no key is read before run()
         return self._running
 
-    def show(self, label: str, text: str, level: str, index: Optional[int]) -> None:
+    def show(self, label: str, text: str, level: str, index: int | None) -> None:
         self._lines.append((label, text, level, index))
 
     def flush(self) -> None:
@@ -121,14 +120,14 @@ class Terminal:
             if self._lines:
                 await run_in_terminal(self.flush)
 
-    def _formatted(self) -> List[str]:
+    def _formatted(self) -> list[str]:
         lines, self._lines = self._lines, []
         columns = self._output.get_size().columns
         return [
             format_line(label, text, level, index, self._width, self._count, self._colour, columns) for label, text, level, index in lines
         ]
 
-    def _matches(self) -> List[NodeProcess]:
+    def _matches(self) -> list[NodeProcess]:
         return [n for n in self._monitor.nodes if (self._search or "") in self._monitor.label(n)]
 
     # what is drawn
@@ -142,7 +141,7 @@ class Terminal:
     def _bar(self) -> Fragments:
         if self._search is not None:
             return [("class:bar", f" Searching for: {self._search}_  (Tab, arrows: next; Enter: choose; Esc: end) ")]
-        keys: Tuple[Tuple[str, str], ...]
+        keys: tuple[tuple[str, str], ...]
         if self._selected:
             title, keys = f" Actions for '{self._monitor.label(self._selected)}': ", _NODE_KEYS
         else:
@@ -214,7 +213,7 @@ class Terminal:
     def _leave(self) -> None:
         self._search = self._selected = None
 
-    def _type(self, text: Optional[str]) -> None:
+    def _type(self, text: str | None) -> None:
         if self._search is not None:
             self._search = self._search[:-1] if text is None else self._search + text
             self._match = 0

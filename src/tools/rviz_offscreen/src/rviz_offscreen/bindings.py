@@ -5,7 +5,8 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import importlib.util
-from typing import TYPE_CHECKING, Iterator
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from . import qt
 

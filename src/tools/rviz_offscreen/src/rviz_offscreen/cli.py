@@ -11,7 +11,7 @@ import signal
 import subprocess
 import sys
 import tempfile
-from typing import Dict, Iterator, List, Optional
+from collections.abc import Iterator
 
 import rosgraph
 import rospkg
@@ -59,7 +59,7 @@ def parser() -> argparse.ArgumentParser:
     return p
 
 
-def output_paths(output: str, views: List[View]) -> List[str]:
+def output_paths(output: str, views: list[View]) -> list[str]:
     """One path per view: ``output`` itself for one, ``stem-NAME.png`` for several."""
     output = os.path.abspath(output)
     if len(views) < 2:
@@ -91,7 +91,7 @@ def find_shim() -> str:
 
 
 @contextlib.contextmanager
-def backend(name: str, size: str) -> Iterator[Dict[str, str]]:
+def backend(name: str, size: str) -> Iterator[dict[str, str]]:
     """Environment variables for RViz's process, while the back-end stands."""
     if name == "xvfb":
         with private_display(f"{size}x24") as variables:
@@ -104,7 +104,7 @@ def backend(name: str, size: str) -> Iterator[Dict[str, str]]:
 
 def take(
     config: str,
-    views: List[View],
+    views: list[View],
     output: str,
     *,
     size: str = "1280x800",
@@ -161,7 +161,7 @@ def take(
     return {"pictures": paths, **result}
 
 
-def run_grabber(job: dict, environment: Dict[str, str], limit: float) -> dict:
+def run_grabber(job: dict, environment: dict[str, str], limit: float) -> dict:
     """Run :mod:`.grab` in a process of its own, so that a crash of RViz or OpenGL is only an exit code here."""
     reading, writing = os.pipe()
 
@@ -204,7 +204,7 @@ def run_grabber(job: dict, environment: Dict[str, str], limit: float) -> dict:
     raise ScreenshotError(f"RViz ended with code {process.returncode}; its last line: {lines[-1] if lines else 'none'}")
 
 
-def main(argv: Optional[List[str]] = None) -> int:
+def main(argv: list[str] | None = None) -> int:
     """Exit code 0: every display drew something; 3: pictures written, but some display had nothing to draw (a line says
     which and why); 1: no picture; 2: wrong options.
     """
@@ -237,7 +237,7 @@ def main(argv: Optional[List[str]] = None) -> int:
     return 3 if missing else 0
 
 
-def missing_lines(result: dict, timeout: float) -> List[str]:
+def missing_lines(result: dict, timeout: float) -> list[str]:
     """What the pictures of :func:`take` lack; none if all displays drew something."""
     lines = [
         f"nobody publishes {topics} of display '{name}'" if topics else f"display '{name}' has no topic set"

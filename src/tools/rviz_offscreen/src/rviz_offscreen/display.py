@@ -9,7 +9,7 @@ import select
 import shutil
 import signal
 import subprocess
-from typing import Dict, Iterator
+from collections.abc import Iterator
 
 from .errors import DisplayError
 
@@ -24,7 +24,7 @@ def die_with_parent() -> None:
 
 
 @contextlib.contextmanager
-def private_display(size: str = "1280x800x24") -> Iterator[Dict[str, str]]:
+def private_display(size: str = "1280x800x24") -> Iterator[dict[str, str]]:
     """Start Xvfb with a screen of ``size`` (WIDTHxHEIGHTxDEPTH, pixels and bits) and stop it afterwards.
 
     :yields: the environment variables that send a program to it, with software OpenGL.

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, Dict, Iterator, Tuple
+from typing import Any
 
 import rosgraph
 
@@ -17,7 +18,7 @@ class State:
     name: str
     level: str  # 'Ok', 'Warn' or 'Error'
     silent: bool = False  # it reports Ok though no message has come yet
-    topics: Tuple[str, ...] = ()  # resolved names; '' for one that is not set
+    topics: tuple[str, ...] = ()  # resolved names; '' for one that is not set
 
     @property
     def drawn(self) -> bool:
@@ -28,11 +29,11 @@ class State:
         return f"no message on {', '.join(self.topics)} yet" if self.silent else self.level
 
 
-def _children(prop) -> Dict[str, Any]:
+def _children(prop) -> dict[str, Any]:
     return {str(prop.childAt(number).getName()): prop.childAt(number) for number in range(prop.numChildren())}
 
 
-def _status(children: Dict[str, Any]) -> Tuple[str, Dict[str, str]]:
+def _status(children: dict[str, Any]) -> tuple[str, dict[str, str]]:
     """Level, and the lines below it."""
     for name, prop in children.items():
         if name.startswith(("Status: ", "Global Status: ")):
@@ -82,13 +83,13 @@ class Robot:
     """An enabled RobotModel: name of its description's parameter, and where RViz has its links, in the fixed frame."""
 
     parameter: str
-    links: Dict[str, Tuple[Tuple[float, ...], Tuple[float, ...]]]  # name -> position (3,) m, orientation (4,) x y z w
+    links: dict[str, tuple[tuple[float, ...], tuple[float, ...]]]  # name -> position (3,) m, orientation (4,) x y z w
 
 
 def robots(manager) -> Iterator[Robot]:
     """Those that RViz shows."""
 
-    def numbers(prop) -> Tuple[float, ...]:
+    def numbers(prop) -> tuple[float, ...]:
         return tuple(float(word) for word in str(prop.getValue()).split(";"))
 
     for display in _enabled(manager.getRootDisplayGroup()):

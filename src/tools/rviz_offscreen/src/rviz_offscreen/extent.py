@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 import xml.etree.ElementTree as ET
-from typing import Dict, List, Optional, Tuple
 
 import lenient_xml
 import numpy as np
@@ -20,7 +19,7 @@ _POINT = np.full(3, 0.02)  # m, half the size of a link without a shape
 _LEAST = 0.05  # m, from the eye to what is nearest
 
 
-def _numbers(text: Optional[str], default: Tuple[float, ...]) -> np.ndarray:
+def _numbers(text: str | None, default: tuple[float, ...]) -> np.ndarray:
     return np.array([float(word) for word in text.split()] if text else default)
 
 
@@ -41,7 +40,7 @@ def _turned(points: np.ndarray, x: float, y: float, z: float, w: float) -> np.nd
     return points + 2 * np.cross(axis, np.cross(axis, points) + w * points)
 
 
-def _bounds(geometry: Optional[ET.Element], packages: rospkg.RosPack) -> Tuple[np.ndarray, np.ndarray]:
+def _bounds(geometry: ET.Element | None, packages: rospkg.RosPack) -> tuple[np.ndarray, np.ndarray]:
     """Lowest and highest corner of a shape, (3,) each, m."""
     shape = None if geometry is None else next(iter(geometry), None)
     half = _POINT
@@ -61,10 +60,10 @@ def _bounds(geometry: Optional[ET.Element], packages: rospkg.RosPack) -> Tuple[n
     return -half, half
 
 
-def _link_boxes(description: str) -> Dict[str, List[np.ndarray]]:
+def _link_boxes(description: str) -> dict[str, list[np.ndarray]]:
     """Link -> the corners (8,3) of each of its visuals, in the link's frame. What cannot be read is a point."""
     packages = rospkg.RosPack()
-    boxes: Dict[str, List[np.ndarray]] = {}
+    boxes: dict[str, list[np.ndarray]] = {}
     for link in lenient_xml.fromstring(description).iterfind("link"):
         found = boxes[link.get("name", "")] = []
         for visual in link.iterfind("visual"):
@@ -93,7 +92,7 @@ def corners(manager) -> np.ndarray:
     return np.concatenate(found) if found else np.zeros((0, 3))
 
 
-def fitting_view(points: np.ndarray, yaw: float, pitch: float, aspect: float) -> Dict[str, float]:
+def fitting_view(points: np.ndarray, yaw: float, pitch: float, aspect: float) -> dict[str, float]:
     """Distance and focal point of the orbit view that has all ``points`` (N,3) in its frame.
 
     :param aspect: width / height of the picture

@@ -11,7 +11,7 @@ import json
 import os
 import sys
 import time
-from typing import Any, Dict, List
+from typing import Any
 
 # RViz's bindings load every module of Qt that is installed; the web engine asks for an OpenGL that OSMesa does not give.
 for _name in ("QtWebEngine", "QtWebEngineCore", "QtWebEngineWidgets"):
@@ -75,7 +75,7 @@ class Grabber:
             self.manager.queueRender()
             self._run(0.01)
 
-    def wait_until_drawn(self) -> Dict[str, Dict[str, str]]:
+    def wait_until_drawn(self) -> dict[str, dict[str, str]]:
         """Until every enabled display has drawn something, or the time limit; what nobody publishes only for the grace.
 
         :returns: ``not_ok`` (display: what it says) and ``unpublished`` (display: topics), as they are then.
@@ -106,9 +106,9 @@ class Grabber:
 
     # ------------------------------------------------------------------------------------------ pictures
 
-    def set_view(self, wanted: List[list], fit: bool) -> None:
+    def set_view(self, wanted: list[list], fit: bool) -> None:
         """``fit``: distance and focal point are those that have the robots in the frame, unless ``wanted`` says others."""
-        values: Dict[str, Any] = dict(wanted)
+        values: dict[str, Any] = dict(wanted)
         if not values:
             return
         points = extent.corners(self.manager) if fit else None
@@ -154,7 +154,7 @@ class Grabber:
 # The bindings do not expose OGRE; the symbols below are those of OGRE 1.12's stable C++ ABI (Itanium mangling).
 
 
-def render_windows() -> List[int]:
+def render_windows() -> list[int]:
     """Addresses of the OGRE windows of RViz, in the order of their making: the 3D view, then those of Image displays."""
     ogre = loaded_library("libOgreMain.so")
     root = ogre._ZN4Ogre4Root15getSingletonPtrEv
@@ -162,7 +162,7 @@ def render_windows() -> List[int]:
     get_target = ogre._ZN4Ogre4Root15getRenderTargetERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE
     get_target.restype = ctypes.c_void_p
     get_target.argtypes = [ctypes.c_void_p, ctypes.c_void_p]
-    windows: List[int] = []
+    windows: list[int] = []
     while not windows or windows[-1]:
         with _StdString(b"OgreWindow(%d)" % (len(windows) + 1)) as name:  # RViz's numbers; 0 is never shown
             windows.append(get_target(root(), name))

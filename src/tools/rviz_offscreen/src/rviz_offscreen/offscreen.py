@@ -10,13 +10,12 @@ import os
 import signal
 import subprocess
 import sys
-from typing import List
 
 from rviz_offscreen.display import private_display
 from rviz_offscreen.errors import DisplayError
 
 
-def _run(command: List[str]) -> int:
+def _run(command: list[str]) -> int:
     with private_display(os.environ.get("OFFSCREEN_SIZE", "1280x800x24")) as variables:
         environment = {k: v for k, v in os.environ.items() if k != "WAYLAND_DISPLAY"}
         try:
@@ -30,7 +29,7 @@ def _run(command: List[str]) -> int:
     return code if code >= 0 else 128 - code
 
 
-def main(command: List[str]) -> int:
+def main(command: list[str]) -> int:
     """Exit code: the command's; 1 when there is no display to be had, 2 without a command."""
     if not command or command[0] in ("-h", "--help"):
         print(__doc__)

@@ -5,10 +5,9 @@ from __future__ import annotations
 import importlib.util
 import re
 from pathlib import Path
-from typing import Optional
 
 
-def package(module: str = "rviz") -> Optional[str]:
+def package(module: str = "rviz") -> str | None:
     """``PyQt5`` (Debian 12), ``PyQt6`` (Debian 13), or None where RViz's Python module is missing. Loads neither."""
     spec = importlib.util.find_spec(module)
     for folder in spec.submodule_search_locations or () if spec else ():

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Dict, Tuple
 
 from .errors import ViewError
 
 #: Orbit views by name: yaw and pitch in radians. What RViz calls yaw is where the eye stands, seen from the focal point.
-NAMED: Dict[str, Dict[str, float]] = {
+NAMED: dict[str, dict[str, float]] = {
     "front": {"yaw": 0.0, "pitch": 0.1},
     "back": {"yaw": math.pi, "pitch": 0.1},
     "left": {"yaw": math.pi / 2, "pitch": 0.1},
@@ -27,7 +26,7 @@ class View:
     configured."""
 
     name: str
-    values: Tuple[Tuple[str, float], ...] = field(default=())
+    values: tuple[tuple[str, float], ...] = field(default=())
 
     @property
     def fits(self) -> bool:

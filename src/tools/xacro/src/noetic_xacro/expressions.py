@@ -11,9 +11,9 @@ import ast
 import functools
 import math
 import re
-from collections.abc import ItemsView, KeysView, ValuesView
+from collections.abc import Callable, ItemsView, Iterable, Iterator, KeysView, ValuesView
 from types import CodeType
-from typing import Any, Callable, Dict, Iterable, Iterator, List, Optional
+from typing import Any
 
 MOST_BITS = 100_000  # of a whole number: 30 000 digits, of which Python prints 4 300
 MOST_ITEMS = 1_000_000  # of a text or a list
@@ -56,7 +56,7 @@ class _Effort:
         return value
 
 
-_efforts: List[_Effort] = [_Effort()]  # of the expressions that are being evaluated, one for the sake of another
+_efforts: list[_Effort] = [_Effort()]  # of the expressions that are being evaluated, one for the sake of another
 
 
 def _spend(count: int) -> None:
@@ -208,7 +208,7 @@ def _range(*bounds: int) -> range:
     return found
 
 
-def _round(number: Any, digits: Optional[int] = None) -> Any:
+def _round(number: Any, digits: int | None = None) -> Any:
     if isinstance(number, int) and isinstance(digits, int) and digits < -MOST_BITS:
         return 0
     return round(number, digits)
@@ -283,7 +283,7 @@ class _Kind:
         return repr(self._kind)
 
 
-_KINDS: Dict[Any, type] = {_Kind(kind): kind for kind in (list, tuple, dict, set, frozenset, str)}
+_KINDS: dict[Any, type] = {_Kind(kind): kind for kind in (list, tuple, dict, set, frozenset, str)}
 _BY_TYPE = {kind: offered for offered, kind in _KINDS.items()}
 
 
@@ -297,7 +297,7 @@ def _type(value: Any) -> Any:
     return _BY_TYPE.get(type(value), type(value))
 
 
-_REPLACED: Dict[str, Any] = {
+_REPLACED: dict[str, Any] = {
     **{kind.__name__: offered for kind, offered in _BY_TYPE.items()},
     **{function.__name__: _going_through(function, _each) for function in (any, all, math.fsum)},
     **{function.__name__: _going_through(function, _compared) for function in (sorted, min, max)},
@@ -318,14 +318,14 @@ _REPLACED: Dict[str, Any] = {
 }
 
 
-_OPERATORS: Dict[type, str] = {
+_OPERATORS: dict[type, str] = {
     ast.Pow: "__power__",
     ast.LShift: "__shift__",
     ast.Mult: "__times__",
     ast.Add: "__plus__",
     ast.Mod: "__modulo__",
 }
-_HELPERS: Dict[str, Any] = {
+_HELPERS: dict[str, Any] = {
     "__power__": _power,
     "__shift__": _shift,
     "__times__": _times,
@@ -423,7 +423,7 @@ def _compiled(expression: str) -> CodeType:
     return compile(ast.fix_missing_locations(_Bounded().visit(tree)), "<expression>", "eval")
 
 
-def safe_eval(expression: str, symbols: Dict[str, Any], local: Any = None) -> Any:
+def safe_eval(expression: str, symbols: dict[str, Any], local: Any = None) -> Any:
     """Takes the place of ``xacro.safe_eval``.
 
     :raises ValueError: a name that begins with two underscores, or a result beyond all reason; and whatever Python has to say.
@@ -437,7 +437,7 @@ def safe_eval(expression: str, symbols: Dict[str, Any], local: Any = None) -> An
         _efforts.pop()
 
 
-def bound_symbols(symbols: Dict[str, Any]) -> None:
+def bound_symbols(symbols: dict[str, Any]) -> None:
     """Replaces the functions that xacro offers to expressions and that can make much out of little."""
     spaces = [symbols] + [symbols[space] for space in ("python", "math") if isinstance(symbols.get(space), dict)]
     for space in spaces:

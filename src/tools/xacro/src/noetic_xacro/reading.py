@@ -9,7 +9,7 @@ import os
 import sys
 import xml.dom.expatbuilder
 import xml.dom.minidom
-from typing import Any, Optional, Union
+from typing import Any
 
 from noetic_xacro.expressions import MOST_ITEMS, bound_symbols, safe_eval
 from noetic_xacro.reserved import RESERVED
@@ -48,9 +48,9 @@ class _PlacedBuilder(xml.dom.expatbuilder.ExpatBuilderNS):
         setattr(self.curNode, PLACE, f"{self._file_name}:{self.getParser().CurrentLineNumber}")
 
 
-def _parse(inp, filename: Optional[str] = None) -> xml.dom.minidom.Document:
+def _parse(inp, filename: str | None = None) -> xml.dom.minidom.Document:
     """Replacement of ``xacro.parse``: same contract, with places."""
-    data: Union[str, bytes]
+    data: str | bytes
     if inp is None:
         assert filename is not None  # one of the two is there
         path = os.path.join(xacro.root_dir, filename)

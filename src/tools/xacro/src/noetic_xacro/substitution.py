@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from types import ModuleType
-from typing import Any, Dict
+from typing import Any
 
 from noetic_xacro.expressions import bound_symbols, safe_eval
 
 
-def substituted(text: str, context: Dict[str, Any], upstream: ModuleType) -> str:
+def substituted(text: str, context: dict[str, Any], upstream: ModuleType) -> str:
     """What ``text`` stands for.
 
     :param context: what xacro keeps of one file; holds ``arg``, and ``anon``: the same name twice is the same name.
@@ -32,7 +32,7 @@ def substituted(text: str, context: Dict[str, Any], upstream: ModuleType) -> str
         raise
 
 
-def _anonymous(name: str, context: Dict[str, Any]) -> str:
+def _anonymous(name: str, context: dict[str, Any]) -> str:
     from rosgraph.names import anonymous_name
 
     names = context.setdefault("anon", {})
@@ -41,7 +41,7 @@ def _anonymous(name: str, context: Dict[str, Any]) -> str:
     return names[name]
 
 
-def _evaluated(expression: str, context: Dict[str, Any], upstream: ModuleType) -> str:
+def _evaluated(expression: str, context: dict[str, Any], upstream: ModuleType) -> str:
     """Bounded as ``${...}`` is; arguments are known by their names."""
     if "__" in expression:
         raise upstream.SubstitutionException("$(eval ...) may not contain double underscore expressions")

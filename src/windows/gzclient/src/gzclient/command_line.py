@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import argparse
-from typing import List
 
 from gazebo_ros.commands.command_line import VERSION
 from ode_sim_viewer.website import DEFAULT_PORT
 
 
-def parse(arguments: List[str]) -> argparse.Namespace:
+def parse(arguments: list[str]) -> argparse.Namespace:
     """Options as gzclient of Gazebo 11 takes them, and those of the page; unknown ones are kept in ``unknown``.
 
     :param arguments: without the program name and without ROS remappings
@@ -34,7 +33,7 @@ def parse(arguments: List[str]) -> argparse.Namespace:
     return options
 
 
-def remarks(options: argparse.Namespace) -> List[str]:
+def remarks(options: argparse.Namespace) -> list[str]:
     """What of the options has no effect, one line each."""
     lines = [
         f"-g {library}: plugins of the window are compiled for Gazebo's own; left out"

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, Callable, Dict, Optional, Sequence, Tuple
+from typing import Any
 
 import rospy
 from control_msgs.msg import GripperCommandActionGoal
@@ -48,16 +49,16 @@ class Command:
 
     topic: str
     cls: type
-    sliders: Tuple[Slider, ...]
+    sliders: tuple[Slider, ...]
     make: Callable[[Sequence[float], Sequence[float]], Any]
     lasting: bool = True
 
 
 #: What the page knows of a joint, and where it is (rad, m).
-Known = Dict[str, Tuple[d.Joint, float]]
+Known = dict[str, tuple[d.Joint, float]]
 
 
-def joints_of(world: WorldRecord, frame: Optional[Frame], names: Sequence[str], manager: str) -> Known:
+def joints_of(world: WorldRecord, frame: Frame | None, names: Sequence[str], manager: str) -> Known:
     """Of the model that has all of these joints; of several the one whose name or ``robotNamespace`` is the manager's namespace."""
     able = [model for model in world.models if all(name in model.joints for name in names)]
     model = next((model for model in able if _belongs(model, manager)), able[0] if able else None)
@@ -76,7 +77,7 @@ def _belongs(model: ModelRecord, manager: str) -> bool:
     )
 
 
-def command_of(kind: str, names: Sequence[str], known: Known) -> Optional[Command]:
+def command_of(kind: str, names: Sequence[str], known: Known) -> Command | None:
     """None for a controller that takes no numbers.
 
     :param kind: its type, as the controller manager lists it. :param names: of its joints, in its own order
@@ -124,7 +125,7 @@ def _slider(name: str, joint: d.Joint, position: float, mode: str) -> Slider:
     return Slider(name, low, high, min(high, max(low, position)) if mode == "position" else 0.0)
 
 
-def _about_zero(controls: Sequence[Tuple[float, str]]) -> Tuple[Slider, ...]:
+def _about_zero(controls: Sequence[tuple[float, str]]) -> tuple[Slider, ...]:
     return tuple(Slider(label, -most, most, 0.0) for most, label in controls)
 
 

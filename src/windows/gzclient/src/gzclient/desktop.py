@@ -8,7 +8,6 @@ import shutil
 import signal
 import subprocess
 import tempfile
-from typing import List, Optional
 
 from node_signals.children import end_with_parent
 
@@ -23,7 +22,7 @@ def available() -> bool:
     return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
-def command(address: str, profile: str) -> Optional[List[str]]:
+def command(address: str, profile: str) -> list[str] | None:
     """What to run; None where there is no browser.
 
     :param profile: folder of its own, so that the window is a process of its own
@@ -70,7 +69,7 @@ class Window:
 
     def __init__(self, address: str):
         self._folder = tempfile.TemporaryDirectory(prefix="gzclient_", ignore_cleanup_errors=True)
-        self.process: Optional[subprocess.Popen] = None
+        self.process: subprocess.Popen | None = None
         words = command(_door(self._folder.name, address), self._folder.name)
         if words is None:
             return

@@ -10,7 +10,7 @@ import os
 import socket
 import sys
 import time
-from typing import Any, List, Optional
+from typing import Any
 from urllib.parse import urlsplit
 
 import node_signals
@@ -23,7 +23,7 @@ _LOOK = 0.25  # wall s between two looks at whether the window has been closed
 _MASTER = "http://localhost:11311"
 
 
-def main(arguments: List[str]) -> int:
+def main(arguments: list[str]) -> int:
     """Exit code: 0 the window was closed or the node ended, 1 it could not be opened."""
     options = command_line.parse([word for word in arguments if ":=" not in word])  # ROS remappings
     _wait_for_master()
@@ -69,7 +69,7 @@ def _serve(website: Website, options: Any, closed: Any) -> int:
     return 0
 
 
-def _open(website: Website, options: Any) -> Optional[desktop.Window]:
+def _open(website: Website, options: Any) -> desktop.Window | None:
     """The window of the desktop, where there is one; the address on the terminal in any case."""
     window = None
     if desktop.available() and not options.no_window:

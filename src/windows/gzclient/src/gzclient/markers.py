@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 from ode_sim.errors import SimulationError
@@ -29,7 +30,7 @@ class Unfit(SimulationError, ValueError):
 
 
 class _Kept(NamedTuple):
-    content: Tuple
+    content: tuple
     node: Any
     frame: str
     until: float  # s of sim time
@@ -41,12 +42,12 @@ class Markers:
     :param root: name that its scene nodes begin with. :param find: URI of a mesh -> file or None
     """
 
-    def __init__(self, scene: Any, root: str, find: Callable[[str], Optional[str]] = lambda uri: None):
+    def __init__(self, scene: Any, root: str, find: Callable[[str], str | None] = lambda uri: None):
         self._scene = scene
         self._root = root
         self._find = find
-        self._kept: Dict[Tuple[str, int], _Kept] = {}
-        self._frames: Dict[str, Any] = {}  # frame_id -> the node that carries its markers
+        self._kept: dict[tuple[str, int], _Kept] = {}
+        self._frames: dict[str, Any] = {}  # frame_id -> the node that carries its markers
         self._serial = 0
 
     def __len__(self) -> int:
@@ -86,7 +87,7 @@ class Markers:
         node.position, node.wxyz = pose.p, wxyz(pose.q)
         self._kept[key] = _Kept(content, node, frame, until)
 
-    def place(self, places: Dict[str, Pose], now: float) -> List[str]:
+    def place(self, places: dict[str, Pose], now: float) -> list[str]:
         """Put every frame where it is and drop what has outlived itself; the frames that are not known.
 
         :param places: frame -> X_WF
@@ -107,7 +108,7 @@ class Markers:
             take_away(node)
         self._frames.clear()
 
-    def _drop(self, key: Tuple[str, int]) -> None:
+    def _drop(self, key: tuple[str, int]) -> None:
         if key in self._kept:
             take_away(self._kept.pop(key).node)
 
@@ -161,7 +162,7 @@ class Markers:
         mean = tuple(int(v) for v in colours.mean(axis=0)) if len(marker.colors) else colour
         return self._mesh(node, points, triangles, mean, opacity, size)
 
-    def _mesh(self, node: str, vertices: np.ndarray, triangles: np.ndarray, colour: Tuple, opacity: Optional[float], size: Tuple) -> Any:
+    def _mesh(self, node: str, vertices: np.ndarray, triangles: np.ndarray, colour: tuple, opacity: float | None, size: tuple) -> Any:
         return self._scene.add_mesh_simple(
             node,
             np.asarray(vertices, np.float32),
@@ -173,7 +174,7 @@ class Markers:
             cast_shadow=False,
         )
 
-    def _file(self, node: str, marker: Any, colour: Tuple, opacity: Optional[float], size: Tuple) -> Any:
+    def _file(self, node: str, marker: Any, colour: tuple, opacity: float | None, size: tuple) -> Any:
         from ode_sim.mesh import load_visual
 
         uri = marker.mesh_resource
@@ -191,7 +192,7 @@ class Markers:
         return root
 
 
-def _content(marker: Any) -> Tuple:
+def _content(marker: Any) -> tuple:
     """What it looks like, without where it is.
 
     :raises Unfit: nobody could draw it
@@ -238,7 +239,7 @@ def _pose(marker: Any) -> Pose:
     return Pose((p.x, p.y, p.z), tuple(turn / length) if length > 1e-9 else (0.0, 0.0, 0.0, 1.0))  # as RViz takes zeros
 
 
-def _rgba(marker: Any) -> Tuple[float, float, float, float]:
+def _rgba(marker: Any) -> tuple[float, float, float, float]:
     return marker.color.r, marker.color.g, marker.color.b, marker.color.a
 
 
@@ -261,13 +262,13 @@ def _rows(kind: int, count: int) -> np.ndarray:
     return np.arange(count // 2 * 2).reshape(-1, 2)
 
 
-def _extent(kind: int, size: Tuple) -> Tuple[float, float, float]:
+def _extent(kind: int, size: tuple) -> tuple[float, float, float]:
     """What the unit mesh of a shape is stretched by: a marker's scale is a diameter."""
     x, y, z = size
     return {Marker.CUBE: (x, y, z), Marker.SPHERE: (x / 2, y / 2, z / 2), Marker.CYLINDER: (x / 2, y / 2, z)}[kind]
 
 
-def _arrow(marker: Any) -> Tuple[np.ndarray, float, float, float]:
+def _arrow(marker: Any) -> tuple[np.ndarray, float, float, float]:
     """Points (1, 2, 3), radii of shaft and head, length of the head: of a pose, or of two points."""
     x, y, z = marker.scale.x, marker.scale.y, marker.scale.z
     if len(marker.points) >= 2:

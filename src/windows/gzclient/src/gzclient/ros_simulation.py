@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from dataclasses import replace
-from typing import Any, Dict, Optional, Tuple
+from typing import Any
 
 import numpy as np
 import rospy
@@ -59,14 +59,14 @@ class RosSimulation(Simulation):
 
     def __init__(self, namespace: str = "/gazebo"):
         self._namespace = namespace.rstrip("/")
-        self._subscriber: Optional[rospy.Subscriber] = None
+        self._subscriber: rospy.Subscriber | None = None
         self._lock = threading.Lock()
-        self._frame: Optional[Frame] = None
+        self._frame: Frame | None = None
         self._at = 0.0
-        self._known: Optional[WorldRecord] = None
-        self._contact_stream: Optional[rospy.Subscriber] = None
+        self._known: WorldRecord | None = None
+        self._contact_stream: rospy.Subscriber | None = None
         self._contacts = np.zeros((0, 6), np.float32)
-        self._prompt: Dict[str, Tuple[Any, threading.Lock]] = {}  # connections that are kept open
+        self._prompt: dict[str, tuple[Any, threading.Lock]] = {}  # connections that are kept open
 
     # ------------------------------------------------------------------------------------------ what there is
 
@@ -97,7 +97,7 @@ class RosSimulation(Simulation):
         self.look(False)
         self.watch_contacts(False)
 
-    def frame(self) -> Optional[Frame]:
+    def frame(self) -> Frame | None:
         return self._frame if time.monotonic() - self._at < _STALE else None
 
     def describe(self) -> WorldRecord:
@@ -108,7 +108,7 @@ class RosSimulation(Simulation):
             raise Refused(f"the simulator describes its world in an unknown way: {error}") from error
         return self._known
 
-    def model_names(self) -> Dict[str, str]:
+    def model_names(self) -> dict[str, str]:
         return self.finder().models()
 
     def finder(self) -> Any:
@@ -201,7 +201,7 @@ class RosSimulation(Simulation):
         if self._known is not None and light.name in lights:
             self._known = replace(self._known, lights=tuple({**lights, light.name: light}.values()))
 
-    def _change_light(self, light: d.Light, known: Optional[d.Light]) -> None:
+    def _change_light(self, light: d.Light, known: d.Light | None) -> None:
         if known is not None and (known.range, known.spot) != (light.range, light.spot):  # the service has no place for them
             self._call("delete_light", DeleteLight, light.name)
             self.insert(light.name, light_text(replace(light, pose=d.Pose())), light.pose)
@@ -225,7 +225,7 @@ class RosSimulation(Simulation):
     def set_joint_position(self, model: str, joint: str, position: float) -> None:
         self._soon("command_joint", CommandJoint, f"{model}::{joint}", CommandJointRequest.SET, position, 0.0, 0.0, 0.0)
 
-    def command_joint(self, model: str, joint: str, mode: str, value: float, gains: Tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
+    def command_joint(self, model: str, joint: str, mode: str, value: float, gains: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
         self._soon("command_joint", CommandJoint, f"{model}::{joint}", _JOINT_MODES[mode], value, *gains)
 
     def link_properties(self, model: str, link: str) -> LinkProperties:
@@ -259,7 +259,7 @@ class RosSimulation(Simulation):
 
     # ------------------------------------------------------------------------------------------ world
 
-    def physics(self) -> Tuple[d.Physics, d.Vec3]:
+    def physics(self) -> tuple[d.Physics, d.Vec3]:
         r = self._call("get_physics_properties", GetPhysicsProperties)
         o = r.ode_config
         physics = replace(
@@ -304,7 +304,7 @@ class RosSimulation(Simulation):
 
     # ------------------------------------------------------------------------------------------ timeline
 
-    def moments(self) -> Tuple[KeptMoment, ...]:
+    def moments(self) -> tuple[KeptMoment, ...]:
         r = self._timeline(TimelineRequest.LIST)
         return tuple(KeptMoment(number, time.to_sec()) for number, time in zip(r.numbers, r.times))
 

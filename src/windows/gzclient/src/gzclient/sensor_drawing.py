@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, Dict, NamedTuple, Tuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 from gazebo_msgs.msg import ContactsState
@@ -151,14 +152,14 @@ def _wrench(view: View, source: Any, place: Place) -> None:
     _forces(view, source, place, (120, 60, 220)).show(np.zeros((2, 3)), vectors, view.scale)
 
 
-def _forces(view: View, source: Any, place: Place, colour: Tuple[int, int, int]) -> Forces:
+def _forces(view: View, source: Any, place: Place, colour: tuple[int, int, int]) -> Forces:
     if source.forces is None:
         source.node = view.scene.add_frame(source.name(place.node), show_axes=False, position=place.pose.p, wxyz=wxyz(place.pose.q))
         source.forces = Forces(view.scene, source.node.name, colour)
     return source.forces
 
 
-KINDS: Dict[str, Kind] = {
+KINDS: dict[str, Kind] = {
     "Laser scans": Kind(LaserScan, _scan),
     "Sonars": Kind(Range, _cone),
     "Cameras": Kind(Image, _camera, 4),

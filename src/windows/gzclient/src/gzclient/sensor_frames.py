@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Dict, Optional, Tuple
+from typing import Any
 
 import numpy as np
 from ode_sim.math3 import Pose, compose, quat_from_rpy
@@ -16,7 +16,7 @@ _CAMERAS = ("camera", "depth", "depth_camera", "multicamera", "rgbd_camera", "wi
 _FLOATS = {7: "f4", 8: "f8"}  # datatypes of sensor_msgs/PointField
 
 
-def find_frame(world: WorldRecord, frame_id: str) -> Optional[Tuple[str, str, Pose]]:
+def find_frame(world: WorldRecord, frame_id: str) -> tuple[str, str, Pose] | None:
     """(model, link, X_LF) of a message's ``frame_id``: of the sensor whose plugin names it, or of the link so named.
 
     Links that a fixed joint merged into their parent are known by their sensors only.
@@ -55,7 +55,7 @@ def is_camera(world: WorldRecord, model: str, link: str, frame_id: str) -> bool:
     return False
 
 
-def cloud_points(message: Any) -> Tuple[np.ndarray, np.ndarray]:
+def cloud_points(message: Any) -> tuple[np.ndarray, np.ndarray]:
     """((N, 3) float32 m, (N, 3) uint8 colours) of a sensor_msgs/PointCloud2, thinned; grey where it has no colours.
 
     :raises ValueError: it has no places, or is cut off
@@ -67,7 +67,7 @@ def cloud_points(message: Any) -> Tuple[np.ndarray, np.ndarray]:
     if step <= 0 or len(message.data) < step * count or message.row_step not in (0, step * message.width):
         raise ValueError(f"the cloud is cut off: {len(message.data)} bytes for {count} points")
     order = ">" if message.is_bigendian else "<"
-    layout: Dict[str, Any] = {
+    layout: dict[str, Any] = {
         "names": list("xyz"),
         "formats": [order + _FLOATS[fields[name].datatype] for name in "xyz"],
         "offsets": [fields[name].offset for name in "xyz"],

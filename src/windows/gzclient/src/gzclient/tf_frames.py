@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Any, Dict, List, Tuple
+from typing import Any
 
 import numpy as np
 import rospy
@@ -12,19 +12,19 @@ from ode_sim_viewer.simulation import Frame, WorldRecord
 from tf2_msgs.msg import TFMessage
 
 _MOST = 200  # frames
-Transforms = Dict[str, Tuple[str, Pose]]  # child -> (parent, X_PC)
+Transforms = dict[str, tuple[str, Pose]]  # child -> (parent, X_PC)
 
 
 def name_of(frame: str) -> str:
     return frame.strip("/")
 
 
-def place_frames(transforms: Transforms, links: Dict[str, Pose]) -> Dict[str, Pose]:
+def place_frames(transforms: Transforms, links: dict[str, Pose]) -> dict[str, Pose]:
     """X_WF of every frame: each tree hangs on the first of its frames that is a link of the world, else on the origin.
 
     :param links: name -> X_WL
     """
-    in_tree: Dict[str, Dict[str, Pose]] = {}  # root -> frame -> X_RF
+    in_tree: dict[str, dict[str, Pose]] = {}  # root -> frame -> X_RF
     for frame in {name for child, (parent, _) in transforms.items() for name in (child, parent)}:
         chain, here = Pose(), frame
         for _ in range(len(transforms) + 1):  # a loop ends somewhere
@@ -33,7 +33,7 @@ def place_frames(transforms: Transforms, links: Dict[str, Pose]) -> Dict[str, Po
             here, step = transforms[here]
             chain = compose(step, chain)
         in_tree.setdefault(here, {})[frame] = chain
-    placed: Dict[str, Pose] = {}
+    placed: dict[str, Pose] = {}
     for frames in in_tree.values():
         anchor = next((frame for frame in sorted(frames) if frame in links), None)
         x_wr = compose(links[anchor], inverse(frames[anchor])) if anchor else Pose()
@@ -41,9 +41,9 @@ def place_frames(transforms: Transforms, links: Dict[str, Pose]) -> Dict[str, Po
     return placed
 
 
-def links_of(world: WorldRecord, frame: Frame) -> Dict[str, Pose]:
+def links_of(world: WorldRecord, frame: Frame) -> dict[str, Pose]:
     """Link name -> X_WL; the first model that has it."""
-    found: Dict[str, Pose] = {}
+    found: dict[str, Pose] = {}
     for model in world.models:
         for name, row in model.links.items():
             found.setdefault(name.rpartition("::")[2], frame.pose(row))
@@ -56,7 +56,7 @@ class TfFrames:
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._transforms: Transforms = {}
-        self._subscribers: List[Any] = []
+        self._subscribers: list[Any] = []
 
     @property
     def listening(self) -> bool:
@@ -82,7 +82,7 @@ class TfFrames:
                 if np.isfinite(numbers).all() and child != parent and (child in self._transforms or len(self._transforms) < _MOST):
                     self._transforms[child] = (parent, Pose(numbers[:3], numbers[3:]))
 
-    def placed(self, world: WorldRecord, frame: Frame) -> Dict[str, Pose]:
+    def placed(self, world: WorldRecord, frame: Frame) -> dict[str, Pose]:
         """X_WF of each of them."""
         with self._lock:
             transforms = dict(self._transforms)

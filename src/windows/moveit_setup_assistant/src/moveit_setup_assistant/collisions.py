@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import combinations
-from typing import Callable, Dict, List, Optional, Set, Tuple
 
 import motion
 
-Pair = Tuple[str, str]
+Pair = tuple[str, str]
 ADJACENT, DEFAULT, ALWAYS, NEVER, USER = "Adjacent", "Default", "Always", "Never", "User"
 ROUND = 200  # states in each round of the search for pairs that always collide
 
@@ -17,9 +17,9 @@ def pair(one: str, other: str) -> Pair:
     return (one, other) if one < other else (other, one)
 
 
-def adjacent_pairs(model: "motion.RobotModel") -> Set[Pair]:
+def adjacent_pairs(model: motion.RobotModel) -> set[Pair]:
     """Links joined by one joint; a link without geometry makes its neighbours adjacent to one another."""
-    neighbours: Dict[str, Set[str]] = {name: set() for name in model.links}
+    neighbours: dict[str, set[str]] = {name: set() for name in model.links}
     for name in model.links:
         parent = model.link(name).parent_link
         if parent:
@@ -36,7 +36,7 @@ def adjacent_pairs(model: "motion.RobotModel") -> Set[Pair]:
 class Sampler:
     """Random states of a robot, each told which of the pairs still in question collide."""
 
-    def __init__(self, model: "motion.RobotModel", seed: int) -> None:
+    def __init__(self, model: motion.RobotModel, seed: int) -> None:
         self._scene = motion.PlanningScene(model)
         self._state = model.state()
         self._seed = seed
@@ -48,30 +48,30 @@ class Sampler:
         for one, other in pairs:
             self._acm.set(one, other, True)
 
-    def default(self) -> Set[Pair]:
+    def default(self) -> set[Pair]:
         """Pairs that collide in the robot's default state."""
         self._state.set_default()
         return self._collisions()
 
-    def random(self) -> Set[Pair]:
+    def random(self) -> set[Pair]:
         """Pairs that collide in the next random state."""
         self._state.randomize(seed=self._seed)
         self._seed += 1
         return self._collisions()
 
-    def _collisions(self) -> Set[Pair]:
+    def _collisions(self) -> set[Pair]:
         found = self._scene.check(self._state, contacts=self._limit, per_pair=1, padded=False, acm=self._acm, world=False)
         return {pair(contact.body_1, contact.body_2) for contact in found.contacts}
 
 
 def compute_disabled(
-    model: "motion.RobotModel",
+    model: motion.RobotModel,
     trials: int = 10000,
     always_fraction: float = 0.95,
     seed: int = 1,
     find_never: bool = True,
-    progress: Optional[Callable[[float], bool]] = None,
-) -> Dict[Pair, str]:
+    progress: Callable[[float], bool] | None = None,
+) -> dict[Pair, str]:
     """The pairs that need no check, each with the first reason that holds for it.
 
     :param model: the robot; groups and disabled collisions of its SRDF play no part.
@@ -81,7 +81,7 @@ def compute_disabled(
     :param progress: called with 0 to 1 now and then; a false return value other than None ends the search (``{}``).
     """
     geometry = [name for name in sorted(model.links) if model.link(name).has_geometry]
-    reasons: Dict[Pair, str] = {p: ADJACENT for p in sorted(adjacent_pairs(model))}
+    reasons: dict[Pair, str] = {p: ADJACENT for p in sorted(adjacent_pairs(model))}
     sampler = Sampler(model, seed)
     sampler.allow(reasons)
     _add(reasons, sampler, sampler.default(), DEFAULT)
@@ -95,14 +95,14 @@ def compute_disabled(
     return reasons
 
 
-def _add(reasons: Dict[Pair, str], sampler: Sampler, pairs: Set[Pair], reason: str) -> None:
+def _add(reasons: dict[Pair, str], sampler: Sampler, pairs: set[Pair], reason: str) -> None:
     new = sorted(p for p in pairs if p not in reasons)
     reasons.update((p, reason) for p in new)
     sampler.allow(new)
 
 
-def _always_round(reasons: Dict[Pair, str], sampler: Sampler, fraction: float) -> bool:
-    counts: Dict[Pair, int] = {}
+def _always_round(reasons: dict[Pair, str], sampler: Sampler, fraction: float) -> bool:
+    counts: dict[Pair, int] = {}
     for _ in range(ROUND):
         for p in sampler.random():
             counts[p] = counts.get(p, 0) + 1
@@ -111,9 +111,9 @@ def _always_round(reasons: Dict[Pair, str], sampler: Sampler, fraction: float) -
     return bool(always)
 
 
-def _seen_in(sampler: Sampler, trials: int, progress) -> Optional[Set[Pair]]:
+def _seen_in(sampler: Sampler, trials: int, progress) -> set[Pair] | None:
     """Every pair that collided at least once; asked no more from then on, so that the search grows faster."""
-    seen: Set[Pair] = set()
+    seen: set[Pair] = set()
     for trial in range(trials):
         new = sampler.random() - seen
         if new:
@@ -126,7 +126,7 @@ def _seen_in(sampler: Sampler, trials: int, progress) -> Optional[Set[Pair]]:
     return seen
 
 
-def collision_table(model: "motion.RobotModel", reasons: Dict[Pair, str]) -> List[Tuple[str, str, str]]:
+def collision_table(model: motion.RobotModel, reasons: dict[Pair, str]) -> list[tuple[str, str, str]]:
     """All pairs of links with geometry as (link 1, link 2, reason); "" for those that are checked."""
     names = [name for name in sorted(model.links) if model.link(name).has_geometry]
     return [(one, other, reasons.get((one, other), "")) for one, other in combinations(names, 2)]

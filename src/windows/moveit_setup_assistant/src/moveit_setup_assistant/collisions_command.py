@@ -7,7 +7,6 @@ import os
 import sys
 import tempfile
 from pathlib import Path
-from typing import Dict, List
 
 import rospkg
 import rospy
@@ -20,7 +19,7 @@ from moveit_setup_assistant.robot_source import RobotSource
 from moveit_setup_assistant.semantics import Semantics
 
 
-def main(words: List[str]) -> int:
+def main(words: list[str]) -> int:
     """Run the command; the exit code is 0, or 1 with one line on what is wrong."""
     options = _parser().parse_args(rospy.myargv(["collisions_updater", *words])[1:])
     try:
@@ -75,7 +74,7 @@ def _load(options) -> tuple:
     return config, options.output or options.srdf
 
 
-def _compute(config: Configuration, options) -> Dict[collisions.Pair, str]:
+def _compute(config: Configuration, options) -> dict[collisions.Pair, str]:
     kept = {}
     if options.keep:
         kept = {collisions.pair(p.link1, p.link2): p.reason or collisions.USER for p in config.semantics.disable_collisionss}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Dict, List, Optional
+from typing import Any
 
 import yaml
 
@@ -42,7 +42,7 @@ class Kinematics:
     goal_position_tolerance: float = 1e-4
     goal_orientation_tolerance: float = 1e-3
     parameters_file: str = ""
-    others: Dict[str, Any] = field(default_factory=dict)  # keys of solvers that this program does not know
+    others: dict[str, Any] = field(default_factory=dict)  # keys of solvers that this program does not know
 
     _KEYS = {
         "kinematics_solver": "solver",
@@ -54,7 +54,7 @@ class Kinematics:
     }
 
     @classmethod
-    def from_mapping(cls, values: Dict[str, Any]) -> "Kinematics":
+    def from_mapping(cls, values: dict[str, Any]) -> Kinematics:
         """The entry of kinematics.yaml."""
         made = cls()
         for key, value in values.items():
@@ -64,7 +64,7 @@ class Kinematics:
                 made.others[key] = value
         return made
 
-    def to_mapping(self) -> Dict[str, Any]:
+    def to_mapping(self) -> dict[str, Any]:
         """The entry of kinematics.yaml."""
         return {**{key: getattr(self, name) for key, name in self._KEYS.items()}, **self.others}
 
@@ -75,7 +75,7 @@ class Controller:
 
     name: str
     type: str
-    joints: List[str] = field(default_factory=list)
+    joints: list[str] = field(default_factory=list)
 
     @property
     def is_action(self) -> bool:
@@ -90,19 +90,19 @@ class Configuration:
     source: RobotSource
     robot: Robot
     semantics: Semantics
-    kinematics: Dict[str, Kinematics] = field(default_factory=dict)
-    default_planners: Dict[str, str] = field(default_factory=dict)
-    controllers: List[Controller] = field(default_factory=list)
-    sensors: List[Dict[str, Any]] = field(default_factory=list)
+    kinematics: dict[str, Kinematics] = field(default_factory=dict)
+    default_planners: dict[str, str] = field(default_factory=dict)
+    controllers: list[Controller] = field(default_factory=list)
+    sensors: list[dict[str, Any]] = field(default_factory=list)
     gazebo_urdf: str = ""
     author_name: str = ""
     author_email: str = ""
     srdf_path: str = ""  # below the package; "" for config/<robot>.srdf
     generated_timestamp: int = 0
-    warnings: List[str] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
 
     @classmethod
-    def new(cls, source: RobotSource) -> "Configuration":
+    def new(cls, source: RobotSource) -> Configuration:
         """An empty configuration of the robot.
 
         :raises AssistantError: the description cannot be loaded.
@@ -112,7 +112,7 @@ class Configuration:
 
     @classmethod
     @files_told()
-    def load(cls, package: Path) -> "Configuration":
+    def load(cls, package: Path) -> Configuration:
         """The configuration that a package of MoveIt's assistant, or of this one, holds.
 
         :raises AssistantError: the folder is no such package, or one of its files cannot be read.
@@ -182,7 +182,7 @@ class Configuration:
                 taken.update(joints)
                 self.controllers.append(Controller(f"{group.name}_controller", kind, joints))
 
-    def problems(self) -> List[str]:
+    def problems(self) -> list[str]:
         """What must be mended before a package can be written, one line each."""
         found = self.semantics.problems(self.robot.model)
         if not self.author_name.strip() or "@" not in self.author_email.strip("@ "):
@@ -201,7 +201,7 @@ class Configuration:
                 found.append(f"group '{group.name}' has a name with blanks, or none; use letters, digits and _")
         return found
 
-    def incomplete(self) -> List[str]:
+    def incomplete(self) -> list[str]:
         """What most robots need and this one lacks; a package can be written all the same."""
         found = [] if self.semantics.groups else ["There is no planning group: nothing can be planned."]
         if not self.semantics.disable_collisionss:
@@ -222,10 +222,10 @@ def written_at(package: Path) -> int:
         return 0
 
 
-def _read(path: Path, optional: bool = False) -> Dict[str, Any]:
+def _read(path: Path, optional: bool = False) -> dict[str, Any]:
     """The mapping of a YAML file; ``{}`` if an optional one is missing."""
     try:
-        values: Optional[Any] = yaml.safe_load(path.read_text(encoding="utf-8"))
+        values: Any | None = yaml.safe_load(path.read_text(encoding="utf-8"))
     except OSError as error:
         if optional:
             return {}

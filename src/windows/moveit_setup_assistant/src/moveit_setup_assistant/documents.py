@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List
+from typing import Any
 
 import yaml
 
@@ -85,9 +85,9 @@ def kinematics(config: Configuration) -> str:
 def ompl_planning(config: Configuration) -> str:
     """All planners for all groups."""
     model = config.model()
-    values: Dict[str, Any] = {"planner_configs": planners.configurations()}
+    values: dict[str, Any] = {"planner_configs": planners.configurations()}
     for group in config.semantics.groups:
-        entry: Dict[str, Any] = {}
+        entry: dict[str, Any] = {}
         if config.default_planners.get(group.name):
             entry["default_planner_config"] = config.default_planners[group.name]
         entry["planner_configs"] = planners.names()
@@ -138,7 +138,7 @@ def stomp_planning(config: Configuration) -> str:
     )
 
 
-def _stomp(group: str, joints: int) -> Dict[str, Any]:
+def _stomp(group: str, joints: int) -> dict[str, Any]:
     return {
         "group_name": group,
         "optimization": {
@@ -202,7 +202,7 @@ def fake_controllers(config: Configuration) -> str:
         if state.group not in seen:
             seen.add(state.group)
             initial.append({"group": state.group, "pose": state.name})
-    values: Dict[str, Any] = {"controller_list": listed}
+    values: dict[str, Any] = {"controller_list": listed}
     if initial:
         values["initial"] = initial
     return text(values)
@@ -227,7 +227,7 @@ def ros_controllers(config: Configuration) -> str:
     return text(values) if values else "# No controllers of ros_control were chosen.\n"
 
 
-def _gains(controller) -> Dict[str, Any]:
+def _gains(controller) -> dict[str, Any]:
     if controller.type.startswith("position_controllers"):
         return {}  # positions go straight to the joints
     return {"gains": {joint: dict(GAINS) for joint in controller.joints}}
@@ -240,5 +240,5 @@ def gazebo_controllers(_config: Configuration) -> str:
 
 def sensors_3d(config: Configuration) -> str:
     """Where the octomap of the surroundings comes from."""
-    sensors: List[Dict[str, Any]] = config.sensors
+    sensors: list[dict[str, Any]] = config.sensors
     return text({"sensors": [dict(sensor) for sensor in sensors]}, f"Read by the assistant, which knows this name ({MARKER}).")

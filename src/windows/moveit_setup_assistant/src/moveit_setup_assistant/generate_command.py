@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import sys
 from pathlib import Path
-from typing import List
 
 import rospy
 
@@ -15,7 +14,7 @@ from moveit_setup_assistant.errors import AssistantError
 from moveit_setup_assistant.robot_source import RobotSource
 
 
-def main(words: List[str]) -> int:
+def main(words: list[str]) -> int:
     """Run the command; the exit code is 0, or 1 with one line on what is wrong."""
     parser = argparse.ArgumentParser(
         prog="generate",

@@ -22,8 +22,9 @@ search_resolution, tolerances) may stand beside ``solver``.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, Callable, Dict, List, Optional
+from typing import Any
 
 import yaml
 from srdfdom import srdf
@@ -60,7 +61,7 @@ class _Reader:
     def error(self, place: str, problem: str) -> AssistantError:
         return AssistantError(f"'{self.path}': {place}: {problem}")
 
-    def mapping(self, value: Any, place: str, keys=None) -> Dict[str, Any]:
+    def mapping(self, value: Any, place: str, keys=None) -> dict[str, Any]:
         value = {} if value is None else value
         if not isinstance(value, dict):
             raise self.error(place, "must be a mapping (name: value)")
@@ -69,7 +70,7 @@ class _Reader:
                 raise self.error(place, f"'{key}' is not known; there are: {', '.join(keys)}")
         return value
 
-    def names(self, value: Any, place: str, count: Optional[int] = None) -> List[str]:
+    def names(self, value: Any, place: str, count: int | None = None) -> list[str]:
         value = [] if value is None else value
         if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
             raise self.error(place, "must be a list of names")
@@ -77,7 +78,7 @@ class _Reader:
             raise self.error(place, f"must have {count} names, not {len(value)}")
         return value
 
-    def entries(self, value: Any, place: str, required, optional=()) -> List[Dict[str, Any]]:
+    def entries(self, value: Any, place: str, required, optional=()) -> list[dict[str, Any]]:
         value = [] if value is None else value
         if not isinstance(value, list):
             raise self.error(place, "must be a list")
@@ -94,7 +95,7 @@ class _Reader:
         return float(value)
 
 
-def configuration(source: RobotSource, path: Path, progress: Optional[Callable[[float], bool]] = None) -> Configuration:
+def configuration(source: RobotSource, path: Path, progress: Callable[[float], bool] | None = None) -> Configuration:
     """The configuration that the file ``path`` describes for the robot of ``source``; collisions are computed.
 
     :raises AssistantError: the robot or the file cannot be used; one line that names the place.
@@ -140,12 +141,12 @@ class _AnyKey(tuple):
         return True
 
 
-def set_collisions(config: Configuration, reasons: Dict[collisions.Pair, str]) -> None:
+def set_collisions(config: Configuration, reasons: dict[collisions.Pair, str]) -> None:
     """Replace the disabled collisions of the SRDF."""
     config.semantics.disable_collisionss = [srdf.DisableCollisions(one, other, reason) for (one, other), reason in sorted(reasons.items())]
 
 
-def _groups(config: Configuration, reader: _Reader, groups: Dict[str, Any]) -> None:
+def _groups(config: Configuration, reader: _Reader, groups: dict[str, Any]) -> None:
     for name, entry in groups.items():
         place = f"groups: {name}"
         entry = reader.mapping(entry, place, _GROUP_KEYS)
@@ -171,7 +172,7 @@ def _groups(config: Configuration, reader: _Reader, groups: Dict[str, Any]) -> N
             config.default_planners[group.name] = str(planner)
 
 
-def _rest_of_semantics(config: Configuration, reader: _Reader, values: Dict[str, Any]) -> None:
+def _rest_of_semantics(config: Configuration, reader: _Reader, values: dict[str, Any]) -> None:
     document = config.semantics
     for entry in reader.entries(values.get("poses"), "poses", ("name", "group", "joints")):
         state = srdf.GroupState(str(entry["name"]), str(entry["group"]))

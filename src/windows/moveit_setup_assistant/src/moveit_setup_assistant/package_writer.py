@@ -7,10 +7,10 @@ import shutil
 import string
 import tempfile
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
-from typing import Callable, Dict, List, Optional, Set
 from xml.sax.saxutils import escape, quoteattr
 
 import rospkg
@@ -52,7 +52,7 @@ _LAUNCH_FILES = (
     ("run_benchmark_ompl.launch", "compares planners"),
     ("gdb_settings.gdb", "for a debugger"),
 )
-_DOCUMENTS: Dict[str, tuple] = {
+_DOCUMENTS: dict[str, tuple] = {
     "joint_limits.yaml": (documents.joint_limits, "limits of joints, for planning"),
     "cartesian_limits.yaml": (documents.cartesian_limits, "limits of straight motions"),
     "kinematics.yaml": (documents.kinematics, "which solver finds joint values for a pose"),
@@ -99,7 +99,7 @@ def templates_folder() -> Path:
 
 
 @files_told()
-def plan(config: Configuration, package: Path) -> List[PlannedFile]:
+def plan(config: Configuration, package: Path) -> list[PlannedFile]:
     """All files of the package, compared with those that ``package`` holds now.
 
     Files that somebody changed by hand are not marked to be written: set ``write`` to overwrite them.
@@ -113,8 +113,8 @@ def plan(config: Configuration, package: Path) -> List[PlannedFile]:
 
 
 def write(
-    config: Configuration, package: Path, files: Optional[List[PlannedFile]] = None, progress: Optional[Callable[[str], None]] = None
-) -> List[str]:
+    config: Configuration, package: Path, files: list[PlannedFile] | None = None, progress: Callable[[str], None] | None = None
+) -> list[str]:
     """Write the package; the paths that were written.
 
     :param files: of :func:`plan`, with ``write`` as wanted; by default all that nobody changed by hand.
@@ -148,7 +148,7 @@ def write(
     return [file.path for file in chosen]
 
 
-def _move(staged: Path, package: Path, paths: List[str]) -> None:
+def _move(staged: Path, package: Path, paths: list[str]) -> None:
     """Put the staged files into place: the whole folder at once if it is new, else file by file, each at once."""
     if not package.exists() or not any(package.iterdir()):
         staged.chmod(0o755)
@@ -187,7 +187,7 @@ def _compare(package: Path, path: str, text: str, purpose: str, timestamp: int) 
     return PlannedFile(path, text, purpose, State.HAND_MADE if by_hand else State.CHANGED, not by_hand)
 
 
-def _texts(config: Configuration, package: str) -> Dict[str, tuple]:
+def _texts(config: Configuration, package: str) -> dict[str, tuple]:
     """Path -> (text, purpose) of every file."""
     values = _values(config, package)
     folder = templates_folder()
@@ -208,7 +208,7 @@ def _texts(config: Configuration, package: str) -> Dict[str, tuple]:
     return texts
 
 
-def _values(config: Configuration, package: str) -> Dict[str, str]:
+def _values(config: Configuration, package: str) -> dict[str, str]:
     model, source = config.model(), config.source
     frames = [v for v in config.semantics.virtual_joints if v.child_link == model.root_link]
     return {
@@ -246,10 +246,10 @@ def _load_attribute(source) -> str:
     return "textfile=" + quoteattr(where)
 
 
-def _initial_joints(config: Configuration) -> Dict[str, float]:
+def _initial_joints(config: Configuration) -> dict[str, float]:
     """Joint values of the first pose of each group."""
-    seen: Set[str] = set()
-    values: Dict[str, float] = {}
+    seen: set[str] = set()
+    values: dict[str, float] = {}
     for state in config.semantics.group_states:
         if state.group not in seen:
             seen.add(state.group)

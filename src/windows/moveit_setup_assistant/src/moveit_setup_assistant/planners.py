@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List
+from typing import Any
 
 _TREE = {"range": 0.0, "goal_bias": 0.05}
 _INFORMED = {
@@ -20,7 +20,7 @@ _INFORMED = {
 }
 _SPARSE = {"stretch_factor": 3.0, "sparse_delta_fraction": 0.25, "dense_delta_fraction": 0.001}
 
-PARAMETERS: Dict[str, Dict[str, Any]] = {
+PARAMETERS: dict[str, dict[str, Any]] = {
     "AnytimePathShortening": {"shortcut": True, "hybridize": True, "max_hybrid_paths": 24, "num_planners": 4, "planners": ""},
     "SBL": {"range": 0.0},
     "EST": _TREE,
@@ -85,11 +85,11 @@ PARAMETERS: Dict[str, Dict[str, Any]] = {
 }
 
 
-def names() -> List[str]:
+def names() -> list[str]:
     """All planners, in the order in which files list them."""
     return list(PARAMETERS)
 
 
-def configurations() -> Dict[str, Dict[str, Any]]:
+def configurations() -> dict[str, dict[str, Any]]:
     """The mapping below ``planner_configs`` of ompl_planning.yaml."""
     return {name: {"type": f"geometric::{name}", **values} for name, values in PARAMETERS.items()}

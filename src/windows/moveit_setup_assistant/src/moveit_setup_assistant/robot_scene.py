@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Iterable
 from dataclasses import replace
-from typing import Dict, Iterable, List, Optional, Tuple
 
 import lenient_xml
 import numpy as np
@@ -15,7 +15,7 @@ from ode_sim_rendering.scene import WORLD_FRAME, SceneDescription, SceneLight, S
 
 from moveit_setup_assistant.robot_source import Robot
 
-Colour = Tuple[float, float, float, float]  # red, green, blue, alpha, 0 to 1
+Colour = tuple[float, float, float, float]  # red, green, blue, alpha, 0 to 1
 HIGHLIGHT = (0.9, 0.1, 0.1, 1.0)
 _PLAIN = (0.6, 0.6, 0.65, 1.0)
 
@@ -26,8 +26,8 @@ class RobotScene:
     def __init__(self, robot: Robot) -> None:
         root = lenient_xml.fromstring(robot.urdf)
         colours = {m.get("name"): _colour(m) for m in root.findall("material")}
-        self.links: Tuple[str, ...] = tuple(robot.model.links)
-        self._visuals: List[SceneVisual] = []
+        self.links: tuple[str, ...] = tuple(robot.model.links)
+        self._visuals: list[SceneVisual] = []
         for element in root.findall("link"):
             name = element.get("name")
             if name in self.links:
@@ -49,7 +49,7 @@ class RobotScene:
         return np.array([[*found[name].position, *found[name].quaternion] for name in self.links])
 
 
-def _visuals_of(link: ET.Element, row: int, colours: Dict[Optional[str], Optional[Colour]]) -> Iterable[SceneVisual]:
+def _visuals_of(link: ET.Element, row: int, colours: dict[str | None, Colour | None]) -> Iterable[SceneVisual]:
     """The link's visuals; its collision shapes if it has none."""
     for index, element in enumerate(link.findall("visual") or link.findall("collision")):
         shape = _shape(element.find("geometry"))
@@ -66,7 +66,7 @@ def _visuals_of(link: ET.Element, row: int, colours: Dict[Optional[str], Optiona
         yield SceneVisual(row, f"robot::{name}", d.Visual(name, _origin(element), shape, look))
 
 
-def _numbers(text: Optional[str], default: Tuple[float, ...]) -> Tuple[float, ...]:
+def _numbers(text: str | None, default: tuple[float, ...]) -> tuple[float, ...]:
     try:
         values = tuple(float(word) for word in (text or "").split())
     except ValueError:
@@ -81,7 +81,7 @@ def _origin(element: ET.Element) -> d.Pose:
     return from_rpy(*_vector(origin.get("xyz"), 0.0), *_vector(origin.get("rpy"), 0.0))
 
 
-def _colour(material: ET.Element) -> Optional[Colour]:
+def _colour(material: ET.Element) -> Colour | None:
     colour = material.find("color")
     if colour is None:
         return None
@@ -89,12 +89,12 @@ def _colour(material: ET.Element) -> Optional[Colour]:
     return red, green, blue, alpha
 
 
-def _vector(text: Optional[str], default: float) -> d.Vec3:
+def _vector(text: str | None, default: float) -> d.Vec3:
     x, y, z = _numbers(text, (default,) * 3)
     return x, y, z
 
 
-def _shape(geometry: Optional[ET.Element]):
+def _shape(geometry: ET.Element | None):
     for element in geometry if geometry is not None else ():
         if element.tag == "box":
             return d.Box(_vector(element.get("size"), 0.1))

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import shlex
 import xml.etree.ElementTree as ET
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Callable, Dict, List, Optional
 
 import lenient_xml
 import motion
@@ -26,7 +26,7 @@ class RobotSource:
 
     @classmethod
     @files_told()
-    def from_file(cls, path, xacro_args: str = "") -> "RobotSource":
+    def from_file(cls, path, xacro_args: str = "") -> RobotSource:
         """The source that names ``path`` by the package around it, so that it is found on other machines too.
 
         :raises AssistantError: there is no such file.
@@ -74,7 +74,7 @@ class RobotSource:
             return False
 
     @files_told()
-    def load(self, progress: Optional[Callable[[str], None]] = None) -> "Robot":
+    def load(self, progress: Callable[[str], None] | None = None) -> Robot:
         """Read, expand and parse the description.
 
         :raises AssistantError: the file, an argument or the XML cannot be used.
@@ -101,7 +101,7 @@ def expanded(path: Path, arguments: str) -> str:
     """
     import xacro  # late: a plain URDF does without
 
-    mappings: Dict[str, str] = {}
+    mappings: dict[str, str] = {}
     for word in shlex.split(arguments):
         if word in ("--inorder", "-i"):
             continue
@@ -134,9 +134,9 @@ def _xml_fault(text: str) -> str:
     return ""
 
 
-def _missing_visuals(urdf: str) -> List[str]:
+def _missing_visuals(urdf: str) -> list[str]:
     """One line for each mesh that cannot be drawn because there is no such file; the motion library looks at collisions alone."""
-    lines: Dict[str, str] = {}
+    lines: dict[str, str] = {}
     for link in lenient_xml.fromstring(urdf).findall("link"):
         for mesh in link.findall("visual/geometry/mesh"):
             uri = mesh.get("filename") or ""
@@ -151,11 +151,11 @@ class Robot:
 
     name: str
     urdf: str
-    model: "motion.RobotModel"
-    warnings: List[str] = field(default_factory=list)
+    model: motion.RobotModel
+    warnings: list[str] = field(default_factory=list)
 
     @classmethod
-    def from_text(cls, urdf: str, origin: str) -> "Robot":
+    def from_text(cls, urdf: str, origin: str) -> Robot:
         """:raises AssistantError: the text is no robot; ``origin`` names it in the message."""
         try:
             model = motion.load_model(urdf)
@@ -163,7 +163,7 @@ class Robot:
             raise AssistantError(f"'{origin}' is no robot description: {_xml_fault(urdf) or error}") from error
         return cls(model.name, urdf, model, [*model.warnings, *_missing_visuals(urdf)])
 
-    def with_srdf(self, srdf: str) -> "motion.RobotModel":
+    def with_srdf(self, srdf: str) -> motion.RobotModel:
         """The model with the groups of an SRDF text.
 
         :raises AssistantError: the text cannot be used with this robot.
@@ -174,6 +174,6 @@ class Robot:
             raise AssistantError(f"the SRDF does not fit the robot: {error}") from error
 
     @property
-    def movable_joints(self) -> List[str]:
+    def movable_joints(self) -> list[str]:
         """Joints that somebody can move: neither fixed nor mimicking another."""
         return list(self.model.active_joints)

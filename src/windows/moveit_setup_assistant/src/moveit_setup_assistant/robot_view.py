@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Iterable, Optional
+from collections.abc import Iterable
 
 import numpy as np
 from ode_sim_rendering import Camera, Renderer, RenderingUnavailable, look_at
@@ -26,21 +26,21 @@ class RobotView(QWidget):
 
     problem = Signal(str)
 
-    def __init__(self, parent: Optional[QWidget] = None) -> None:
+    def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("robot_view")
         self.setMinimumSize(280, 240)
-        self._renderer: Optional[Renderer] = None
-        self._scene: Optional[RobotScene] = None
+        self._renderer: Renderer | None = None
+        self._scene: RobotScene | None = None
         self._poses = np.zeros((0, 7))
         self._image = QImage()
         self._azimuth, self._elevation, self._distance, self._target = math.pi / 5, 0.4, 2.0, np.zeros(3)
-        self._pressed: Optional[QPoint] = None
+        self._pressed: QPoint | None = None
         self._timer = QTimer(self)  # one picture for many changes in one go
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self._draw)
 
-    def set_robot(self, robot: Optional[Robot]) -> None:
+    def set_robot(self, robot: Robot | None) -> None:
         """Show another robot in its default state, all of it in the picture; None for nothing."""
         self._scene = RobotScene(robot) if robot else None
         if robot is None or self._scene is None:

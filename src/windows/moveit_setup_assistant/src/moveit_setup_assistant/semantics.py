@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Iterable, List, Tuple
 
 from srdfdom.srdf import ParseError, Robot
 
@@ -12,7 +12,7 @@ from moveit_setup_assistant.errors import AssistantError
 from moveit_setup_assistant.robot_source import expanded
 
 # (tag, comment) in the order in which they are written. Other elements keep their place at the end.
-SECTIONS: Tuple[Tuple[str, str], ...] = (
+SECTIONS: tuple[tuple[str, str], ...] = (
     (
         "group",
         "GROUPS: joints that are planned for together. A <link> brings its parent joint with it, a <joint> its child link, "
@@ -41,17 +41,17 @@ class Semantics(Robot):
 
     def __init__(self, name=None):
         super().__init__(name)
-        self.others: List[ET.Element] = []
+        self.others: list[ET.Element] = []
 
     @classmethod
-    def from_xml(cls, node: ET.Element) -> "Semantics":
+    def from_xml(cls, node: ET.Element) -> Semantics:
         made = super().from_xml(node)
         known = {tag for tag, _, _ in cls._children}
         made.others = [child for child in node if child.tag not in known]
         return made
 
     @classmethod
-    def load(cls, path: Path, xacro_args: str = "") -> "Semantics":
+    def load(cls, path: Path, xacro_args: str = "") -> Semantics:
         """:raises AssistantError: the file is missing, no XML, or lacks an attribute."""
         try:
             return cls.from_xml_string(expanded(path, xacro_args) if path.suffix == ".xacro" else path.read_bytes())
@@ -78,7 +78,7 @@ class Semantics(Robot):
         tag, _, name = field
         return [child.to_xml(tag) for child in getattr(self, name)]
 
-    def problems(self, model) -> List[str]:
+    def problems(self, model) -> list[str]:
         """What does not fit together, one line each: unknown names, groups in a circle, empty groups, double names.
 
         :param model: the robot, read without this document.
@@ -98,7 +98,7 @@ class Semantics(Robot):
         ]
         return found
 
-    def unreachable_poses(self, model) -> List[str]:
+    def unreachable_poses(self, model) -> list[str]:
         """Poses that MoveIt takes and never plans to, one line for each joint: beyond its limits, or not of the pose's group.
 
         :param model: the robot, read with this document.
@@ -120,7 +120,7 @@ class Semantics(Robot):
                         )
         return found
 
-    def _unknown_names(self, model) -> List[str]:
+    def _unknown_names(self, model) -> list[str]:
         groups, links, joints = {g.name for g in self.groups}, set(model.links), set(model.joints)
         found = []
 
@@ -152,7 +152,7 @@ class Semantics(Robot):
                 check("a disabled collision", "link", link, links)
         return found
 
-    def _circles(self) -> List[str]:
+    def _circles(self) -> list[str]:
         below = {group.name: [other.name for other in group.groups] for group in self.groups}
 
         def reaches(start: str) -> bool:

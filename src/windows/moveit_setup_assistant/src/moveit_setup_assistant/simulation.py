@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from typing import Dict, Iterable
+from collections.abc import Iterable
 
 import lenient_xml
 
@@ -43,7 +43,7 @@ def simulated_urdf(urdf: str, controllers: Iterable[Controller]) -> str:
     return '<?xml version="1.0"?>\n' + ET.tostring(root, encoding="unicode") + "\n"
 
 
-def _interfaces_of(controllers: Iterable[Controller]) -> Dict[str, str]:
+def _interfaces_of(controllers: Iterable[Controller]) -> dict[str, str]:
     return {joint: _INTERFACES[c.type.split("/")[0]] for c in controllers if c.type.split("/")[0] in _INTERFACES for joint in c.joints}
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Iterable, List, Optional, Tuple
 
 import motion
 from node_signals.display import missing_display
@@ -35,13 +35,13 @@ _MOST_LINES = 4  # of what is missing, below the screen
 class Session:
     """What the screens share: the configuration, the package's folder, the robot's model with its groups, and the picture."""
 
-    def __init__(self, window: "Window") -> None:
+    def __init__(self, window: Window) -> None:
         self._window = window
-        self.config: Optional[Configuration] = None
-        self.package: Optional[Path] = None
+        self.config: Configuration | None = None
+        self.package: Path | None = None
         self._model = None
 
-    def open(self, config: Configuration, package: Optional[Path]) -> None:
+    def open(self, config: Configuration, package: Path | None) -> None:
         """Edit this configuration from now on. ``package``: the folder it came from."""
         self.config, self.package = config, package
         self.model_changed()
@@ -81,12 +81,12 @@ class Session:
                 self._model = self.edited.robot.model
         return self._model
 
-    def links_of(self, group: str) -> List[str]:
+    def links_of(self, group: str) -> list[str]:
         """The links of a group; none if there is no such group."""
         model = self.model()
         return list(model.group(group).links) if model.has_group(group) else []
 
-    def joints_of(self, group: str) -> List[str]:
+    def joints_of(self, group: str) -> list[str]:
         """The joints that a group moves; none if there is no such group."""
         model = self.model()
         return list(model.group(group).active_joints) if model.has_group(group) else []
@@ -104,7 +104,7 @@ class Session:
         """Show the robot in this state."""
         self._window.view.set_state(state)
 
-    def collisions(self, state) -> List[Tuple[str, str]]:
+    def collisions(self, state) -> list[tuple[str, str]]:
         """Pairs of links that touch in this state and are checked."""
         found = motion.PlanningScene(self.model()).check(state, contacts=20, world=False)
         return sorted({(contact.body_1, contact.body_2) for contact in found.contacts})
@@ -235,7 +235,7 @@ class Window(QMainWindow):
         super().closeEvent(event)
 
 
-def main(words: List[str]) -> int:
+def main(words: list[str]) -> int:
     """Open the window; the exit code of the program."""
     import rospy
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import importlib
 import os
 import sys
+from collections.abc import Sequence
 from types import ModuleType
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any
 
 #: Packages of each binding, the best first. One process can work with one version of Qt only.
 _PACKAGES = {"pyqt": ("PyQt5", "PyQt6"), "pyside": ("PySide2", "PySide6")}
@@ -46,13 +47,13 @@ _OPTIONAL = (
 )
 
 
-def _packages(binding: str) -> List[str]:
+def _packages(binding: str) -> list[str]:
     """One that the process has loaded already comes first, then the one that QT_API names."""
     wanted = os.environ.get("QT_API", "").lower()
     return sorted(_PACKAGES[binding], key=lambda package: (f"{package}.QtCore" not in sys.modules, package.lower() != wanted))
 
 
-def _load(package: str) -> Dict[str, ModuleType]:
+def _load(package: str) -> dict[str, ModuleType]:
     """:raises ImportError: one of the required modules is missing"""
     modules = {name: importlib.import_module(f"{package}.{name}") for name in _REQUIRED}
     for name in _OPTIONAL:
@@ -63,7 +64,7 @@ def _load(package: str) -> Dict[str, ModuleType]:
     return modules
 
 
-def _select(wanted: Optional[str], order: Optional[Sequence[str]]) -> Tuple[str, str, Dict[str, ModuleType]]:
+def _select(wanted: str | None, order: Sequence[str] | None) -> tuple[str, str, dict[str, ModuleType]]:
     """(binding, its package, modules by name)
 
     :raises ImportError: an unknown name, or nothing of what was asked for is installed; says what was tried
@@ -96,7 +97,7 @@ for _name, _module in QT_BINDING_MODULES.items():
     sys.modules.setdefault(_name, _module)  # `import QtCore` works too, as with upstream
 
 
-def loadUi(uifile: str, baseinstance: Any = None, custom_widgets: Optional[Dict[str, type]] = None) -> Any:
+def loadUi(uifile: str, baseinstance: Any = None, custom_widgets: dict[str, type] | None = None) -> Any:
     """The widget that a .ui file of Qt Designer describes.
 
     :param uifile: path of the file

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import importlib
-from typing import Any, Dict
+from typing import Any
 
 
-def load(package: str, uifile: str, baseinstance: Any, custom_widgets: Dict[str, type]) -> Any:
+def load(package: str, uifile: str, baseinstance: Any, custom_widgets: dict[str, type]) -> Any:
     """See :func:`python_qt_binding.loadUi`. ``package``: ``PySide2`` or ``PySide6``."""
     tools: Any = importlib.import_module(f"{package}.QtUiTools")
     core = importlib.import_module(f"{package}.QtCore")

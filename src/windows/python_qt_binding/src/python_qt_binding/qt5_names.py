@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import enum
-from typing import Any, Dict
+from typing import Any
 
 _MOVED = ("QAction", "QActionGroup", "QShortcut", "QUndoCommand", "QUndoGroup", "QUndoStack")  # to QtGui
 _RUNNING = {
@@ -13,7 +13,7 @@ _RUNNING = {
 }
 
 
-def add(modules: Dict[str, Any]) -> None:
+def add(modules: dict[str, Any]) -> None:
     """``Qt.AlignLeft`` for ``Qt.AlignmentFlag.AlignLeft``, ``exec_``, ``QtWidgets.QAction``. A name that is there stays.
 
     :param modules: QtCore, QtGui and QtWidgets by name

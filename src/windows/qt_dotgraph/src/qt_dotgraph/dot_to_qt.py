@@ -1,6 +1,6 @@
 """DOT text to items of a QGraphicsScene."""
 
-from typing import Any, Dict, List
+from typing import Any
 
 from python_qt_binding.QtCore import QPointF, QRectF
 from python_qt_binding.QtGui import QColor
@@ -37,8 +37,8 @@ class DotToQtGenerator:
         """As :meth:`dotcode_to_qt_items`, of a graph that is laid out."""
         nodes = {cluster.name: self._cluster_item(cluster, highlight_level) for cluster in graph.clusters}
         nodes.update((node.name, self._node_item(node, highlight_level)) for node in graph.nodes)
-        edges: Dict[str, List[Any]] = {}
-        by_label: Dict[str, List[Any]] = {}
+        edges: dict[str, list[Any]] = {}
+        by_label: dict[str, list[Any]] = {}
         for edge in graph.edges:
             if edge.tail not in nodes or edge.head not in nodes or len(edge.points) < 4:
                 continue

@@ -6,7 +6,6 @@ import json
 import re
 import subprocess
 from dataclasses import dataclass, field
-from typing import Dict, List, Optional, Tuple
 
 _PATIENCE = 20.0  # s; dot's search for few crossings has no end of its own
 _LARGE = 150  # edges from which on it is cut short, and edges are straight
@@ -16,7 +15,7 @@ _QUICK = ["-Gnslimit=0.1", "-Gmclimit=0.05", "-Gsplines=line"]
 _WAYS_OUT = (["-Gnewrank=true"], [*_QUICK, "-Gclusterrank=none"])
 _SHAPES = re.compile(r"^\s*(strict\s+)?(di)?graph\b", re.I)
 
-Point = Tuple[float, float]
+Point = tuple[float, float]
 
 
 class LayoutError(Exception):
@@ -31,7 +30,7 @@ class Node:
     label: str
     center: Point
     size: Point
-    attributes: Dict[str, str] = field(default_factory=dict)
+    attributes: dict[str, str] = field(default_factory=dict)
 
 
 @dataclass
@@ -42,8 +41,8 @@ class Cluster:
     label: str
     corner: Point
     size: Point
-    label_center: Optional[Point]
-    attributes: Dict[str, str] = field(default_factory=dict)
+    label_center: Point | None
+    attributes: dict[str, str] = field(default_factory=dict)
 
 
 @dataclass
@@ -53,20 +52,20 @@ class Edge:
     tail: str
     head: str
     label: str
-    points: List[Point]
-    start_tip: Optional[Point]
-    end_tip: Optional[Point]
-    label_center: Optional[Point]
-    attributes: Dict[str, str] = field(default_factory=dict)
+    points: list[Point]
+    start_tip: Point | None
+    end_tip: Point | None
+    label_center: Point | None
+    attributes: dict[str, str] = field(default_factory=dict)
 
 
 @dataclass
 class Layout:
     """Everything of a graph; ``size`` is its width and height in points."""
 
-    nodes: List[Node]
-    clusters: List[Cluster]
-    edges: List[Edge]
+    nodes: list[Node]
+    clusters: list[Cluster]
+    edges: list[Edge]
     size: Point
 
 
@@ -87,7 +86,7 @@ def render(dot: str, form: str) -> bytes:
     return _run(["dot", f"-T{form}", *_options(dot)], dot)
 
 
-def _options(dot: str) -> List[str]:
+def _options(dot: str) -> list[str]:
     return _QUICK if dot.count("->") + dot.count("--") > _LARGE else []
 
 
@@ -95,7 +94,7 @@ def _has_positions(dot: str) -> bool:
     return re.search(r"\bpos=\"?-?[\de]", dot) is not None and "bb=" in dot
 
 
-def _run(command: List[str], dot: str) -> bytes:
+def _run(command: list[str], dot: str) -> bytes:
     if not _SHAPES.search(re.sub(r"/\*.*?\*/|//[^\n]*|^#[^\n]*", "", dot[:2000], flags=re.S | re.M)):
         raise LayoutError("this is not a graph in DOT (it begins with neither graph nor digraph)")
     reason = ""
@@ -176,5 +175,5 @@ def _label(thing, otherwise=None) -> str:
     return re.sub(r"\\([nlr\\\"])", lambda match: "\n" if match.group(1) in "nlr" else match.group(1), label).rstrip("\n")
 
 
-def _texts(thing) -> Dict[str, str]:
+def _texts(thing) -> dict[str, str]:
     return {key: value for key, value in thing.items() if isinstance(value, str) and not key.startswith("_")}

@@ -4,7 +4,7 @@ import os
 import signal
 import sys
 import threading
-from typing import Any, Optional
+from typing import Any
 
 from node_signals.display import missing_display
 
@@ -15,7 +15,7 @@ from qt_gui.errors import PerspectiveError, UsageError
 class Main:
     """``Main(...).main(argv)`` runs the window and returns the exit code. A face of its own derives from it."""
 
-    main_filename: Optional[str] = None  # of the program that was started
+    main_filename: str | None = None  # of the program that was started
 
     def __init__(self, qtgui_path=None, invoked_filename=None, settings_filename="qt_gui"):
         """:param settings_filename: name of the INI file, without ending, below ``~/.config/ros.org``"""

@@ -1,7 +1,7 @@
 """Perspectives: named sets of plugins, places and settings."""
 
 import os
-from typing import Any, Optional
+from typing import Any
 
 from python_qt_binding.QtCore import QObject, Signal, qCritical
 from python_qt_binding.QtGui import QIcon
@@ -34,7 +34,7 @@ class PerspectiveManager(QObject):
         self._proxy = SettingsProxy(qsettings)
         self._global_settings = Settings(self._proxy, "global")
         self._perspective_settings = None
-        self._current: Optional[str] = None
+        self._current: str | None = None
         self._menu: Any = None  # a MenuManager, in a window that has one
         self._folder = os.getcwd()
         names = self._proxy.value("", "perspectives", [])

@@ -1,6 +1,6 @@
 """Which plugins there are and which run; loads, unloads, reloads, and restores those of a perspective."""
 
-from typing import Any, Dict
+from typing import Any
 
 from python_qt_binding.QtCore import QObject, Qt, Signal, qCritical, qWarning
 
@@ -39,7 +39,7 @@ class PluginManager(QObject):
         self._importer = ReloadImporter(everything=options.reload_import)
         self._window = None
         self._menu = None
-        self._descriptors: Dict[str, Any] = {}  # by plugin id; empty before discover()
+        self._descriptors: dict[str, Any] = {}  # by plugin id; empty before discover()
         self._running = {}  # str(instance id) -> PluginHandler, in order of loading
         self._absent = {}  # plugins of the perspective that nobody has here: id -> serial numbers, kept for when they are back
         self._global_settings: Any = None  # Settings, from the first restoring on

@@ -1,7 +1,5 @@
 """A function in a thread of its own, and another one in the thread of the widgets when it has ended."""
 
-from typing import List
-
 from python_qt_binding.QtCore import QThread
 
 
@@ -42,4 +40,4 @@ class WorkerThread(QThread):
             _left_behind.append(self)
 
 
-_left_behind: List[QThread] = []  # Qt ends the process when the object of a running thread is deleted
+_left_behind: list[QThread] = []  # Qt ends the process when the object of a running thread is deleted

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from typing import Dict, List, Optional
 
 import genpy
 
@@ -16,26 +15,26 @@ def stamp_to_str(t: genpy.Time) -> str:
     return time.strftime("%b %d %Y %H:%M:%S", time.localtime(t.secs)) + f".{t.nsecs // 1_000_000:03d}"
 
 
-def get_topics(bag) -> List[str]:
+def get_topics(bag) -> list[str]:
     """Names of the topics in a bag, sorted."""
     return sorted({connection.topic for connection in bag._get_connections()})
 
 
-def get_start_stamp(bag) -> Optional[genpy.Time]:
+def get_start_stamp(bag) -> genpy.Time | None:
     """Stamp of the first message; None of an empty bag."""
     firsts = [index[0].time for index in bag._connection_indexes.values() if index]
     return min(firsts, default=None)
 
 
-def get_end_stamp(bag) -> Optional[genpy.Time]:
+def get_end_stamp(bag) -> genpy.Time | None:
     """Stamp of the last message; None of an empty bag."""
     lasts = [index[-1].time for index in bag._connection_indexes.values() if index]
     return max(lasts, default=None)
 
 
-def get_topics_by_datatype(bag) -> Dict[str, List[str]]:
+def get_topics_by_datatype(bag) -> dict[str, list[str]]:
     """Type -> topics of that type."""
-    topics: Dict[str, List[str]] = {}
+    topics: dict[str, list[str]] = {}
     for connection in bag._get_connections():
         names = topics.setdefault(connection.datatype, [])
         if connection.topic not in names:
@@ -43,7 +42,7 @@ def get_topics_by_datatype(bag) -> Dict[str, List[str]]:
     return topics
 
 
-def get_datatype(bag, topic: str) -> Optional[str]:
+def get_datatype(bag, topic: str) -> str | None:
     """Type of a topic; None when the bag has no such topic."""
     return next((connection.datatype for connection in bag._get_connections(topic)), None)
 

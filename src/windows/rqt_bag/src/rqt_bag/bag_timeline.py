@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Dict, List, Optional, Tuple
+from typing import TYPE_CHECKING
 
 import genpy
 from python_qt_binding.QtCore import QElapsedTimer, QObject, QTimer, Signal
@@ -47,9 +47,9 @@ class BagTimeline(QObject):
         self._bags = Bags()
         self._bag_lock = self._bags.lock
         self._player = Player(self._bags, publish_clock, self.problem.emit)
-        self._recorder: Optional[Recorder] = None
-        self._listeners: Dict[str, List] = {}
-        self._shown: Dict[str, object] = {}
+        self._recorder: Recorder | None = None
+        self._listeners: dict[str, list] = {}
+        self._shown: dict[str, object] = {}
         self._play_speed = 0.0
         self.last_speed = 1.0
         self.play_all = False
@@ -57,12 +57,12 @@ class BagTimeline(QObject):
         self._timer = QTimer(self)
         self._timer.timeout.connect(self._tick)
         self._over = threading.Event()
-        self._wish: Optional[genpy.Time] = None
+        self._wish: genpy.Time | None = None
         self._wished = threading.Condition()
         self._loader = threading.Thread(target=self._load_views, daemon=True)
         self._loader.start()
-        self._background: Optional[threading.Thread] = None
-        self._live: Dict[str, List[float]] = {}
+        self._background: threading.Thread | None = None
+        self._live: dict[str, list[float]] = {}
         self._bag_opened.connect(self.add_bag)
         self._viewed.connect(self._show)
         self._recorded.connect(self._message_recorded)
@@ -100,26 +100,26 @@ class BagTimeline(QObject):
     def file_size(self) -> int:
         return self._bags.file_size
 
-    def _get_topics(self) -> List[str]:
+    def _get_topics(self) -> list[str]:
         return sorted(set(self._bags.topics) | set(self._live))
 
     topics = property(_get_topics)
 
-    def get_datatype(self, topic: str) -> Optional[str]:
+    def get_datatype(self, topic: str) -> str | None:
         return self._bags.datatype(topic)
 
     @property
-    def topics_by_datatype(self) -> Dict[str, List[str]]:
-        found: Dict[str, List[str]] = {}
+    def topics_by_datatype(self) -> dict[str, list[str]]:
+        found: dict[str, list[str]] = {}
         for topic in self._bags.topics:
             found.setdefault(self.get_datatype(topic) or "", []).append(topic)
         return found
 
-    def _get_start_stamp(self) -> Optional[genpy.Time]:
+    def _get_start_stamp(self) -> genpy.Time | None:
         span = self._bags.span()
         return span[0] if span else None
 
-    def _get_end_stamp(self) -> Optional[genpy.Time]:
+    def _get_end_stamp(self) -> genpy.Time | None:
         span = self._bags.span()
         return span[1] if span else None
 
@@ -274,7 +274,7 @@ class BagTimeline(QObject):
     def has_listeners(self, topic: str) -> bool:
         return bool(self._listeners.get(topic))
 
-    def _all_listeners(self) -> List:
+    def _all_listeners(self) -> list:
         return [listener for listeners in self._listeners.values() for listener in listeners]
 
     def _load_views(self) -> None:
@@ -332,7 +332,7 @@ class BagTimeline(QObject):
     def recording(self) -> bool:
         return self._recorder is not None
 
-    def record_bag(self, name: str, all: bool = True, topics: Tuple[str, ...] = ()) -> None:
+    def record_bag(self, name: str, all: bool = True, topics: tuple[str, ...] = ()) -> None:
         """Record all topics, or those named, into a file; it is shown as it grows. What is wrong is told."""
         try:
             self._recorder = Recorder(name, None if all else list(topics), lambda topic, _raw, stamp: self._note(topic, stamp))

@@ -5,15 +5,16 @@ from __future__ import annotations
 import os
 import tempfile
 import threading
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, NamedTuple
 
 import genpy
 import numpy as np
 import rosbag
 from qt_gui.errors import WindowError
 
-Topics = Union[None, str, Sequence[str]]
+Topics = str | Sequence[str] | None
 
 
 class BagError(WindowError, ValueError):
@@ -25,7 +26,7 @@ class _Index(NamedTuple):
 
     stamps: np.ndarray  #: (n,) s
     nanoseconds: np.ndarray  #: (n,) int64
-    entries: List[Tuple[rosbag.Bag, Any]]
+    entries: list[tuple[rosbag.Bag, Any]]
 
 
 _EMPTY = _Index(np.empty(0), np.empty(0, np.int64), [])
@@ -65,13 +66,13 @@ class Bags:
 
     def __init__(self):
         self.lock = threading.RLock()
-        self.bags: List[rosbag.Bag] = []
-        self._indexes: Dict[str, _Index] = {}
-        self._types: Dict[str, str] = {}
+        self.bags: list[rosbag.Bag] = []
+        self._indexes: dict[str, _Index] = {}
+        self._types: dict[str, str] = {}
 
     def add(self, bag: rosbag.Bag) -> None:
         """Take in an open bag."""
-        found: Dict[str, List[Tuple[rosbag.Bag, Any]]] = {}
+        found: dict[str, list[tuple[rosbag.Bag, Any]]] = {}
         for connection in bag._get_connections():
             self._types.setdefault(connection.topic, connection.datatype)
             entries = found.setdefault(connection.topic, [])
@@ -89,7 +90,7 @@ class Bags:
             self.bags, self._indexes, self._types = [], {}, {}
 
     @property
-    def topics(self) -> List[str]:
+    def topics(self) -> list[str]:
         return sorted(self._indexes)
 
     @property
@@ -97,25 +98,25 @@ class Bags:
         """Bytes of all files."""
         return sum(os.path.getsize(bag.filename) for bag in self.bags if bag.filename and os.path.exists(bag.filename))
 
-    def datatype(self, topic: str) -> Optional[str]:
+    def datatype(self, topic: str) -> str | None:
         return self._types.get(topic)
 
     def stamps(self, topic: str) -> np.ndarray:
         """(n,) s, ascending."""
         return self._indexes.get(topic, _EMPTY).stamps
 
-    def span(self) -> Optional[Tuple[genpy.Time, genpy.Time]]:
+    def span(self) -> tuple[genpy.Time, genpy.Time] | None:
         """First and last stamp; None without messages."""
         ends = [(int(index.nanoseconds[0]), int(index.nanoseconds[-1])) for index in self._indexes.values() if index.entries]
         if not ends:
             return None
         return _time(min(first for first, _ in ends)), _time(max(last for _, last in ends))
 
-    def _chosen(self, topics: Topics) -> List[_Index]:
+    def _chosen(self, topics: Topics) -> list[_Index]:
         names = self._indexes if topics is None else [topics] if isinstance(topics, str) else topics
         return [self._indexes[name] for name in names if name in self._indexes]
 
-    def entries(self, topics: Topics, start, end) -> Iterator[Tuple[rosbag.Bag, Any]]:
+    def entries(self, topics: Topics, start, end) -> Iterator[tuple[rosbag.Bag, Any]]:
         """(bag, index entry) with start <= stamp <= end, in the order of their stamps."""
         parts, keys = [], []
         for index in self._chosen(topics):
@@ -157,7 +158,7 @@ class Bags:
                 raise BagError(f"{bag.filename}: a message cannot be read: {type(error).__name__}: {str(error)[:80]}") from None
 
 
-def _merged(index: _Index, more: List[Tuple[rosbag.Bag, Any]]) -> _Index:
+def _merged(index: _Index, more: list[tuple[rosbag.Bag, Any]]) -> _Index:
     entries = index.entries + more
     nanoseconds = np.concatenate((index.nanoseconds, np.array([entry.time.to_nsec() for _, entry in more], np.int64)))
     order = np.argsort(nanoseconds, kind="stable")

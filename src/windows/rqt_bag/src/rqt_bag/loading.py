@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Dict, List, Tuple
-
 from python_qt_binding.QtCore import qWarning
 from rqt_gui.rospkg_plugin_provider import RospkgPluginProvider
 
 from rqt_bag.plugins.raw_view import RawView
 
 
-def load_plugins() -> Tuple[Dict[str, List[type]], Dict[str, type]]:
+def load_plugins() -> tuple[dict[str, list[type]], dict[str, type]]:
     """Views and renderers of all plugins: type of message -> view classes, type -> renderer class.
 
     A plugin that cannot be loaded is told, and left out.
     """
     provider = RospkgPluginProvider("rqt_bag", "rqt_bag::Plugin")
-    views: Dict[str, List[type]] = {}
-    renderers: Dict[str, type] = {}
+    views: dict[str, list[type]] = {}
+    renderers: dict[str, type] = {}
     for descriptor in provider.discover(None):
         name = descriptor.plugin_id()
         try:
@@ -40,6 +38,6 @@ def load_plugins() -> Tuple[Dict[str, List[type]], Dict[str, type]]:
     return views, renderers
 
 
-def views_of(views: Dict[str, List[type]], datatype: str) -> List[type]:
+def views_of(views: dict[str, list[type]], datatype: str) -> list[type]:
     """Classes that show messages of a type."""
     return [RawView] + views.get("*", []) + views.get(datatype, [])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-from typing import Dict, Optional, Tuple
 
 import genpy
 import rospy
@@ -22,9 +21,9 @@ class Player:
 
     def __init__(self, bags: Bags, clock: bool, problem=lambda text: None):
         self._bags, self._problem = bags, problem
-        self._publishers: Dict[str, Optional[rospy.Publisher]] = {}
+        self._publishers: dict[str, rospy.Publisher | None] = {}
         self._clock = rospy.Publisher("/clock", Clock, queue_size=1) if clock else None
-        self._wanted: Optional[Tuple[genpy.Time, genpy.Time, bool]] = None
+        self._wanted: tuple[genpy.Time, genpy.Time, bool] | None = None
         self._condition = threading.Condition()
         self._busy = self._over = False
         self._thread = threading.Thread(target=self._run, daemon=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Callable, Dict, List, Optional
+from collections.abc import Callable
 
 import genpy.dynamic
 import rosbag
@@ -24,18 +24,18 @@ class Recorder:
 
     PERIOD = 1.0  # s, between looks for new topics
 
-    def __init__(self, name: str, topics: Optional[List[str]] = None, recorded: Callable = lambda topic, raw, stamp: None):
+    def __init__(self, name: str, topics: list[str] | None = None, recorded: Callable = lambda topic, raw, stamp: None):
         try:
             self.bag = rosbag.Bag(name, "w")
         except (OSError, rosbag.ROSBagException) as error:
             raise BagError(f"{name} cannot be written: {getattr(error, 'strerror', None) or error}") from None
         self.name = name
         self.problem = ""
-        self.counts: Dict[str, int] = {}
+        self.counts: dict[str, int] = {}
         self._recorded = recorded
         self._lock = threading.Lock()
-        self._subscribers: Dict[str, rospy.Subscriber] = {}
-        self._classes: Dict[str, Optional[type]] = {}
+        self._subscribers: dict[str, rospy.Subscriber] = {}
+        self._classes: dict[str, type | None] = {}
         self._over = threading.Event()
         for topic in topics or ():
             self._subscribe(topic)
@@ -83,7 +83,7 @@ class Recorder:
             self.bag.close()
 
 
-def _class_of(kind: str, definition: str) -> Optional[type]:
+def _class_of(kind: str, definition: str) -> type | None:
     """The class of a type that is built here, else one made of the publisher's definition."""
     found = roslib.message.get_message_class(kind)
     if found is None and definition:

@@ -6,7 +6,7 @@ import bisect
 import queue
 import threading
 from collections import OrderedDict
-from typing import Callable, Dict, Optional
+from collections.abc import Callable
 
 
 class TimelineCache(threading.Thread):
@@ -16,12 +16,12 @@ class TimelineCache(threading.Thread):
     :param listener: called with topic, stamp and item when one has been loaded. :param max_cache_size: items kept per topic.
     """
 
-    def __init__(self, loader: Callable, listener: Optional[Callable] = None, max_cache_size: int = 100):
+    def __init__(self, loader: Callable, listener: Callable | None = None, max_cache_size: int = 100):
         super().__init__(daemon=True)
         self.loader, self.listener, self.max_cache_size = loader, listener, max_cache_size
         self.lock = threading.RLock()
-        self.items: Dict[str, OrderedDict] = {}  # topic -> stamp -> item, the least used first
-        self._stamps: Dict[str, list] = {}  # topic -> the same stamps, ascending
+        self.items: dict[str, OrderedDict] = {}  # topic -> stamp -> item, the least used first
+        self._stamps: dict[str, list] = {}  # topic -> the same stamps, ascending
         self._waiting: set = set()
         self.queue: queue.Queue = queue.Queue()
         self.stop_flag = False

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import time
-from typing import List, Optional, Tuple
 
 import genpy
 import numpy as np
@@ -47,7 +46,7 @@ _TYPE_COLORS = {
 }
 
 
-def type_color(datatype: Optional[str]) -> QColor:
+def type_color(datatype: str | None) -> QColor:
     """The colour of a type; types of one package have neighbouring hues."""
     if datatype in _TYPE_COLORS:
         return _TYPE_COLORS[datatype]
@@ -76,13 +75,13 @@ class TimelineFrame(QWidget):
         self._views, renderers = load_plugins()
         self._timeline_renderers = {kind: renderer(self) for kind, renderer in renderers.items()}
         self._rendered_topics: set = set()
-        self._playhead: Optional[genpy.Time] = None
-        self._start: Optional[genpy.Time] = None
-        self._end: Optional[genpy.Time] = None
+        self._playhead: genpy.Time | None = None
+        self._start: genpy.Time | None = None
+        self._end: genpy.Time | None = None
         self._left, self._right = 0.0, 1.0  # s at the ends of the rows
-        self._region: Optional[Tuple[float, float]] = None
-        self._drag: Optional[Tuple] = None
-        self._rows: List[Tuple[str, int, int]] = []  # topic, y, height
+        self._region: tuple[float, float] | None = None
+        self._drag: tuple | None = None
+        self._rows: list[tuple[str, int, int]] = []  # topic, y, height
         self._history_left, self._history_right, self._history_top = 0, 1, _TIME_HEIGHT
 
     def scene(self):
@@ -92,15 +91,15 @@ class TimelineFrame(QWidget):
     # Times
 
     @property
-    def start_stamp(self) -> Optional[genpy.Time]:
+    def start_stamp(self) -> genpy.Time | None:
         return self._start
 
     @property
-    def end_stamp(self) -> Optional[genpy.Time]:
+    def end_stamp(self) -> genpy.Time | None:
         return self._end
 
     @property
-    def play_region(self) -> Tuple[Optional[genpy.Time], Optional[genpy.Time]]:
+    def play_region(self) -> tuple[genpy.Time | None, genpy.Time | None]:
         """The marked region, or all."""
         if self._region:
             return tuple(genpy.Time.from_sec(max(0.0, edge)) for edge in self._region)
@@ -110,7 +109,7 @@ class TimelineFrame(QWidget):
     def has_selected_region(self) -> bool:
         return self._region is not None
 
-    def select_region(self, begin: Optional[float], end: Optional[float] = None) -> None:
+    def select_region(self, begin: float | None, end: float | None = None) -> None:
         """Mark from ``begin`` to ``end`` (s); None marks nothing."""
         if begin is None or end is None or self._start is None or self._end is None:
             self._region = None
@@ -121,7 +120,7 @@ class TimelineFrame(QWidget):
         self.update()
 
     @property
-    def playhead(self) -> Optional[genpy.Time]:
+    def playhead(self) -> genpy.Time | None:
         return self._playhead
 
     @playhead.setter
@@ -189,7 +188,7 @@ class TimelineFrame(QWidget):
     def map_dstamp_to_dx(self, dstamp: float) -> float:
         return dstamp * (self._history_right - self._history_left) / (self._right - self._left)
 
-    def map_y_to_topic(self, y: float) -> Optional[str]:
+    def map_y_to_topic(self, y: float) -> str | None:
         return next((topic for topic, top, height in self._rows if top <= y < top + height), None)
 
     def set_timeline_view(self, left: float, right: float) -> None:
@@ -211,7 +210,7 @@ class TimelineFrame(QWidget):
         if self._start is not None:
             self.playhead = self._start
 
-    def zoom_timeline(self, factor: float, center: Optional[float] = None) -> None:
+    def zoom_timeline(self, factor: float, center: float | None = None) -> None:
         """Show a span ``factor`` times as long, ``center`` (s) stays in place."""
         if self._start is None or self._end is None:
             return
@@ -239,10 +238,10 @@ class TimelineFrame(QWidget):
 
     # Renderers
 
-    def get_viewer_types(self, datatype: str) -> List[type]:
+    def get_viewer_types(self, datatype: str) -> list[type]:
         return views_of(self._views, datatype)
 
-    def get_renderers(self) -> List[Tuple[str, object]]:
+    def get_renderers(self) -> list[tuple[str, object]]:
         """(topic, renderer) of the topics that can have thumbnails."""
         found = ((topic, self._timeline_renderers.get(self._timeline.get_datatype(topic))) for topic in self._timeline.topics)
         return [(topic, renderer) for topic, renderer in found if renderer is not None]
@@ -336,7 +335,7 @@ class TimelineFrame(QWidget):
         finally:
             painter.restore()
 
-    def _segments(self, topic: str, combine: float) -> List[Tuple[float, float]]:
+    def _segments(self, topic: str, combine: float) -> list[tuple[float, float]]:
         """Stretches of messages that are seen and lie closer than ``combine`` pixels."""
         stamps = np.asarray(self._timeline.stamps(topic))
         begin, end = np.searchsorted(stamps, self._left - 1e-9), np.searchsorted(stamps, self._right + 1e-9)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Optional
-
 from python_qt_binding.QtCore import QSize
 from python_qt_binding.QtWidgets import QMenu, QVBoxLayout, QWidget
 
@@ -42,7 +40,7 @@ class TimelinePopupMenu(QMenu):
     :param popups: windows that are open: name -> TopicPopupWidget; filled here.
     """
 
-    def __init__(self, timeline, topic: Optional[str], popups: dict, parent=None):
+    def __init__(self, timeline, topic: str | None, popups: dict, parent=None):
         super().__init__(parent)
         self.timeline, self._frame, self._popups = timeline, timeline._timeline_frame, popups
         self._add(self, "Reset Timeline", self._frame.reset_timeline)
@@ -52,14 +50,14 @@ class TimelinePopupMenu(QMenu):
         self._add_publishing(topic)
 
     @staticmethod
-    def _add(menu: QMenu, text: str, action, checked: Optional[bool] = None) -> None:
+    def _add(menu: QMenu, text: str, action, checked: bool | None = None) -> None:
         made = menu.addAction(text)
         if checked is not None:
             made.setCheckable(True)
             made.setChecked(checked)
         made.triggered.connect(lambda _checked=False: action())
 
-    def _add_thumbnails(self, topic: Optional[str]) -> None:
+    def _add_thumbnails(self, topic: str | None) -> None:
         topics = [name for name, _ in self._frame.get_renderers()]
         toggle = lambda name: lambda: self._frame.set_renderer_active(name, not self._frame.is_renderer_active(name))  # noqa: E731
         if topic is None and topics:
@@ -72,7 +70,7 @@ class TimelinePopupMenu(QMenu):
         elif topic in topics:
             self._add(self, "Thumbnail", toggle(topic), self._frame.is_renderer_active(topic))
 
-    def _add_views(self, topic: Optional[str]) -> None:
+    def _add_views(self, topic: str | None) -> None:
         if topic is not None:
             self._add_viewers(self.addMenu("View"), topic)
             return
@@ -103,7 +101,7 @@ class TimelinePopupMenu(QMenu):
         (popup.parentWidget() or popup).show()
         popup.show()
 
-    def _add_publishing(self, topic: Optional[str]) -> None:
+    def _add_publishing(self, topic: str | None) -> None:
         def toggle(name: str):
             change = self.timeline.stop_publishing if self.timeline.is_publishing(name) else self.timeline.start_publishing
             return lambda: (change(name), self._frame.update())

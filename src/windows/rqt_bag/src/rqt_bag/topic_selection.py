@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import List
-
 from python_qt_binding.QtCore import Qt, Signal
 from python_qt_binding.QtWidgets import QListWidget, QListWidgetItem, QPushButton, QVBoxLayout, QWidget
 
@@ -13,7 +11,7 @@ class TopicSelection(QWidget):
 
     recordSettingsSelected = Signal(bool, list)  #: all, or the names chosen
 
-    def __init__(self, topics: List[str]):
+    def __init__(self, topics: list[str]):
         super().__init__()
         self.setObjectName("topic_selection")
         self.setWindowTitle("Select the topics you want to record")
@@ -33,7 +31,7 @@ class TopicSelection(QWidget):
         layout.addWidget(self.list)
         layout.addWidget(self.button)
 
-    def _checked(self) -> List[str]:
+    def _checked(self) -> list[str]:
         items = [self.list.item(row) for row in range(self.list.count())]
         return [item.text() for item in items if item.checkState() == Qt.CheckState.Checked]
 

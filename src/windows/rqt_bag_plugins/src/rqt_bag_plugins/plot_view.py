@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-from typing import Dict, List
 
 import genpy
 from python_qt_binding.QtCore import Qt, Signal
@@ -74,9 +73,9 @@ class PlotView(TopicMessageView):
             item.setFlags(item.flags() | Qt.ItemFlag.ItemIsUserCheckable)
             item.setCheckState(0, Qt.CheckState.Unchecked)
 
-    def _paths(self, parent=None) -> List[str]:
+    def _paths(self, parent=None) -> list[str]:
         parent = parent or self.tree.invisibleRootItem()
-        found: List[str] = []
+        found: list[str] = []
         for item in (parent.child(i) for i in range(parent.childCount())):
             if item.data(0, _PATH) and item.checkState(0) == Qt.CheckState.Checked:
                 found.append(item.data(0, _PATH))
@@ -106,9 +105,9 @@ class PlotView(TopicMessageView):
         self.plot.set_xlim([start.to_sec() - self._start, max(end.to_sec() - self._start, start.to_sec() - self._start + 1e-6)])
         threading.Thread(target=self._work, args=(self._round, paths, start, end), daemon=True).start()
 
-    def _work(self, number: int, paths: List[str], start, end) -> None:
+    def _work(self, number: int, paths: list[str], start, end) -> None:
         getters = {path: getter(path) for path in paths}
-        values: Dict[str, tuple] = {path: ([], []) for path in paths}
+        values: dict[str, tuple] = {path: ([], []) for path in paths}
         count = 0
         try:
             for bag, entry in self.timeline.get_entries_with_bags(self.topic, start, end):
@@ -129,7 +128,7 @@ class PlotView(TopicMessageView):
             self.timeline.problem.emit(str(error))
         self._hand_over(number, values)
 
-    def _hand_over(self, number: int, values: Dict[str, tuple]) -> None:
+    def _hand_over(self, number: int, values: dict[str, tuple]) -> None:
         for path, (x, y) in values.items():
             if x:
                 self._values_read.emit(number, path, list(x), list(y))

@@ -1,7 +1,7 @@
 """The plugin: log messages of a topic, several thousand a second if need be."""
 
 from collections import deque
-from typing import Any, Deque
+from typing import Any
 
 import rospy
 from python_qt_binding.QtCore import QTimer
@@ -26,7 +26,7 @@ class Console(Plugin):
         super().__init__(context)
         self.setObjectName("Console")
         self._limit, self._topic, self._subscriber = LIMIT, "/rosout_agg", None
-        self._queue: Deque[Any] = deque(maxlen=LIMIT)
+        self._queue: deque[Any] = deque(maxlen=LIMIT)
         self._widget = ConsoleWidget(message_limit=self._limit)
         if context.serial_number() > 1:
             self._widget.setWindowTitle(f"Console ({context.serial_number()})")

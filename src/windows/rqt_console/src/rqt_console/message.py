@@ -1,8 +1,8 @@
 """One log message."""
 
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Sequence, Tuple
 
 from rosgraph_msgs.msg import Log
 
@@ -16,7 +16,7 @@ class Message:
     message: str = ""
     severity: int = Log.INFO
     node: str = ""
-    stamp: Tuple[int, int] = (0, 0)
+    stamp: tuple[int, int] = (0, 0)
     topics: Sequence[str] = ()
     location: str = ""
     id: int = 0

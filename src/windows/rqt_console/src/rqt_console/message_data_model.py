@@ -2,7 +2,8 @@
 
 import itertools
 from collections import deque
-from typing import Any, Deque, Dict, Iterable, List, Optional
+from collections.abc import Iterable
+from typing import Any
 
 from python_qt_binding.QtCore import QAbstractTableModel, QModelIndex, Qt, Signal
 from python_qt_binding.QtGui import QColor, QIcon
@@ -49,11 +50,11 @@ class MessageDataModel(QAbstractTableModel):
         self.exclude_filters, self.highlight_filters = FilterCollection(), FilterCollection()
         self.only_highlighted = False
         self._limit = message_limit
-        self._all: Deque[Message] = deque()
-        self._shown: List[Message] = []  # ascending by key
+        self._all: deque[Message] = deque()
+        self._shown: list[Message] = []  # ascending by key
         self._column, self._descending = 0, True
         self._count = 0
-        self._icons: Dict[Any, Any] = {}
+        self._icons: dict[Any, Any] = {}
         self._grey = QColor("gray")
         self._colors = {level: QColor(name) for level, name in _COLORS.items()}
 
@@ -99,7 +100,7 @@ class MessageDataModel(QAbstractTableModel):
         """All messages, the hidden too."""
         return len(self._all)
 
-    def messages(self) -> List[Message]:
+    def messages(self) -> list[Message]:
         """All messages in the order of arrival."""
         return list(self._all)
 
@@ -109,7 +110,7 @@ class MessageDataModel(QAbstractTableModel):
     def get_message_limit(self) -> int:
         return self._limit
 
-    def messages_since(self, seconds: float) -> List[Message]:
+    def messages_since(self, seconds: float) -> list[Message]:
         """Messages whose stamp, in s, is at least this, the newest first; looked for among the newest until one is older."""
         return list(itertools.takewhile(lambda m: m.stamp[0] + m.stamp[1] * 1e-9 >= seconds, reversed(self._all)))
 
@@ -151,13 +152,13 @@ class MessageDataModel(QAbstractTableModel):
         self._rearrange([message for message in self._all if self._is_shown(message)])
         self.counts_changed.emit()
 
-    def values(self, column: str) -> List[str]:
+    def values(self, column: str) -> list[str]:
         """All that is there to choose from: ``node`` or ``topics``."""
         if column == "node":
             return sorted({message.node for message in self._all})
         return sorted({topic for message in self._all for topic in message.topics})
 
-    def stamps(self) -> Optional[tuple]:
+    def stamps(self) -> tuple | None:
         """The first and the last time of all messages; None without messages."""
         times = [message.stamp for message in self._all]
         return (min(times), max(times)) if times else None
@@ -184,7 +185,7 @@ class MessageDataModel(QAbstractTableModel):
             del self._shown[:gone]
             self.endRemoveRows()
 
-    def _rearrange(self, messages: List[Message], column: Optional[int] = None, descending: bool = False) -> None:
+    def _rearrange(self, messages: list[Message], column: int | None = None, descending: bool = False) -> None:
         """Show these, sorted, in another order if a column is given; what was selected stays so."""
         self.layoutAboutToBeChanged.emit()
         old = self.persistentIndexList()

@@ -1,6 +1,7 @@
 """The boxes with rules: one line per condition, each with its editor."""
 
-from typing import Any, Callable, Dict, List, Optional
+from collections.abc import Callable
+from typing import Any
 
 from python_qt_binding.QtCore import QDateTime, Qt
 from python_qt_binding.QtGui import QIcon
@@ -64,7 +65,7 @@ class TextEditor(QWidget):
 class ListEditor(QWidget):
     """A choice among the values that messages have had so far."""
 
-    def __init__(self, filter_: ListFilter, values: Callable[[], List]):
+    def __init__(self, filter_: ListFilter, values: Callable[[], list]):
         super().__init__()
         self._filter, self._values = filter_, values
         self.list_widget = QListWidget()
@@ -158,7 +159,7 @@ class RuleBox(QGroupBox):
     def __init__(self, title: str, filters: FilterCollection, model):
         super().__init__(title)
         self._filters = filters
-        self._rows: Dict[Any, tuple] = {}  # filter -> (row widget, editor, kind)
+        self._rows: dict[Any, tuple] = {}  # filter -> (row widget, editor, kind)
         self._values = {
             "severity": lambda: list(SEVERITIES),
             "node": lambda: model.values("node"),
@@ -188,7 +189,7 @@ class RuleBox(QGroupBox):
         layout.addWidget(self.add_button, 0, Qt.AlignmentFlag.AlignTop)
         layout.addWidget(scroll)
 
-    def add(self, kind: str, state: Optional[dict] = None, enabled: bool = True):
+    def add(self, kind: str, state: dict | None = None, enabled: bool = True):
         """A new rule, as :meth:`state` has it; returns its filter."""
         label, make = KINDS[kind]
         filter_ = make()

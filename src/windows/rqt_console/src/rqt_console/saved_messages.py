@@ -2,7 +2,7 @@
 
 import csv
 import re
-from typing import Iterable, List
+from collections.abc import Iterable
 
 from qt_gui.errors import WindowError
 
@@ -27,7 +27,7 @@ def save(path: str, messages: Iterable[Message]) -> None:
             file.write(quoted(m.message, m.severity, m.node, f"{m.stamp[0]}.{m.stamp[1]:09d}", ",".join(m.topics), m.location))
 
 
-def load(path: str) -> List[Message]:
+def load(path: str) -> list[Message]:
     """:raises SavedMessagesError: if the file cannot be read, or is something else"""
     try:
         with open(path, encoding="utf-8", newline="") as file:

@@ -1,6 +1,6 @@
 """What a controller manager is asked; any of it may hang."""
 
-from typing import List, NamedTuple, Tuple
+from typing import NamedTuple
 
 import rospy
 from controller_manager_msgs.srv import ListControllers, LoadController, SwitchController, SwitchControllerRequest, UnloadController
@@ -16,7 +16,7 @@ class ControllerRow(NamedTuple):
     name: str
     state: str
     type: str = ""
-    resources: Tuple[Tuple[str, Tuple[str, ...]], ...] = ()
+    resources: tuple[tuple[str, tuple[str, ...]], ...] = ()
 
 
 class CallError(WindowError, RuntimeError):
@@ -29,10 +29,10 @@ class ManagerCalls:
     def __init__(self):
         self._list_managers = ControllerManagerLister()
 
-    def managers(self) -> List[str]:
+    def managers(self) -> list[str]:
         return list(self._list_managers())
 
-    def controllers(self, manager: str) -> List[ControllerRow]:
+    def controllers(self, manager: str) -> list[ControllerRow]:
         """Those that are loaded, and those that could be: parameters beside the manager that have a type.
 
         :raises rospy.ServiceException: the manager is gone

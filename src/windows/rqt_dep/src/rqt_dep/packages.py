@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
-from typing import Dict, Optional, Set, Tuple
 
 import rospkg
 from rqt_graph.dotcode import passes, quoted
@@ -25,10 +24,10 @@ class Options:
     system: bool = False  # also names that no package here has
 
 
-def read_packages(rospack: Optional[rospkg.RosPack] = None) -> Dict[str, Set[str]]:
+def read_packages(rospack: rospkg.RosPack | None = None) -> dict[str, set[str]]:
     """Package -> names that its manifest depends on, of all packages on ROS_PACKAGE_PATH; what cannot be read has none."""
     rospack = rospack or rospkg.RosPack()
-    packages: Dict[str, Set[str]] = {}
+    packages: dict[str, set[str]] = {}
     for name in rospack.list():
         try:
             root = ET.parse(os.path.join(rospack.get_path(name), "package.xml")).getroot()
@@ -39,13 +38,13 @@ def read_packages(rospack: Optional[rospkg.RosPack] = None) -> Dict[str, Set[str
     return packages
 
 
-def select(packages: Dict[str, Set[str]], options: Options) -> Tuple[Set[str], Set[Tuple[str, str]], Set[str]]:
+def select(packages: dict[str, set[str]], options: Options) -> tuple[set[str], set[tuple[str, str]], set[str]]:
     """(packages shown, edges from a package to what it needs, those which the filter names)."""
     names = set(packages) | ({need for needs in packages.values() for need in needs} if options.system else set())
     text = options.name_filter.strip()
     chosen = {name for name in names if passes(name, text)} if text else set()
     needs = {name: packages.get(name, set()) & names for name in names}
-    users: Dict[str, Set[str]] = {name: set() for name in names}
+    users: dict[str, set[str]] = {name: set() for name in names}
     for name, below in needs.items():
         for need in below:
             users[need].add(name)
@@ -57,7 +56,7 @@ def select(packages: Dict[str, Set[str]], options: Options) -> Tuple[Set[str], S
     return shown, _without_transitive(edges) if options.hide_transitive else edges, chosen
 
 
-def _reach(start, table, depth) -> Set[str]:
+def _reach(start, table, depth) -> set[str]:
     seen, edge, step = set(start), set(start), 0
     while edge and (depth == 0 or step < depth):
         edge = {other for name in edge for other in table[name]} - seen
@@ -68,7 +67,7 @@ def _reach(start, table, depth) -> Set[str]:
 
 def _without_transitive(edges):
     """The edges that no longer way replaces. In a loop of packages all of them stay."""
-    table: Dict[str, Set[str]] = {}
+    table: dict[str, set[str]] = {}
     for start, end in edges:
         table.setdefault(start, set()).add(end)
     below = {name: _reach(table[name], {**dict.fromkeys({end for _, end in edges}, ()), **table}, 0) for name in table}
@@ -79,7 +78,7 @@ def _without_transitive(edges):
     }
 
 
-def generate_dot(packages: Dict[str, Set[str]], options: Options) -> str:
+def generate_dot(packages: dict[str, set[str]], options: Options) -> str:
     """DOT text; the packages that the filter names are bold, what is not of this system grey."""
     shown, edges, chosen = select(packages, options)
     if not shown:

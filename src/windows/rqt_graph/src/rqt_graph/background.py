@@ -1,7 +1,7 @@
 """Work in a thread of its own, of which only the newest result counts."""
 
 import threading
-from typing import Any, Optional, Tuple
+from typing import Any
 
 from python_qt_binding.QtCore import QObject, Signal
 
@@ -30,7 +30,7 @@ class Latest(QObject):
         return self._busy
 
     def _work(self, work):
-        outcome: Tuple[Any, Optional[Exception]]
+        outcome: tuple[Any, Exception | None]
         try:
             outcome = work(), None
         except Exception as error:  # the result of whatever it was is the caller's to judge

@@ -7,8 +7,9 @@ other packages import, on a ``rosgraph.impl.graph.Graph``. No Qt in here.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any, Dict, Iterable, List, Optional, Set, Tuple
+from typing import Any
 
 import rosgraph.names
 
@@ -67,7 +68,7 @@ class Statistics:
     traffic: float
 
     @staticmethod
-    def of(message) -> "Statistics":
+    def of(message) -> Statistics:
         """What a rosgraph_msgs/TopicStatistics says."""
         period = message.period_mean.to_sec()
         window = (message.window_stop - message.window_start).to_sec()
@@ -76,7 +77,7 @@ class Statistics:
         )
 
 
-def split_filter(text: str) -> Tuple[List[str], List[str]]:
+def split_filter(text: str) -> tuple[list[str], list[str]]:
     """A comma list as (names or expressions to include, those to exclude); nothing and ``/`` include everything."""
     words = [word.strip() for word in text.split(",")]
     excluded = [word[1:] for word in words if word.startswith("-")]
@@ -108,10 +109,10 @@ def passes(name: str, text: str) -> bool:
 class Graph:
     """What is shown. ``topics``: name -> whether it stands for several; edges are (start, end, label, statistics)."""
 
-    nodes: Set[str] = field(default_factory=set)
-    topics: Dict[str, bool] = field(default_factory=dict)
-    node_edges: Set[Tuple[str, str, str]] = field(default_factory=set)  # (publisher, subscriber, topic)
-    topic_edges: Set[Tuple[str, str, bool]] = field(default_factory=set)  # (node, topic, whether it publishes)
+    nodes: set[str] = field(default_factory=set)
+    topics: dict[str, bool] = field(default_factory=dict)
+    node_edges: set[tuple[str, str, str]] = field(default_factory=set)  # (publisher, subscriber, topic)
+    topic_edges: set[tuple[str, str, bool]] = field(default_factory=set)  # (node, topic, whether it publishes)
 
 
 def select(state, options: Options) -> Graph:
@@ -150,7 +151,7 @@ def _quiet(name: str) -> bool:
     return any(quiet in name for quiet in QUIET_NAMES)
 
 
-def _parameter_topics(topics) -> Set[str]:
+def _parameter_topics(topics) -> set[str]:
     servers = {topic[: -len("/parameter_descriptions")] for topic in topics if topic.endswith("/parameter_descriptions")}
     return {
         f"{server}/{kind}"
@@ -161,7 +162,7 @@ def _parameter_topics(topics) -> Set[str]:
 
 
 def _without_leaves(links, options: Options):
-    count: Dict[str, int] = {}
+    count: dict[str, int] = {}
     heard = {topic for _, topic, out in links if not out}
     for _, topic, _ in links:
         count[topic] = count.get(topic, 0) + 1
@@ -174,7 +175,7 @@ def _without_leaves(links, options: Options):
 
 def _grouped(links, topics, options: Options):
     """Links and topics with those of an action, of tf, of an image in the place of their parts."""
-    stands_for: Dict[str, str] = {}
+    stands_for: dict[str, str] = {}
     if options.group_actions:
         for topic in topics:
             server = topic[: -len("/feedback")] if topic.endswith("/feedback") else None
@@ -192,7 +193,7 @@ def _grouped(links, topics, options: Options):
     return links, {topic: topic in groups for _, topic, _ in links}
 
 
-def generate_dot(state, options: Options, statistics: Optional[Dict] = None) -> str:
+def generate_dot(state, options: Options, statistics: dict | None = None) -> str:
     """DOT text of what the options show.
 
     :param statistics: (publisher, topic, subscriber) -> :class:`Statistics`
@@ -202,7 +203,7 @@ def generate_dot(state, options: Options, statistics: Optional[Dict] = None) -> 
     return writer.text()
 
 
-def _draw(state, options: Options, statistics: Dict, writer) -> None:
+def _draw(state, options: Options, statistics: dict, writer) -> None:
     """Give what the options show to a writer: ``node(namespaces, key, label, shape, tooltip, color)`` with the clusters from the
     outermost inwards, and ``edge(start, end, label, look, tooltip)`` with (text, pen width, colour) of its traffic or None."""
     graph, traffic = select(state, options), _Traffic(statistics)
@@ -234,7 +235,7 @@ def quoted(text: str) -> str:
 class _Traffic:
     """How thick and how hot connections are, beside the busiest and the slowest one."""
 
-    def __init__(self, statistics: Dict):
+    def __init__(self, statistics: dict):
         self._statistics = statistics
         self._most_traffic = max([10000.0, *(s.traffic for s in statistics.values())])
         self._oldest = max([0.1, *(s.age for s in statistics.values())])
@@ -256,8 +257,8 @@ class _Writer:
     """Collects lines of DOT, nodes in the clusters of their namespaces."""
 
     def __init__(self):
-        self._root: Tuple[Dict[str, Any], List[str]] = ({}, [])  # clusters within: name -> the same pair; lines
-        self._edges: List[str] = []
+        self._root: tuple[dict[str, Any], list[str]] = ({}, [])  # clusters within: name -> the same pair; lines
+        self._edges: list[str] = []
 
     def node(self, namespaces, key, label, shape, tooltip, color) -> None:
         clusters, lines = self._root
@@ -283,7 +284,7 @@ class _Writer:
         )
 
 
-def _lines(cluster, counter) -> List[str]:
+def _lines(cluster, counter) -> list[str]:
     clusters, lines = cluster
     result = list(lines)
     for name, inner in sorted(clusters.items()):
@@ -292,7 +293,7 @@ def _lines(cluster, counter) -> List[str]:
     return result
 
 
-def _heat(part: float) -> Tuple[int, int, int]:
+def _heat(part: float) -> tuple[int, int, int]:
     """Green for 0, yellow in the middle, red for 1; black when there is no age."""
     if part <= 0:
         return 0, 0, 0
@@ -324,7 +325,7 @@ class RosGraphDotcodeGenerator:
         import rospy
         from rosgraph_msgs.msg import TopicStatistics
 
-        self.edges: Dict[str, Dict] = {}  # subscriber -> topic -> publisher -> message
+        self.edges: dict[str, dict] = {}  # subscriber -> topic -> publisher -> message
         self.stats_sub = rospy.Subscriber("/statistics", TopicStatistics, self.statistics_callback)
 
     def statistics_callback(self, msg) -> None:
@@ -334,7 +335,7 @@ class RosGraphDotcodeGenerator:
         """Whether an edge tells more than every system's debugging."""
         return edge.label not in _QUIET_TOPICS and not _quiet(edge.start) and not _quiet(edge.end)
 
-    def generate_namespaces(self, graph, graph_mode, quiet=False) -> List[str]:
+    def generate_namespaces(self, graph, graph_mode, quiet=False) -> list[str]:
         """Namespaces of the nodes, and with topics of these too, that a mode of the graph shows; each with / at its end."""
         names = list(graph.nn_nodes)
         if graph_mode != NODE_NODE_GRAPH:
@@ -410,9 +411,9 @@ class RosGraphDotcodeGenerator:
 class _FactoryWriter:
     """Hands nodes, clusters and edges to a factory of :mod:`qt_dotgraph`."""
 
-    def __init__(self, factory, graph, look: Dict):
+    def __init__(self, factory, graph, look: dict):
         self._factory, self._graph, self._look = factory, graph, look
-        self._clusters: Dict[str, object] = {}
+        self._clusters: dict[str, object] = {}
 
     def node(self, namespaces, key, label, shape, tooltip, color) -> None:
         place = self._graph

@@ -1,7 +1,6 @@
 """A graph in a view: laid out beside the window's thread, loaded, saved, highlighted."""
 
 import os
-from typing import Optional
 
 from python_qt_binding.QtCore import QEvent, QRectF, QSize, Qt, Signal, qWarning
 from python_qt_binding.QtGui import QImage, QKeySequence, QPainter
@@ -41,7 +40,7 @@ class GraphPane(QWidget):
         self.nodes, self.edges = {}, {}
         self.highlight = True
         self.auto_fit = True
-        self._dot: Optional[str] = None
+        self._dot: str | None = None
         self._layout = None
         self._worker = Latest(self)
         self._worker.done.connect(self._on_laid_out)

@@ -8,7 +8,7 @@ import threading
 import xmlrpc.client
 from dataclasses import dataclass, field
 from http.client import HTTPException
-from typing import Any, Dict, List, Set, Tuple
+from typing import Any
 
 import rosgraph
 from qt_gui.errors import WindowError
@@ -33,16 +33,16 @@ class State:
     ``bad``: node -> DEAD (nobody there) or WONKY (no sensible answer). ``services``: node -> names.
     """
 
-    nodes: Set[str] = field(default_factory=set)
-    publishers: Dict[str, List[str]] = field(default_factory=dict)
-    subscribers: Dict[str, List[str]] = field(default_factory=dict)
-    connections: Set[Tuple[str, str, str]] = field(default_factory=set)
-    active: Set[Tuple[str, str, bool]] = field(default_factory=set)
-    bad: Dict[str, str] = field(default_factory=dict)
-    services: Dict[str, List[str]] = field(default_factory=dict)
-    types: Dict[str, str] = field(default_factory=dict)
+    nodes: set[str] = field(default_factory=set)
+    publishers: dict[str, list[str]] = field(default_factory=dict)
+    subscribers: dict[str, list[str]] = field(default_factory=dict)
+    connections: set[tuple[str, str, str]] = field(default_factory=set)
+    active: set[tuple[str, str, bool]] = field(default_factory=set)
+    bad: dict[str, str] = field(default_factory=dict)
+    services: dict[str, list[str]] = field(default_factory=dict)
+    types: dict[str, str] = field(default_factory=dict)
 
-    def registered(self) -> Set[Tuple[str, str, bool]]:
+    def registered(self) -> set[tuple[str, str, bool]]:
         """As ``active``, of all registrations."""
         return {
             (node, topic, out)
@@ -83,7 +83,7 @@ def read() -> State:
     return state
 
 
-def _node_uris(master, nodes) -> Dict[str, str]:
+def _node_uris(master, nodes) -> dict[str, str]:
     multi: Any = xmlrpc.client.MultiCall(master)
     for node in nodes:
         multi.lookupNode("/rqt_graph", node)
@@ -128,7 +128,7 @@ class _Transport(xmlrpc.client.Transport):
         return connection
 
 
-def service_types(services: List[str]) -> Dict[str, str]:
+def service_types(services: list[str]) -> dict[str, str]:
     """Name -> type, or ? where the service does not answer within a second; they are asked at the same time."""
     import rosservice
 
@@ -138,7 +138,7 @@ def service_types(services: List[str]) -> Dict[str, str]:
         except Exception:  # rosservice raises what its sockets do, and more
             found[name] = "?"
 
-    found: Dict[str, str] = {}
+    found: dict[str, str] = {}
     threads = [threading.Thread(target=ask, args=(name, found), daemon=True) for name in services]
     for thread in threads:
         thread.start()

@@ -4,7 +4,7 @@ import importlib
 import inspect
 import os
 import sys
-from typing import Any, Dict, Optional, Tuple
+from typing import Any
 from xml.etree import ElementTree
 
 from python_qt_binding.QtCore import qWarning
@@ -94,11 +94,11 @@ class RosPluginProvider(PluginProvider):
         return os.path.dirname(path)
 
 
-_parsed: Dict[Any, Any] = {}  # (path, time) -> root, None for what is broken: several providers read the same file, one line is enough
+_parsed: dict[Any, Any] = {}  # (path, time) -> root, None for what is broken: several providers read the same file, one line is enough
 
 
 def _parse(package, path):
-    key: Tuple[str, Optional[int]]
+    key: tuple[str, int | None]
     try:
         key = path, os.stat(path).st_mtime_ns
         if key not in _parsed:

@@ -6,7 +6,7 @@ Every start reads all manifests anew: two hundred take some ten milliseconds, an
 import os
 import re
 import xml.etree.ElementTree as ET
-from typing import Any, Dict
+from typing import Any
 
 import rospkg
 from python_qt_binding.QtCore import qWarning
@@ -64,7 +64,7 @@ class CompiledPluginProvider(RospkgPluginProvider):
         raise PluginLoadError(self._plugin_descriptors[plugin_id].attributes()["not_available"])
 
 
-_known: Dict[Any, Any] = {}  # of the last RosPack asked: several providers ask for the same
+_known: dict[Any, Any] = {}  # of the last RosPack asked: several providers ask for the same
 
 
 def exports(rospack, tags=_WINDOWS):

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Optional
-
 import cv2
 import numpy as np
 from python_qt_binding.QtCore import QRectF, QSize, Qt, Signal
@@ -32,15 +30,15 @@ class Canvas(QWidget):
         super().__init__(parent)
         self.setObjectName("image_frame")
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        self.picture: Optional[np.ndarray] = None
+        self.picture: np.ndarray | None = None
         self.message = ""  #: shown instead of a picture
         self.smooth, self.grid_lines, self.quarters, self.original_size = False, 0, 0, False
-        self._scaled: Optional[QImage] = None
+        self._scaled: QImage | None = None
 
     def sizeHint(self) -> QSize:
         return QSize(640, 480)
 
-    def set_picture(self, picture: Optional[np.ndarray], message: str = "") -> None:
+    def set_picture(self, picture: np.ndarray | None, message: str = "") -> None:
         """Show a picture, or a message in place of one."""
         self.picture, self.message = picture, message
         self.changed()
@@ -53,7 +51,7 @@ class Canvas(QWidget):
             self.setMinimumSize(width, height)
         self.update()
 
-    def final_picture(self) -> Optional[np.ndarray]:
+    def final_picture(self) -> np.ndarray | None:
         """The picture with all its pixels, rotated, with the grid."""
         if self.picture is None:
             return None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from typing import Optional
 
 import rosgraph
 import rosgraph.names
@@ -32,7 +31,7 @@ class ImageView(Plugin):
     def __init__(self, context):
         super().__init__(context)
         self.setObjectName("ImageView")
-        self._source: Optional[ImageSource] = None
+        self._source: ImageSource | None = None
         self._background = Background(self)
         self._publisher = None
         self._told = ""

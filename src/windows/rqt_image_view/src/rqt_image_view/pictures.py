@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Callable, Optional
+from typing import Any
 
 import cv2
 import image_pixels
@@ -92,7 +93,7 @@ class TheoraDecoder:
         self._heads = {}
         self._context: Any = None
 
-    def decode(self, data: bytes) -> Optional[np.ndarray]:
+    def decode(self, data: bytes) -> np.ndarray | None:
         """
         :param data: of a packet. :returns: (h, w, 3) RGB, or None if the packet brings no picture.
         :raises PictureError: no PyAV, or a packet that is broken.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Callable, List, Optional
+from collections.abc import Callable
 
 import numpy as np
 import rosgraph
@@ -17,13 +17,13 @@ TRANSPORTS = ("compressed", "compressedDepth", "theora")
 _BUFFER = 1 << 24  # bytes: with less, rospy copies a large message many times while it arrives
 
 
-def image_topics() -> List[str]:
+def image_topics() -> list[str]:
     """Names of image topics, those of transports behind their base topic. Asks the master.
 
     :raises rosgraph.MasterException or OSError: no master.
     """
     types = dict(rosgraph.Master("/rqt_image_view").getTopicTypes())
-    names: List[str] = []
+    names: list[str] = []
     for base in sorted(name for name, kind in types.items() if kind == RAW):
         names += [base] + [f"{base}/{transport}" for transport in TRANSPORTS if f"{base}/{transport}" in types]
     return names + sorted(name for name, kind in types.items() if kind == COMPRESSED and name not in names)
@@ -100,7 +100,7 @@ class ImageSource:
             self._free.clear()
             self._on_picture(picture)
 
-    def _picture(self, message) -> Optional[np.ndarray]:
+    def _picture(self, message) -> np.ndarray | None:
         if message._type == THEORA:
             return self._theora.decode(message.data)
         return picture_of(message, self.depth)

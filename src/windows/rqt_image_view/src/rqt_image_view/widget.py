@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Dict, List
-
 from python_qt_binding.QtCore import QSize, Qt, Signal, qWarning
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import (
@@ -168,7 +166,7 @@ class ImageViewWidget(QWidget):
 
     # Topics
 
-    def list_topics(self, names: List[str]) -> None:
+    def list_topics(self, names: list[str]) -> None:
         """Offer these topics and the one that is selected; nothing else changes."""
         selected = self.topics.currentText()
         blocked = self.topics.blockSignals(True)
@@ -192,7 +190,7 @@ class ImageViewWidget(QWidget):
 
     # Settings, under upstream's names
 
-    def settings(self) -> Dict[str, object]:
+    def settings(self) -> dict[str, object]:
         return {
             "topic": self.topics.currentText(),
             "zoom1": self.zoom.isChecked(),
@@ -207,7 +205,7 @@ class ImageViewWidget(QWidget):
             "color_scheme": self.scheme.currentIndex(),
         }
 
-    def restore(self, saved: Dict[str, object]) -> None:
+    def restore(self, saved: dict[str, object]) -> None:
         """Take over what :meth:`settings` gave; values may have become text. What is unfit is left out with a line."""
 
         def truth(value):

@@ -1,6 +1,6 @@
 """Which trajectory controllers can be moved by sliders, and why the others cannot."""
 
-from typing import Dict, List, NamedTuple, Tuple
+from typing import NamedTuple
 
 import rospy
 from controller_manager_msgs.srv import ListControllers
@@ -12,8 +12,8 @@ from .joint_limits_urdf import DescriptionError, JointLimits, joint_limits
 class Found(NamedTuple):
     """``usable``: name to joints with limits; ``reasons``: lines about the running ones that cannot be used."""
 
-    usable: Dict[str, Dict[str, JointLimits]]
-    reasons: Tuple[str, ...]
+    usable: dict[str, dict[str, JointLimits]]
+    reasons: tuple[str, ...]
 
 
 class ControllerFinder:
@@ -22,7 +22,7 @@ class ControllerFinder:
     def __init__(self):
         self._list_managers = ControllerManagerLister()
 
-    def managers(self) -> List[str]:
+    def managers(self) -> list[str]:
         return list(self._list_managers())
 
     def controllers(self, manager: str) -> Found:
@@ -52,7 +52,7 @@ class ControllerFinder:
         return Found(usable, reasons)
 
     @staticmethod
-    def _in_order(manager: str, controller) -> List[str]:
+    def _in_order(manager: str, controller) -> list[str]:
         """The claimed joints, as the controller's own parameter orders them: claims are sorted by name."""
         claimed = list(dict.fromkeys(joint for entry in controller.claimed_resources for joint in entry.resources))
         listed = rospy.get_param(f"{manager.rsplit('/', 1)[0]}/{controller.name}/joints", None)

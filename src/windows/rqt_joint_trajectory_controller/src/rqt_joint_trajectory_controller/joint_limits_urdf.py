@@ -2,7 +2,7 @@
 
 import math
 import xml.etree.ElementTree as ET
-from typing import Dict, NamedTuple
+from typing import NamedTuple
 
 import lenient_xml
 from qt_gui.errors import WindowError
@@ -20,7 +20,7 @@ class DescriptionError(WindowError, ValueError):
     """A text that is no robot description; one line says why."""
 
 
-def joint_limits(description: str) -> Dict[str, JointLimits]:
+def joint_limits(description: str) -> dict[str, JointLimits]:
     """All joints that can be moved by sliders: with limits of position (continuous ones: half a turn each way; soft limits
     narrow them) and of velocity. Joints that mimic another are left out.
 
@@ -31,7 +31,7 @@ def joint_limits(description: str) -> Dict[str, JointLimits]:
         root = lenient_xml.fromstring(description)
     except (ET.ParseError, TypeError, ValueError) as error:
         raise DescriptionError(f"robot_description is no XML: {error}") from error
-    found: Dict[str, JointLimits] = {}
+    found: dict[str, JointLimits] = {}
     for joint in root.findall("joint"):
         limits = _limits(joint)
         if limits is not None:

@@ -1,7 +1,7 @@
 """Choose a launch file; start and stop its nodes."""
 
 import time
-from typing import Any, Dict, List
+from typing import Any
 
 from python_qt_binding.QtCore import QSize, QTimer
 from python_qt_binding.QtGui import QBrush, QColor, QIcon
@@ -34,8 +34,8 @@ class LaunchWidget(QWidget):
         self.setObjectName("LaunchWidget")
         self.setWindowTitle("Launch")
         self._launching, self._background = launching, Background(self)
-        self.nodes: List[Any] = []  # of self._launching
-        self._wanted: Dict[str, Any] = {}
+        self.nodes: list[Any] = []  # of self._launching
+        self._wanted: dict[str, Any] = {}
         self.package_box, self.file_box, self.arguments_edit = QComboBox(), QComboBox(), QLineEdit()
         for box, name in (
             (self.package_box, "package_combo"),

@@ -4,7 +4,7 @@ import os
 import shlex
 import threading
 import time
-from typing import Any, List, Optional
+from typing import Any
 
 import rosgraph
 import roslaunch.config
@@ -34,7 +34,7 @@ class LaunchedNode:
         self._run_id, self._lock = run_id, threading.Lock()
         self._process: Any = None  # a Process of roslaunch
         self.starts, self._wanted = 0, False
-        self._died_at: Optional[float] = None
+        self._died_at: float | None = None
 
     @property
     def kind(self) -> str:
@@ -81,12 +81,12 @@ class LaunchedNode:
         return now - self._died_at >= max(1.0, self.node.respawn_delay)
 
 
-def packages() -> List[str]:
+def packages() -> list[str]:
     """Those with launch files in a folder launch."""
     return sorted({name for name, _ in RqtRoscommUtil.iterate_packages("launch")})
 
 
-def launch_files(package: str) -> List[str]:
+def launch_files(package: str) -> list[str]:
     """Their names within the folder launch of a package."""
     try:
         return [name.split("/", 1)[1] for name in RqtRoscommUtil.list_files(package, "launch")]
@@ -94,7 +94,7 @@ def launch_files(package: str) -> List[str]:
         return []
 
 
-def load(package: str, file: str, arguments: str) -> List[LaunchedNode]:
+def load(package: str, file: str, arguments: str) -> list[LaunchedNode]:
     """The nodes of a launch file; its parameters are set on the master.
 
     :param arguments: as typed behind roslaunch: ``gui:=false speed:=2``
@@ -121,7 +121,7 @@ def load(package: str, file: str, arguments: str) -> List[LaunchedNode]:
     return [LaunchedNode(node, str(run_id)) for node in config.nodes]
 
 
-def stop_all(nodes: List[LaunchedNode], patience: float = sum(PATIENCE) + 1.0) -> None:
+def stop_all(nodes: list[LaunchedNode], patience: float = sum(PATIENCE) + 1.0) -> None:
     """All at once; returns when they have ended, or after ``patience`` seconds."""
     threads = [threading.Thread(target=node.stop, name=f"stop {node.name}", daemon=True) for node in nodes if node.state() == "running"]
     for thread in threads:

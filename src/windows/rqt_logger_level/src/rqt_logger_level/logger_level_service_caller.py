@@ -1,7 +1,5 @@
 """What the master and the nodes are asked. Every call may take its time."""
 
-from typing import Dict, List
-
 import rosgraph
 import rospy
 import rosservice
@@ -13,10 +11,10 @@ LEVELS = ("Debug", "Info", "Warn", "Error", "Fatal")
 class LoggerLevelServiceCaller:
     """Stateless."""
 
-    def get_levels(self) -> List[str]:
+    def get_levels(self) -> list[str]:
         return list(LEVELS)
 
-    def get_node_names(self) -> List[str]:
+    def get_node_names(self) -> list[str]:
         """All nodes with a service set_logger_level.
 
         :raises OSError, rosgraph.MasterException, rosservice.ROSServiceIOException: the master does not answer
@@ -24,7 +22,7 @@ class LoggerLevelServiceCaller:
         ending = "/set_logger_level"
         return sorted(name[: -len(ending)] for name in rosservice.get_service_list() if name.endswith(ending))
 
-    def get_loggers(self, node: str) -> Dict[str, str]:
+    def get_loggers(self, node: str) -> dict[str, str]:
         """Logger to level; :raises rospy.ServiceException: the node is gone"""
         answer = rospy.ServiceProxy(node + "/get_loggers", GetLoggers)()
         return {logger.name: logger.level.capitalize() for logger in sorted(answer.loggers, key=lambda logger: logger.name)}

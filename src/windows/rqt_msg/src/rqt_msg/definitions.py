@@ -1,7 +1,6 @@
 """Definitions of installed types: their parts, and their text."""
 
 import os
-from typing import List, Tuple
 
 import roslib.message
 import rosmsg
@@ -14,7 +13,7 @@ class DefinitionError(WindowError, ValueError):
     """A type without a definition; one line says why."""
 
 
-def parts(type_name: str, mode: str) -> List[Tuple[str, object]]:
+def parts(type_name: str, mode: str) -> list[tuple[str, object]]:
     """(name, empty message) of what a type consists of: itself, request and response, or goal, result and feedback.
 
     :raises DefinitionError: if it cannot be imported

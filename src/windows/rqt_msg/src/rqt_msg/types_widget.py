@@ -1,7 +1,5 @@
 """Browsers of types: messages here, services and actions in packages of their own."""
 
-from typing import Dict, List
-
 from python_qt_binding.QtCore import QSize, Qt
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import (
@@ -83,7 +81,7 @@ class TypesWidget(QWidget):
     def __init__(self, mode: str):
         """:param mode: .msg, .srv or .action"""
         super().__init__()
-        self._types: Dict[str, List[str]] = {}
+        self._types: dict[str, list[str]] = {}
         self._wanted = ""
         self._background = Background(self)
         self.package_combo, self.type_combo = QComboBox(), QComboBox()

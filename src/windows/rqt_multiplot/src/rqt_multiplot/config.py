@@ -13,7 +13,6 @@ import re
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, fields, is_dataclass
 from enum import IntEnum
-from typing import List, Optional, Tuple
 from xml.sax.saxutils import escape
 
 from qt_gui.errors import WindowError
@@ -158,7 +157,7 @@ class Plot:
     plot_rate: float = dataclasses.field(default=30.0, metadata={"range": (0.01, 100.0)})  #: Hz
     legend: Legend = dataclasses.field(default_factory=Legend)
     axes: PlotAxes = dataclasses.field(default_factory=PlotAxes)
-    curves: List[Curve] = dataclasses.field(default_factory=list)
+    curves: list[Curve] = dataclasses.field(default_factory=list)
 
     def axis_title(self, axis: str) -> str:
         """Title of ``x_axis`` or ``y_axis``; empty when it is hidden."""
@@ -177,10 +176,10 @@ class Table:
     link_cursor: bool = False
     link_scale: bool = False
     track_points: bool = False
-    plots: List[List[Plot]] = dataclasses.field(default_factory=lambda: [[Plot()]])
+    plots: list[list[Plot]] = dataclasses.field(default_factory=lambda: [[Plot()]])
 
     @property
-    def shape(self) -> Tuple[int, int]:
+    def shape(self) -> tuple[int, int]:
         """Rows, columns."""
         return len(self.plots), len(self.plots[0]) if self.plots else 0
 
@@ -191,7 +190,7 @@ class Table:
         ]
 
 
-def automatic_color(index: int) -> Tuple[int, int, int]:
+def automatic_color(index: int) -> tuple[int, int, int]:
     """(r, g, b) of the index-th curve: hues that halve the largest gap, from red on."""
     hue = int(f"{index % 256:08b}"[::-1], 2) / 255 * 6
     sector, part = int(hue), hue - int(hue)
@@ -202,7 +201,7 @@ def automatic_color(index: int) -> Tuple[int, int, int]:
 # Reading
 
 
-def read(text: str, name: str = "the configuration") -> Tuple[Table, List[str]]:
+def read(text: str, name: str = "the configuration") -> tuple[Table, list[str]]:
     """A table from the text of a file, and what was wrong in it, one line each: such values are left at their defaults.
 
     :param name: of the file, for messages. :raises ConfigError: no XML, or another kind of file.
@@ -214,7 +213,7 @@ def read(text: str, name: str = "the configuration") -> Tuple[Table, List[str]]:
     table = root.find("table") if root.tag == "rqt_multiplot" else None
     if table is None:
         raise ConfigError(f"{name} is no configuration of rqt_multiplot: it lacks <rqt_multiplot><table>")
-    problems: List[str] = []
+    problems: list[str] = []
     read_table = _read(Table, table, "table", problems)
     rows = _numbered(table.find("plots"), "row")
     read_table.plots = [[_read_plot(plot, f"{row.tag}/{plot.tag}", problems) for plot in _numbered(row, "column")] for row in rows]
@@ -236,7 +235,7 @@ def read_curve(text: str) -> Curve:
     return _read(Curve, root, "curve", [])
 
 
-def _numbered(parent: Optional[ET.Element], prefix: str) -> List[ET.Element]:
+def _numbered(parent: ET.Element | None, prefix: str) -> list[ET.Element]:
     """Children ``prefix_N`` in the order of their numbers."""
     found = [
         (int(match.group(1)), child)
@@ -247,13 +246,13 @@ def _numbered(parent: Optional[ET.Element], prefix: str) -> List[ET.Element]:
     return [child for _, child in sorted(found, key=lambda pair: pair[0])]
 
 
-def _read_plot(element: ET.Element, path: str, problems: List[str]) -> Plot:
+def _read_plot(element: ET.Element, path: str, problems: list[str]) -> Plot:
     plot = _read(Plot, element, path, problems)
     plot.curves = [_read(Curve, curve, f"{path}/{curve.tag}", problems) for curve in _numbered(element.find("curves"), "curve")]
     return plot
 
 
-def _read(kind, element: Optional[ET.Element], path: str, problems: List[str]):
+def _read(kind, element: ET.Element | None, path: str, problems: list[str]):
     read_value = kind()
     for item in fields(kind):
         default = getattr(read_value, item.name)
@@ -303,12 +302,12 @@ def write(table: Table) -> str:
 
 def write_curve(curve: Curve) -> str:
     """A curve as text, for the clipboard."""
-    lines: List[str] = []
+    lines: list[str] = []
     _write("curve", curve, lines, 0)
     return "\n".join(lines)
 
 
-def _write(name: str, value, lines: List[str], depth: int) -> None:
+def _write(name: str, value, lines: list[str], depth: int) -> None:
     indent = "    " * depth
     if is_dataclass(value):
         children = {item.name: getattr(value, item.name) for item in fields(value)}

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import List, Optional
-
 import roslib.message
 import roslib.msgs
 from python_qt_binding.QtCore import QStringListModel, Qt
@@ -34,9 +32,9 @@ _PREFIXES = {ScaleType.ABSOLUTE: "absolute", ScaleType.RELATIVE: "relative"}
 _DEEPEST = 8  # messages within messages that the list of fields goes into
 
 
-def field_names(message_class, prefix: str = "", depth: int = 0) -> List[str]:
+def field_names(message_class, prefix: str = "", depth: int = 0) -> list[str]:
     """Fields of a message that hold numbers, as ``pose/pose/position/x``; of arrays the first element."""
-    names: List[str] = []
+    names: list[str] = []
     if message_class is None or depth > _DEEPEST:
         return names
     for name, kind in zip(message_class.__slots__, message_class._slot_types):
@@ -58,7 +56,7 @@ def _number(value: float) -> QDoubleSpinBox:
     return box
 
 
-def _choice(enum, chosen, names: Optional[List[str]] = None) -> QComboBox:
+def _choice(enum, chosen, names: list[str] | None = None) -> QComboBox:
     box = QComboBox()
     for item, name in zip(enum, names or [item.name.capitalize().replace("_", " ") for item in enum]):
         box.addItem(name, int(item))
@@ -117,7 +115,7 @@ class AxisBox(QGroupBox):
         self.field.setText(axis.field)
         self.receipt.setChecked(axis.field_type == FieldType.RECEIPT_TIME)
         self.scale.setCurrentIndex(self.scale.findData(int(axis.scale.type)))
-        self._shown: Optional[ScaleType] = None
+        self._shown: ScaleType | None = None
         self._show_limits()
         self._type_changed()
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import zip_longest
-from typing import TYPE_CHECKING, List
+from typing import TYPE_CHECKING
 
 from python_qt_binding.QtCore import QRectF, Qt
 from python_qt_binding.QtGui import QImage, QPainter, QTextOption
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 SIZE = 1280, 1024  #: pixels of a picture
 
 
-def write_image(name: str, panels: List[List[PlotPanel]]) -> None:
+def write_image(name: str, panels: list[list[PlotPanel]]) -> None:
     """A picture of the plots of a table, with their titles. :raises OSError: it cannot be written."""
     image = QImage(*SIZE, QImage.Format.Format_ARGB32)
     image.fill(Qt.GlobalColor.white)
@@ -44,7 +44,7 @@ def _draw(painter: QPainter, cell: QRectF, panel) -> None:
     )
 
 
-def write_text(name: str, panels: List[PlotPanel]) -> None:
+def write_text(name: str, panels: list[PlotPanel]) -> None:
     """Two columns per curve, x and y, under a line with their names. :raises OSError: it cannot be written."""
     titles, columns = [], []
     for panel in panels:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import List, Optional, Tuple
-
 from python_qt_binding.QtCore import Qt, QTimer, Signal, qWarning
 from python_qt_binding.QtGui import QColor, QIcon
 from python_qt_binding.QtWidgets import QFileDialog, QHBoxLayout, QLineEdit, QMenu, QToolButton, QVBoxLayout, QWidget
@@ -51,8 +49,8 @@ class PlotPanel(QWidget):
         self.running = False
         self._at_home = True
         self._told: set = set()
-        self.samplers: List[Sampler] = []
-        self.points: List[Points] = []
+        self.samplers: list[Sampler] = []
+        self.points: list[Points] = []
         self.view = PlotView()
         self._build()
         self._timer = QTimer(self)
@@ -186,9 +184,9 @@ class PlotPanel(QWidget):
 
     # Range
 
-    def preferred_range(self) -> Tuple[Optional[Tuple[float, float]], Optional[Tuple[float, float]]]:
+    def preferred_range(self) -> tuple[tuple[float, float] | None, tuple[float, float] | None]:
         """What the scales of the curves want to see: x, y; None while nothing is known."""
-        wanted: Tuple[list, list] = ([], [])
+        wanted: tuple[list, list] = ([], [])
         for curve, points, sampler in zip(self.plot.curves, self.points, self.samplers):
             bounds = points.bounds()
             for which, (values, axis) in enumerate(((points.x, curve.axes.x_axis), (points.y, curve.axes.y_axis))):

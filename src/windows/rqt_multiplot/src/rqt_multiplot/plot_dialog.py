@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import List, Optional
-
 from python_qt_binding.QtCore import QMimeData, Qt
 from python_qt_binding.QtGui import QDrag, QGuiApplication
 from python_qt_binding.QtWidgets import (
@@ -28,7 +26,7 @@ from rqt_multiplot.panel import CURVE_MIME
 class CurveList(QListWidget):
     """Titles of curves; a title can be dragged onto a plot."""
 
-    def __init__(self, curves: List[Curve]):
+    def __init__(self, curves: list[Curve]):
         super().__init__()
         self.setObjectName("curves")
         self.curves = curves
@@ -42,7 +40,7 @@ class CurveList(QListWidget):
         self.addItems([curve.title for curve in self.curves])
         self.setCurrentRow(min(row, self.count() - 1))
 
-    def selected(self) -> List[int]:
+    def selected(self) -> list[int]:
         return sorted(index.row() for index in self.selectedIndexes())
 
     def startDrag(self, _actions) -> None:
@@ -129,12 +127,12 @@ class PlotDialog(QDialog):
         row.addLayout(column)
         return row
 
-    def _open(self, curve: Curve, index: Optional[int]) -> None:
+    def _open(self, curve: Curve, index: int | None) -> None:
         dialog = self.curve_dialog = CurveDialog(curve, self._types, self)
         dialog.accepted.connect(lambda: self._take(dialog.curve, index))
         dialog.show()
 
-    def _take(self, curve: Curve, index: Optional[int]) -> None:
+    def _take(self, curve: Curve, index: int | None) -> None:
         if index is None:
             self.plot.curves.append(curve)
         else:

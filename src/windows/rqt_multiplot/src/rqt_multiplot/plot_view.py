@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any
 
 import numpy as np
 from python_qt_binding.QtCore import QPointF, Qt, Signal
@@ -25,7 +25,7 @@ class Axis(pg.AxisItem):
         self.offset = 0.0
         self.enableAutoSIPrefix(False)
 
-    def set_times_from(self, first: Optional[float]) -> bool:
+    def set_times_from(self, first: float | None) -> bool:
         """Show times since ``first`` (s since 1970); None shows numbers. :returns: whether that changed."""
         offset = float(math.floor(first)) if first is not None and first > _EPOCH else 0.0
         changed, self.offset = offset != self.offset, offset
@@ -56,7 +56,7 @@ class Canvas(pg.ViewBox):
 
     def __init__(self):
         super().__init__(enableMenu=False)
-        self._corner: Optional[QPointF] = None
+        self._corner: QPointF | None = None
 
     def mouseDoubleClickEvent(self, event) -> None:
         event.accept()
@@ -104,8 +104,8 @@ class PlotView(pg.PlotWidget):
         self.plotItem.showGrid(True, True, 0.15)
         self.legend = self.plotItem.addLegend(offset=(-10, 10))
         self.track_points = False
-        self._items: List[Any] = []
-        self._colors: List[QColor] = []
+        self._items: list[Any] = []
+        self._colors: list[QColor] = []
         self._foreground, self._background = QColor("black"), QColor("white")
         self._build_cursor()
         self.canvas.home.connect(self.home_wanted)
@@ -147,7 +147,7 @@ class PlotView(pg.PlotWidget):
                 # A long title must not make its plot wide.
                 axis.setLabel((shown if len(shown) <= 90 else shown[:87] + "...").strip())
 
-    def set_curves(self, curves: List[Curve], legend: bool) -> None:
+    def set_curves(self, curves: list[Curve], legend: bool) -> None:
         """Draw these curves from now on; each is empty until :meth:`draw`."""
         self.legend.clear()
         for item in self._items:
@@ -187,12 +187,12 @@ class PlotView(pg.PlotWidget):
 
     # Range
 
-    def shown_range(self) -> Tuple[List[float], List[float]]:
+    def shown_range(self) -> tuple[list[float], list[float]]:
         """((x low, high), (y low, high)) that is shown."""
         x, y = self.viewRange()
         return list(x), list(y)
 
-    def show_range(self, x: Optional[Tuple[float, float]], y: Optional[Tuple[float, float]]) -> None:
+    def show_range(self, x: tuple[float, float] | None, y: tuple[float, float] | None) -> None:
         """Show these values; None leaves an axis. What has no extent is shown with one."""
         ranges = {}
         for name, limits in (("xRange", x), ("yRange", y)):
@@ -217,7 +217,7 @@ class PlotView(pg.PlotWidget):
         super().leaveEvent(event)
         self.cursor_moved.emit(None)
 
-    def show_cursor(self, place: Optional[Tuple[float, float]], curves: Optional[Dict[str, Points]] = None) -> None:
+    def show_cursor(self, place: tuple[float, float] | None, curves: dict[str, Points] | None = None) -> None:
         """Draw the cross, and with :attr:`track_points` the points of the curves nearest to it; None hides all."""
         tracked = {}
         if place is not None and self.track_points:
@@ -243,20 +243,20 @@ class PlotView(pg.PlotWidget):
             self._track_label.setPos(*place)
 
 
-def sticks(x: np.ndarray, y: np.ndarray, baseline: float, orientation: Orientation) -> Tuple[np.ndarray, np.ndarray]:
+def sticks(x: np.ndarray, y: np.ndarray, baseline: float, orientation: Orientation) -> tuple[np.ndarray, np.ndarray]:
     """Pairs of points: from the baseline to each point."""
     x, y = np.repeat(x, 2), np.repeat(y, 2)
     (y if orientation == Orientation.VERTICAL else x)[0::2] = baseline
     return x, y
 
 
-def steps(x: np.ndarray, y: np.ndarray, inverted: bool) -> Tuple[np.ndarray, np.ndarray]:
+def steps(x: np.ndarray, y: np.ndarray, inverted: bool) -> tuple[np.ndarray, np.ndarray]:
     """Corners of a stair: the old value up to the next x, or inverted the new one from the last x."""
     x, y = np.repeat(x, 2), np.repeat(y, 2)
     return (x[:-1], y[1:]) if inverted else (x[1:], y[:-1])
 
 
-def smooth(x: np.ndarray, y: np.ndarray, pieces: int = 8) -> Tuple[np.ndarray, np.ndarray]:
+def smooth(x: np.ndarray, y: np.ndarray, pieces: int = 8) -> tuple[np.ndarray, np.ndarray]:
     """Cubic pieces through all points, with the slope of the neighbours' chord at each."""
     if len(x) < 3:
         return x, y

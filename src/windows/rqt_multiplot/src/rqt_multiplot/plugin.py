@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from typing import List
 
 from rqt_gui_py.plugin import Plugin
 from rqt_plot.rosplot import TopicTypes
@@ -61,7 +60,7 @@ class MultiplotPlugin(Plugin):
         instance_settings.set_value("unsaved_url", self._widget.url)
 
     def restore_settings(self, plugin_settings, instance_settings) -> None:
-        saved: List[str] = []
+        saved: list[str] = []
         while len(saved) < MOST_HISTORY and instance_settings.contains(f"history/config_{len(saved)}"):
             saved.append(str(instance_settings.value(f"history/config_{len(saved)}")))
         self._widget.set_history(self._widget.get_history() + saved)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Optional, Tuple
-
 import numpy as np
 from rqt_plot.series import Series, decimate, limits, visible
 
@@ -49,11 +47,11 @@ class Points(Series):
             late = np.flatnonzero(self.x >= begin)
             self._drop(int(late[0]) if len(late) else 0)
 
-    def bounds(self) -> Tuple[Optional[Tuple[float, float]], Optional[Tuple[float, float]]]:
+    def bounds(self) -> tuple[tuple[float, float] | None, tuple[float, float] | None]:
         """Limits of x and of y; None where there is no finite value."""
         return limits(self.x), limits(self.y)
 
-    def picture(self, x_range, y_range, columns: int, rows: int) -> Tuple[np.ndarray, np.ndarray]:
+    def picture(self, x_range, y_range, columns: int, rows: int) -> tuple[np.ndarray, np.ndarray]:
         """What has to be drawn in a window of columns x rows pixels: x, y."""
         if self.ascending:
             shown = visible(self, *x_range)
@@ -68,7 +66,7 @@ class Points(Series):
         keep = np.concatenate(([True], pixel[1:] != pixel[:-1]))
         return self.x[keep], self.y[keep]
 
-    def nearest(self, x: float) -> Optional[Tuple[float, float]]:
+    def nearest(self, x: float) -> tuple[float, float] | None:
         """The point whose x is nearest."""
         if not len(self):
             return None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from typing import Callable, Deque, Dict, List, Optional, Set, Tuple
+from collections.abc import Callable
 
 from rqt_plot.fields import FieldError, getter, parse_path, slot_of
 
@@ -27,7 +27,7 @@ def is_time(axis: CurveAxis, message_class) -> bool:
         return False
 
 
-def _stamp_getter(axis: CurveAxis, message_class) -> Optional[Callable]:
+def _stamp_getter(axis: CurveAxis, message_class) -> Callable | None:
     """Reads the stamp of the innermost message with a header around a field; None if there is none."""
     steps = parse_path(axis.field) if axis.field_type == FieldType.DATA else []
     for count in range(len(steps) - 1, -1, -1):
@@ -53,17 +53,17 @@ class Sampler:
         self.curve = curve
         self.problem = ""
         self._times = {name: getattr(curve.axes, name).field_type == FieldType.RECEIPT_TIME for name in AXES}
-        self.topics: Set[str] = {curve.axes.x_axis.topic, curve.axes.y_axis.topic} if curve.complete else set()
-        self._readers: Dict[Tuple[str, type], Tuple] = {}
-        self._unpaired: Tuple[Deque, Deque] = (deque(maxlen=_MOST_UNPAIRED), deque(maxlen=_MOST_UNPAIRED))
-        self._points: Deque[Tuple[float, float]] = deque(maxlen=_MOST_WAITING)
+        self.topics: set[str] = {curve.axes.x_axis.topic, curve.axes.y_axis.topic} if curve.complete else set()
+        self._readers: dict[tuple[str, type], tuple] = {}
+        self._unpaired: tuple[deque, deque] = (deque(maxlen=_MOST_UNPAIRED), deque(maxlen=_MOST_UNPAIRED))
+        self._points: deque[tuple[float, float]] = deque(maxlen=_MOST_WAITING)
         self._lock = threading.Lock()
 
     def is_time(self, axis: str) -> bool:
         """Whether ``x_axis`` or ``y_axis`` shows times, as far as known from the messages so far."""
         return self._times[axis]
 
-    def take(self) -> List[Tuple[float, float]]:
+    def take(self) -> list[tuple[float, float]]:
         """Points since the last call."""
         with self._lock:
             points = list(self._points)
@@ -138,5 +138,5 @@ class Sampler:
                 xs.popleft()
 
 
-def _between(first: Tuple[float, float], second: Tuple[float, float], time: float) -> float:
+def _between(first: tuple[float, float], second: tuple[float, float], time: float) -> float:
     return first[1] + (second[1] - first[1]) * (time - first[0]) / (second[0] - first[0])

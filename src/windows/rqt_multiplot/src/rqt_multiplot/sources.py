@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Callable, Dict, Iterable, List, Tuple
+from collections.abc import Callable, Iterable
 
 import rosbag
 import roslib.message
@@ -22,8 +22,8 @@ class Topics:
 
     def __init__(self):
         self._lock = threading.Lock()
-        self._samplers: Dict[str, List[Sampler]] = {}
-        self._subscribers: Dict[str, rospy.Subscriber] = {}
+        self._samplers: dict[str, list[Sampler]] = {}
+        self._subscribers: dict[str, rospy.Subscriber] = {}
 
     def add(self, sampler: Sampler) -> None:
         """Begin to feed a sampler."""
@@ -73,14 +73,14 @@ class Topics:
             sampler.add(topic, message, now)
 
 
-def read_bag(name: str, samplers: Iterable[Sampler], progress: Callable[[float], bool] = lambda share: True) -> Tuple[int, List[str]]:
+def read_bag(name: str, samplers: Iterable[Sampler], progress: Callable[[float], bool] = lambda share: True) -> tuple[int, list[str]]:
     """Feed samplers from a bag file; the time of receipt is that of recording.
 
     :param progress: called with 0..1 now and then; returns False to stop.
     :returns: number of messages read, topics that are wanted and not in the bag.
     :raises BagError: no bag, an old or broken one, or one with none of the topics.
     """
-    by_topic: Dict[str, List[Sampler]] = {}
+    by_topic: dict[str, list[Sampler]] = {}
     for sampler in samplers:
         for topic in sampler.topics:
             by_topic.setdefault(topic, []).append(sampler)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-from typing import List, Optional
 
 from python_qt_binding.QtCore import QTimer, Signal
 from python_qt_binding.QtGui import QColor
@@ -29,18 +28,18 @@ class TableView(QWidget):
         self._types = types
         self._topics = Topics()
         self.table = Table()
-        self.panels: List[List[PlotPanel]] = []
+        self.panels: list[list[PlotPanel]] = []
         self._layout = QGridLayout(self)
         self._layout.setContentsMargins(0, 0, 0, 0)
-        self._dialogs: List[PlotDialog] = []
-        self._bag_stop: Optional[threading.Event] = None
+        self._dialogs: list[PlotDialog] = []
+        self._bag_stop: threading.Event | None = None
         self._bag_timer = QTimer(self)
         self._bag_timer.timeout.connect(self._take_points)
         self.bag_done.connect(self._bag_ended)
         self.set_table(Table())
 
     @property
-    def all_panels(self) -> List[PlotPanel]:
+    def all_panels(self) -> list[PlotPanel]:
         return [panel for row in self.panels for panel in row]
 
     def set_table(self, table: Table) -> None:
@@ -96,7 +95,7 @@ class TableView(QWidget):
             panel.apply()
             self.changed.emit()
 
-    def _maximize(self, chosen: Optional[PlotPanel]) -> None:
+    def _maximize(self, chosen: PlotPanel | None) -> None:
         for panel in self.all_panels:
             panel.setVisible(chosen is None or panel is chosen)
         for r, row in enumerate(self.panels):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import List, Optional
 
 from python_qt_binding.QtCore import QSize, Signal, qWarning
 from python_qt_binding.QtWidgets import (
@@ -255,10 +254,10 @@ class MultiplotWidget(QWidget):
         name, _ = QFileDialog.getSaveFileName(self, "Save Configuration", "rqt_multiplot.xml", "Multiplot configurations (*.xml)")
         return self.save_as(name) if name else False
 
-    def get_history(self) -> List[str]:
+    def get_history(self) -> list[str]:
         return [self.history.itemText(index) for index in range(self.history.count())]
 
-    def set_history(self, urls: List[str]) -> None:
+    def set_history(self, urls: list[str]) -> None:
         text = self.history.currentText()
         self.history.clear()
         self.history.addItems(list(dict.fromkeys(urls))[:MOST_HISTORY])
@@ -266,7 +265,7 @@ class MultiplotWidget(QWidget):
 
     # Files of data
 
-    def _ask_name(self, title: str, suggestion: str, pattern: str, existing: bool = False) -> Optional[str]:
+    def _ask_name(self, title: str, suggestion: str, pattern: str, existing: bool = False) -> str | None:
         ask = QFileDialog.getOpenFileName if existing else QFileDialog.getSaveFileName
         return ask(self, title, suggestion, pattern)[0] or None
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Tuple
 
 import numpy as np
 from qt_gui.errors import WindowError
@@ -60,6 +59,6 @@ def points_of(message) -> np.ndarray:
     return found[np.isfinite(found).all(axis=1)]
 
 
-def quaternion_of(angle: float) -> Tuple[float, float]:
+def quaternion_of(angle: float) -> tuple[float, float]:
     """z and w of the rotation by ``angle`` (rad) about z."""
     return math.sin(angle / 2), math.cos(angle / 2)

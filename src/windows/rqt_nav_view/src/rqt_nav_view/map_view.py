@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Dict, List, Optional
+from typing import Any
 
 import numpy as np
 import rospy
@@ -33,7 +33,7 @@ class NavView(QGraphicsView):
     _line_came = Signal(str, object)
     _failed = Signal(str)
 
-    def __init__(self, map_topic: str, paths: List[str], polygons: List[str], tf_buffer: tf2_ros.Buffer, parent=None):
+    def __init__(self, map_topic: str, paths: list[str], polygons: list[str], tf_buffer: tf2_ros.Buffer, parent=None):
         super().__init__(parent)
         self.setObjectName("nav_view")
         self.setDragMode(QGraphicsView.DragMode.ScrollHandDrag)
@@ -45,9 +45,9 @@ class NavView(QGraphicsView):
         self._tf = tf_buffer
         self.frame_id = ""
         self._map_item: Any = None  # the map's QGraphicsPixmapItem
-        self._lines: Dict[str, object] = {}
+        self._lines: dict[str, object] = {}
         self._mode = ""
-        self._pressed: Optional[QPointF] = None
+        self._pressed: QPointF | None = None
         self._arrow = None
         self._told: set = set()
         self._map_came.connect(self._show_map)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Dict, List, Optional, Sequence
+from collections.abc import Sequence
 
 import rosgraph
 import tf2_ros
@@ -54,7 +54,7 @@ class _TopicDialog(QDialog):
         box.rejected.connect(self.reject)
         form.addRow(box)
 
-    def checked(self, kind: str) -> List[str]:
+    def checked(self, kind: str) -> list[str]:
         items = [self.lists[kind].item(row) for row in range(self.lists[kind].count())]
         return [item.text() for item in items if item.checkState() == Qt.CheckState.Checked]
 
@@ -71,7 +71,7 @@ class NavViewWidget(QWidget):
         self.map_topic, self.paths, self.polygons = map_topic, list(paths), list(polygons)
         self._tf = tf2_ros.Buffer(debug=False)  # its service of debugging can be there but once in a node
         self._listener = tf2_ros.TransformListener(self._tf)
-        self.view: Optional[NavView] = None
+        self.view: NavView | None = None
         buttons = QHBoxLayout()
         for name, text, action in (
             ("set_pose", "Set Pose", lambda: self.view and self.view.pose_mode()),
@@ -99,7 +99,7 @@ class NavViewWidget(QWidget):
         """Ask which topics are to be shown."""
 
         def look() -> None:
-            found: Dict[str, List[str]] = {"map": [], "paths": [], "polygons": []}
+            found: dict[str, list[str]] = {"map": [], "paths": [], "polygons": []}
             try:
                 for name, kind in rosgraph.Master("/rqt_nav_view").getTopicTypes():
                     if kind in _TYPES:
@@ -116,7 +116,7 @@ class NavViewWidget(QWidget):
         dialog.accepted.connect(lambda: self.show_topics(dialog.map.currentText(), dialog.checked("paths"), dialog.checked("polygons")))
         dialog.open()
 
-    def show_topics(self, map_topic: str, paths: List[str], polygons: List[str]) -> None:
+    def show_topics(self, map_topic: str, paths: list[str], polygons: list[str]) -> None:
         """Show other topics."""
         self.map_topic, self.paths, self.polygons = map_topic, paths, polygons
         self._new_view()

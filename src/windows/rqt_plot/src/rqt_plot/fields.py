@@ -6,14 +6,15 @@ A *field path* is what follows the topic: steps separated by ``/``; an index is 
 from __future__ import annotations
 
 import re
-from typing import Callable, Dict, Iterable, List, NamedTuple, Optional, Tuple, Union
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
 
 import genpy
 import roslib.message
 import roslib.msgs
 from qt_gui.errors import WindowError
 
-Step = Union[str, int]
+Step = str | int
 
 _FLOATS = ("float32", "float64")
 _INTEGERS = ("int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "byte", "char")
@@ -30,7 +31,7 @@ class Slot(NamedTuple):
 
     type: str  #: base type without brackets, as ``float64`` or ``geometry_msgs/Point``
     is_array: bool
-    length: Optional[int]  #: of a fixed-size array
+    length: int | None  #: of a fixed-size array
 
     @property
     def kind(self) -> str:
@@ -40,12 +41,12 @@ class Slot(NamedTuple):
         return {"bool": "boolean", "string": "text"}.get(self.type, "time" if self.type in _TIMES else "message")
 
 
-def parse_path(path: str) -> List[Step]:
+def parse_path(path: str) -> list[Step]:
     """Steps of a field path: names and indices.
 
     :raises FieldError: a step that is neither.
     """
-    steps: List[Step] = []
+    steps: list[Step] = []
     for part in filter(None, path.split("/")):
         match = _STEP.match(part)
         if part.isdigit():
@@ -83,7 +84,7 @@ def slot_of(message_class, path: str) -> Slot:
     return slot
 
 
-def number_paths(message_class, path: str = "") -> Tuple[List[str], str]:
+def number_paths(message_class, path: str = "") -> tuple[list[str], str]:
     """Paths below ``path`` that are plotted when it is named, and a sentence on what is there.
 
     A number is itself; a fixed-size array each of its elements; a message its numbers at the top level, or the Bool of
@@ -135,7 +136,7 @@ def getter(path: str) -> Callable[[object], float]:
     return number
 
 
-def split_topic(name: str, types: Dict[str, str]) -> Tuple[Optional[str], str]:
+def split_topic(name: str, types: dict[str, str]) -> tuple[str | None, str]:
     """The topic that ``name`` begins with (the longest one known), and the field path behind it.
 
     :returns: (None, "") when no topic fits.
@@ -145,7 +146,7 @@ def split_topic(name: str, types: Dict[str, str]) -> Tuple[Optional[str], str]:
     return (None, "") if topic is None else (topic, name[len(topic) :])
 
 
-def expand(name: str, types: Dict[str, str]) -> Tuple[Optional[List[str]], str]:
+def expand(name: str, types: dict[str, str]) -> tuple[list[str] | None, str]:
     """Full names of the curves that ``name`` stands for, and a sentence for a tool tip.
 
     :param types: topic name -> message type, of the topics that there are.
@@ -161,12 +162,12 @@ def expand(name: str, types: Dict[str, str]) -> Tuple[Optional[List[str]], str]:
     return [topic + found for found in paths], f"{name} {reason}" if paths else f"{name}: {reason}"
 
 
-def split_arguments(arguments: Iterable[str]) -> List[str]:
+def split_arguments(arguments: Iterable[str]) -> list[str]:
     """Names from a command line: commas separate, ``/pose/x:y`` is short for ``/pose/x`` and ``/pose/y``.
 
     :raises FieldError: a colon without a topic and a field before it.
     """
-    names: List[str] = []
+    names: list[str] = []
     for part in (part for argument in arguments for part in argument.split(",") if part):
         first, *others = part.split(":")
         if others and "/" not in first:

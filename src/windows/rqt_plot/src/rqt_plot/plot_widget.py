@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any
 
 import rospy
 from python_qt_binding.QtCore import Qt, QTimer, Slot, qWarning
@@ -17,7 +17,7 @@ from rqt_plot.rosplot import ROSData, RosPlotException, TopicTypes, topic_types
 _CLOCK_SET_BACK = 1.0  # s: stamps that are older than this are no jitter
 
 
-def get_plot_fields(topic_name: str, types: Optional[Dict[str, str]] = None) -> Tuple[List[str], str]:
+def get_plot_fields(topic_name: str, types: dict[str, str] | None = None) -> tuple[list[str], str]:
     """Names of the curves that a name stands for, and a sentence about them. Without ``types`` the master is asked."""
     try:
         names, message = expand(topic_name, topic_types() if types is None else types)
@@ -26,7 +26,7 @@ def get_plot_fields(topic_name: str, types: Optional[Dict[str, str]] = None) -> 
     return names or [], message
 
 
-def is_plottable(topic_name: str) -> Tuple[bool, str]:
+def is_plottable(topic_name: str) -> tuple[bool, str]:
     """Whether a name can be plotted now, and why not."""
     fields, message = get_plot_fields(topic_name)
     return bool(fields), message
@@ -49,7 +49,7 @@ class PlotWidget(QWidget):
 
     _redraw_interval = 40  # ms
 
-    def __init__(self, initial_topics: Optional[List[str]] = None, start_paused: bool = False):
+    def __init__(self, initial_topics: list[str] | None = None, start_paused: bool = False):
         super().__init__()
         self.setObjectName("PlotWidget")
         self.setAcceptDrops(True)
@@ -58,9 +58,9 @@ class PlotWidget(QWidget):
         self._build()
         self.pause_button.setChecked(start_paused)
         self._start_time = rospy.get_time()
-        self._rosdata: Dict[str, ROSData] = {}
-        self._waiting: List[str] = []  # names whose topics do not exist yet
-        self._newest: Dict[str, float] = {}
+        self._rosdata: dict[str, ROSData] = {}
+        self._waiting: list[str] = []  # names whose topics do not exist yet
+        self._newest: dict[str, float] = {}
         self._told: set = set()
         self._topics = TopicTypes()
         self._remove_topic_menu = QMenu(self)
@@ -157,7 +157,7 @@ class PlotWidget(QWidget):
             self._add_curve(name, types)
         self._subscribed_topics_changed()
 
-    def _add_curve(self, name: str, types: Dict[str, str]) -> None:
+    def _add_curve(self, name: str, types: dict[str, str]) -> None:
         if name in self._rosdata:
             qWarning(f"rqt_plot: {name} is plotted already")
             return
@@ -184,7 +184,7 @@ class PlotWidget(QWidget):
         self.waiting_label.setVisible(bool(self._waiting))
         self._update_remove_topic_menu()
 
-    def topics(self) -> List[str]:
+    def topics(self) -> list[str]:
         """Names of all curves, those included that wait for their topic."""
         return list(self._rosdata) + self._waiting
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import socket
 import threading
 import weakref
 from collections import deque
-from typing import Deque, Dict, List, Optional, Tuple
 
 import rosgraph
 import roslib.message
@@ -21,18 +19,18 @@ class RosPlotException(WindowError):
     """A topic that cannot be plotted, or a master that does not answer."""
 
 
-def topic_types() -> Dict[str, str]:
+def topic_types() -> dict[str, str]:
     """Topics that the master knows a type of. Asks it, so call it from the GUI's thread only where waiting is allowed.
 
     :raises RosPlotException: the master does not answer.
     """
     try:
         return {name: kind for name, kind in rosgraph.Master("/rosplot").getTopicTypes() if kind != "*"}
-    except (rosgraph.MasterException, socket.error) as error:
+    except (OSError, rosgraph.MasterException) as error:
         raise RosPlotException(f"unable to get list of topics from master: {error}") from None
 
 
-def get_topic_type(topic: str) -> Tuple[Optional[str], Optional[str], Optional[str]]:
+def get_topic_type(topic: str) -> tuple[str | None, str | None, str | None]:
     """Type, name and field path of what ``topic`` names; three times None when no such topic exists.
 
     :raises RosPlotException: the master does not answer.
@@ -48,7 +46,7 @@ class TopicTypes:
     PERIOD = 1.0  # s
 
     def __init__(self):
-        self.types: Dict[str, str] = {}  #: topic -> type, replaced as a whole
+        self.types: dict[str, str] = {}  #: topic -> type, replaced as a whole
         self.known = threading.Event()  #: set after the first answer of the master
         self._stop = threading.Event()
         self._again = threading.Event()
@@ -92,20 +90,20 @@ class ROSData:
     :ivar connected: whether the topic has been found.
     """
 
-    def __init__(self, topic: str, start_time: float, types: Optional[Dict[str, str]] = None):
+    def __init__(self, topic: str, start_time: float, types: dict[str, str] | None = None):
         self.name = topic
         self.start_time = start_time
-        self.error: Optional[RosPlotException] = None
+        self.error: RosPlotException | None = None
         self.connected = False
         self.lock = threading.Lock()
         # Bounded: a window that is paused for hours must not eat the memory.
-        self.buff_x: Deque[float] = deque(maxlen=CAPACITY)
-        self.buff_y: Deque[float] = deque(maxlen=CAPACITY)
+        self.buff_x: deque[float] = deque(maxlen=CAPACITY)
+        self.buff_y: deque[float] = deque(maxlen=CAPACITY)
         self.sub = None
         self.problem = ""  #: what was wrong with the last message, if it gave no number
         self.connect(topic_types() if types is None else types)
 
-    def connect(self, types: Dict[str, str]) -> bool:
+    def connect(self, types: dict[str, str]) -> bool:
         """Subscribe if the topic is there now. :returns: whether it is subscribed."""
         if self.connected or self.error:
             return self.connected
@@ -142,7 +140,7 @@ class ROSData:
             self.buff_x.append((stamp or rospy.get_time()) - self.start_time)
             self.buff_y.append(value)
 
-    def next(self) -> Tuple[List[float], List[float]]:
+    def next(self) -> tuple[list[float], list[float]]:
         """Samples since the last call: x in s, y.
 
         :raises RosPlotException: there will never be any.

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Optional, Tuple
-
 import numpy as np
 
 #: samples kept of a curve unless told: 200 s at 1 kHz, 3.2 MB
@@ -16,7 +14,7 @@ class Series:
     :param capacity: samples to keep, or None for all.
     """
 
-    def __init__(self, capacity: Optional[int] = CAPACITY):
+    def __init__(self, capacity: int | None = CAPACITY):
         if capacity is not None and capacity < 1:
             raise ValueError(f"a series keeps at least one sample, not {capacity}")
         self.capacity = capacity
@@ -91,7 +89,7 @@ def visible(series: Series, low: float, high: float) -> slice:
     return slice(max(0, int(begin) - 1), min(len(series), int(end) + 1))
 
 
-def decimate(x: np.ndarray, y: np.ndarray, columns: int, offset: int = 0) -> Tuple[np.ndarray, np.ndarray]:
+def decimate(x: np.ndarray, y: np.ndarray, columns: int, offset: int = 0) -> tuple[np.ndarray, np.ndarray]:
     """At most about 4 * ``columns`` of the samples, that look the same: the lowest and highest of each group.
 
     :param offset: number of the first sample since the curve began; groups begin at multiples of their size, so a picture
@@ -114,7 +112,7 @@ def decimate(x: np.ndarray, y: np.ndarray, columns: int, offset: int = 0) -> Tup
     return (np.concatenate((x[:head], out[0], x[middle.stop :])), np.concatenate((y[:head], out[1], y[middle.stop :])))
 
 
-def limits(values: np.ndarray) -> Optional[Tuple[float, float]]:
+def limits(values: np.ndarray) -> tuple[float, float] | None:
     """Smallest and largest finite value; None if there is none."""
     if len(values) == 0:
         return None

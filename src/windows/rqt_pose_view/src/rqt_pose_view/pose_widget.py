@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Optional
-
 import numpy as np
 from python_qt_binding.QtCore import QPointF, QRectF, QSize, Qt
 from python_qt_binding.QtGui import QColor, QPainter, QPen, QPolygonF, QTextOption
@@ -25,12 +23,12 @@ class PoseWidget(QWidget):
         self.camera = Camera()
         self._rotation = np.eye(3)
         self._text = ""
-        self._last: Optional[QPointF] = None
+        self._last: QPointF | None = None
 
     def sizeHint(self) -> QSize:
         return QSize(480, 400)
 
-    def set_rotation(self, rotation: Optional[np.ndarray], text: str = "") -> None:
+    def set_rotation(self, rotation: np.ndarray | None, text: str = "") -> None:
         """Turn the box; None leaves it. :param text: shown below."""
         if rotation is not None:
             self._rotation = rotation

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, List, Optional, Tuple
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import roslib.message
@@ -12,12 +13,12 @@ import roslib.msgs
 _DEEPEST = 6
 
 
-def quaternion_path(message_class, wanted: str = "geometry_msgs/Quaternion") -> Optional[List[str]]:
+def quaternion_path(message_class, wanted: str = "geometry_msgs/Quaternion") -> list[str] | None:
     """Names that lead to the first quaternion of a message, the nearest to its top first; arrays are left out.
 
     :returns: None if there is none; an empty list for a quaternion itself.
     """
-    waiting: List[Tuple[List[str], Any]] = [([], message_class)]
+    waiting: list[tuple[list[str], Any]] = [([], message_class)]
     while waiting:
         path, found = waiting.pop(0)
         if found is None:
@@ -32,10 +33,10 @@ def quaternion_path(message_class, wanted: str = "geometry_msgs/Quaternion") -> 
     return None
 
 
-def reader(path: List[str]) -> Callable:
+def reader(path: list[str]) -> Callable:
     """Reads (x, y, z, w) out of a message."""
 
-    def read(message) -> Tuple[float, float, float, float]:
+    def read(message) -> tuple[float, float, float, float]:
         for name in path:
             message = getattr(message, name)
         return message.x, message.y, message.z, message.w
@@ -43,7 +44,7 @@ def reader(path: List[str]) -> Callable:
     return read
 
 
-def rotation(quaternion) -> Optional[np.ndarray]:
+def rotation(quaternion) -> np.ndarray | None:
     """(3, 3) matrix of (x, y, z, w) of any length; None for one that is none, as of a message that nobody filled in."""
     x, y, z, w = quaternion
     length = math.sqrt(x * x + y * y + z * z + w * w)

@@ -2,7 +2,6 @@
 
 import ast
 import math
-from typing import List, Optional
 
 import rospy
 from python_qt_binding.QtCore import QObject, Qt, QTimer
@@ -32,7 +31,7 @@ class PublisherEntry(QObject):
         self.template = Field("", type_name)
         if self.template.expression is not None or self.template.is_array:
             raise TemplateError("", f"{type_name} is no message type")
-        self.error: Optional[TemplateError] = None
+        self.error: TemplateError | None = None
         self.counter = 0
         self._report = report
         self._publisher = rospy.Publisher(topic, self.template.message_class, queue_size=100)
@@ -78,7 +77,7 @@ class Publisher(Plugin):
     def __init__(self, context):
         super().__init__(context)
         self.setObjectName("Publisher")
-        self.entries: List[PublisherEntry] = []
+        self.entries: list[PublisherEntry] = []
         self._background = Background(self)
         self._widget = PublisherWidget()
         if context.serial_number() > 1:

@@ -1,7 +1,8 @@
 """Calls that may take their time, in threads; their results in the thread of the window."""
 
 import threading
-from typing import Any, Callable, Dict, Optional
+from collections.abc import Callable
+from typing import Any
 
 from python_qt_binding.QtCore import QObject, Signal
 
@@ -14,10 +15,10 @@ class Background(QObject):
 
     _ended = Signal(object)
 
-    def __init__(self, parent: Optional[QObject] = None):
+    def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self._lock = threading.Lock()
-        self._running: Dict[Any, object] = {}  # key -> token of the newest call
+        self._running: dict[Any, object] = {}  # key -> token of the newest call
         self._closed = False
         self._ended.connect(self._deliver)
 
@@ -25,8 +26,8 @@ class Background(QObject):
         self,
         key: Any,
         work: Callable[[], Any],
-        done: Optional[Callable[[Any], None]] = None,
-        failed: Optional[Callable[[Exception], None]] = None,
+        done: Callable[[Any], None] | None = None,
+        failed: Callable[[Exception], None] | None = None,
     ) -> bool:
         """Run ``work()`` in a thread, then ``done(result)`` or ``failed(exception)`` in the window's.
 

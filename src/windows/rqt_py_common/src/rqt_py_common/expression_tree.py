@@ -1,7 +1,6 @@
 """A tree view in which the expressions of messages are edited."""
 
 import re
-from typing import Optional
 
 from python_qt_binding.QtCore import Qt, Signal
 from python_qt_binding.QtGui import QBrush, QColor
@@ -50,10 +49,10 @@ class ExpressionTree(QTreeWidget):
         return column == self._expression_column and field.expression is not None or column == self._type_column and field.resizable
 
     @staticmethod
-    def field_of(item) -> Optional[Field]:
+    def field_of(item) -> Field | None:
         return item.data(0, _FIELD)
 
-    def show_error(self, item, error: Optional[TemplateError]) -> None:
+    def show_error(self, item, error: TemplateError | None) -> None:
         """Mark the field below ``item`` that an error is about; None clears all marks there."""
         blocked = self.blockSignals(True)
         for row in range(item.childCount()):

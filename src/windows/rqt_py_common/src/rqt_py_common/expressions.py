@@ -9,8 +9,9 @@ import math
 import operator
 import random
 import time
+from collections.abc import Callable
 from types import SimpleNamespace
-from typing import Any, Callable, Dict, Optional
+from typing import Any
 
 import genpy
 from genmsg.msgs import parse_type
@@ -132,7 +133,7 @@ _BUILTINS = dict(
 )
 _TIMES = {"Time": genpy.Time, "Duration": genpy.Duration}
 #: What a name means. random and time are functions here, as they always were; math, genpy and rospy have members.
-NAMES: Dict[str, Any] = {
+NAMES: dict[str, Any] = {
     **_BUILTINS,
     **_MATH,
     **_RANDOM,
@@ -164,7 +165,7 @@ _BINARY = {
     ast.BitOr: operator.or_,
     ast.BitXor: operator.xor,
 }
-_UNARY: Dict[type, Callable[[Any], Any]] = {
+_UNARY: dict[type, Callable[[Any], Any]] = {
     ast.UAdd: operator.pos,
     ast.USub: operator.neg,
     ast.Not: operator.not_,
@@ -206,7 +207,7 @@ class Expression:
         except (SyntaxError, ValueError, MemoryError, RecursionError) as error:
             raise ExpressionError(f"not an expression: {getattr(error, 'msg', None) or error}") from error
 
-    def value(self, names: Optional[Dict[str, Any]] = None) -> Any:
+    def value(self, names: dict[str, Any] | None = None) -> Any:
         """:param names: values of names beside NAMES
         :raises ExpressionError: whatever goes wrong
         """
@@ -223,7 +224,7 @@ class Expression:
 class _Evaluation:
     """Walks through a tree; a kind of node without a method here is not allowed."""
 
-    def __init__(self, names: Dict[str, Any]):
+    def __init__(self, names: dict[str, Any]):
         self._names = names
         self._steps = 0
 

@@ -2,7 +2,6 @@
 
 import functools
 import os
-from typing import Dict, List
 
 import rosmsg
 import rospkg
@@ -13,14 +12,14 @@ MODES = (".msg", ".srv", ".action")
 
 
 @functools.lru_cache(maxsize=len(MODES))
-def installed_types(mode: str) -> Dict[str, List[str]]:
+def installed_types(mode: str) -> dict[str, list[str]]:
     """Package to the names of its types, both sorted. Looks through all packages, which takes a moment, once in a process.
 
     :param mode: .msg, .srv or .action
     """
     rospack = rospkg.RosPack()
     packages = rosaction.iterate_packages(rospack) if mode == ".action" else rosmsg.iterate_packages(rospack, mode)
-    found: Dict[str, set] = {}
+    found: dict[str, set] = {}
     for package, folder in packages:
         try:
             names = os.listdir(folder)

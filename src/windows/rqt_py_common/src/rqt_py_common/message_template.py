@@ -1,7 +1,7 @@
 """A message whose fields are expressions. Knows no Qt."""
 
 import re
-from typing import Any, Dict, List, Optional
+from typing import Any
 
 from genmsg.msgs import is_valid_constant_type, parse_type
 from qt_gui.errors import WindowError
@@ -30,8 +30,8 @@ class Field:
     def __init__(self, name: str, type_name: str, path: str = ""):
         """:raises TemplateError: if the type cannot be imported"""
         self.name, self.type_name, self.path = name, type_name, path
-        self.expression: Optional[str] = None
-        self.children: List[Field] = []
+        self.expression: str | None = None
+        self.children: list[Field] = []
         try:
             base, self.is_array, length = parse_type(type_name)
         except Exception as error:  # genmsg has no class for brackets that do not close
@@ -94,7 +94,7 @@ class Field:
         for child in self.children:
             yield from child.walk()
 
-    def state(self) -> Dict[str, str]:
+    def state(self) -> dict[str, str]:
         """Path to expression, and to size for arrays that were given one."""
         return {
             field.path: str(len(field.children)) if field.resizable else field.expression
@@ -102,7 +102,7 @@ class Field:
             if field.expression is not None or field.resizable and field.children
         }
 
-    def restore(self, state: Dict[str, str]) -> None:
+    def restore(self, state: dict[str, str]) -> None:
         """What fits; the rest stays as it is."""
         if self.resizable and re.fullmatch(r"\d{1,4}", str(state.get(self.path, ""))):
             self.resize(min(int(state[self.path]), _MOST))

@@ -4,7 +4,6 @@ import code
 import contextlib
 import io
 import sys
-from typing import List
 
 from python_qt_binding.QtCore import QSize, Qt
 from python_qt_binding.QtGui import QFontDatabase, QTextCursor
@@ -89,7 +88,7 @@ class PyConsoleWidget(QPlainTextEdit):
         end = re.search(r"[\w.]*$", line)
         word = end.group() if end else ""
         completer = rlcompleter.Completer(self._names)
-        found: List[str] = []
+        found: list[str] = []
         while word and len(found) < 200:
             entry = completer.complete(word, len(found))
             if entry is None:

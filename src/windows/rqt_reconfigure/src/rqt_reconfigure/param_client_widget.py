@@ -1,6 +1,6 @@
 """The editors of one server."""
 
-from typing import Any, Dict, Optional
+from typing import Any
 
 import rospy
 from python_qt_binding.QtCore import Qt, Signal
@@ -28,8 +28,8 @@ class ParamClientWidget(QWidget):
         self.setObjectName(f"client{node}")
         self.node, self._make_client = node, make_client
         self._client: Any = None  # what make_client makes, once the node is there
-        self.group: Optional[GroupWidget] = None
-        self._to_send: Dict[str, Any] = {}
+        self.group: GroupWidget | None = None
+        self._to_send: dict[str, Any] = {}
         self._closed = False
         self._background = Background(self)
         self.title_label, self.status_label = QLabel(f"<b>{node}</b>"), QLabel("waiting for its description ...")
@@ -124,7 +124,7 @@ class ParamClientWidget(QWidget):
         except saved_values.SavedValuesError as error:
             self.status_label.setText(str(error))
             return
-        known: Dict[str, Any] = self.group.all_editors() if self.group else {}
+        known: dict[str, Any] = self.group.all_editors() if self.group else {}
         unknown = sorted(set(values) - set(known))
         self.send({name: value for name, value in values.items() if name in known})
         if unknown:

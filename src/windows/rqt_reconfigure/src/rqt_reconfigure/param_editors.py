@@ -2,7 +2,8 @@
 
 import ast
 import math
-from typing import Any, Callable, List, Optional, Tuple
+from collections.abc import Callable
+from typing import Any
 
 from python_qt_binding.QtCore import Qt, Signal
 from python_qt_binding.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QLineEdit, QMenu, QSlider, QWidget
@@ -44,13 +45,13 @@ class Editor(QWidget):
             menu.addAction(label, lambda value=value: self.choose(value))
         return menu
 
-    def menu_values(self) -> List[Tuple[str, Any]]:
+    def menu_values(self) -> list[tuple[str, Any]]:
         return [(f"Set to Default ({self.description['default']})", self.description["default"])]
 
     def _display(self, value: Any) -> None:
         raise NotImplementedError
 
-    def label(self) -> Optional[str]:
+    def label(self) -> str | None:
         """The text beside it; None for editors that have one of their own."""
         return self.name
 
@@ -226,7 +227,7 @@ class EnumEditor(Editor):
 _KINDS = {"bool": BooleanEditor, "str": StringEditor, "int": IntegerEditor, "double": DoubleEditor}
 
 
-def make_editor(description: dict) -> Optional[Editor]:
+def make_editor(description: dict) -> Editor | None:
     """The editor for a parameter; None for types that nobody knows."""
     choices = _choices(description.get("edit_method", ""))
     if choices:

@@ -1,6 +1,6 @@
 """Groups of parameters as boxes, tabs, and boxes that fold."""
 
-from typing import Any, Dict, List
+from typing import Any
 
 from python_qt_binding.QtCore import Signal
 from python_qt_binding.QtWidgets import QFormLayout, QGroupBox, QPushButton, QTabWidget, QVBoxLayout, QWidget
@@ -8,7 +8,7 @@ from python_qt_binding.QtWidgets import QFormLayout, QGroupBox, QPushButton, QTa
 from .param_editors import Editor, make_editor
 
 
-def group_states(groups) -> Dict[str, bool]:
+def group_states(groups) -> dict[str, bool]:
     """Names of groups to their states, from the nested dictionaries of a configuration."""
     found = {}
     if isinstance(groups, dict):
@@ -28,9 +28,9 @@ class GroupWidget(QWidget):
     def __init__(self, description: dict):
         super().__init__()
         self.name, self.kind = description.get("name", ""), description.get("type", "")
-        self.editors: Dict[str, Editor] = {}
-        self.groups: List[GroupWidget] = []
-        self._pending: Dict[str, Any] = {}
+        self.editors: dict[str, Editor] = {}
+        self.groups: list[GroupWidget] = []
+        self._pending: dict[str, Any] = {}
         form = QFormLayout(self)
         for parameter in description.get("parameters", []):
             editor = make_editor(parameter)
@@ -84,7 +84,7 @@ class GroupWidget(QWidget):
                 editor.show_value(config[name])
         self._show_states(group_states(config.get("groups")))
 
-    def _show_states(self, states: Dict[str, bool]) -> None:
+    def _show_states(self, states: dict[str, bool]) -> None:
         for group in self.groups:
             if group.name in states and group.kind == "collapse":
                 group.box.setChecked(states[group.name])
@@ -96,7 +96,7 @@ class GroupWidget(QWidget):
         """What waits for an Apply button."""
         return set(self._pending).union(*(group._all_pending() for group in self.groups))
 
-    def all_editors(self) -> Dict[str, Editor]:
+    def all_editors(self) -> dict[str, Editor]:
         found = dict(self.editors)
         for group in self.groups:
             found.update(group.all_editors())

@@ -1,7 +1,6 @@
 """The tree of servers on the left, the editors of those chosen on the right."""
 
 import re
-from typing import Dict
 
 import rosservice
 from python_qt_binding.QtCore import QSize, Qt
@@ -40,8 +39,8 @@ class ParamWidget(QWidget):
         self._make_client_widget = make_client_widget
         self._wanted = list(nodes)
         self._background = Background(self)
-        self.clients: Dict[str, ParamClientWidget] = {}
-        self._items: Dict[str, QTreeWidgetItem] = {}
+        self.clients: dict[str, ParamClientWidget] = {}
+        self._items: dict[str, QTreeWidgetItem] = {}
         self.filter_edit = QLineEdit()
         self.filter_edit.setObjectName("filter_edit")
         self.filter_edit.setPlaceholderText("Filter (regular expression)")

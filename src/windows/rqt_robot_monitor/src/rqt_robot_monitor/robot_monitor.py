@@ -2,7 +2,7 @@
 
 import time
 from collections import deque
-from typing import Any, Deque, Dict
+from typing import Any
 
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -91,10 +91,10 @@ class RobotMonitorWidget(QWidget):
         self._topic = topic or "/diagnostics_agg"
         self.setObjectName("RobotMonitor")
         self.setWindowTitle("Diagnostics Viewer")
-        self._history: Deque[Any] = deque(maxlen=HISTORY)
+        self._history: deque[Any] = deque(maxlen=HISTORY)
         self._looking_at = None  # a message of the past; None: the newest
         self._heard = None  # s
-        self.trees: Dict[str, QTreeWidget] = {}
+        self.trees: dict[str, QTreeWidget] = {}
         self.splitter = QSplitter(Qt.Orientation.Vertical)
         for name, title in (("errors", "Error Device"), ("warnings", "Warned Device"), ("all", "All devices")):
             tree = QTreeWidget()

@@ -2,7 +2,7 @@
 
 import re
 from collections import deque
-from typing import Any, Deque
+from typing import Any
 
 import rospy
 from python_qt_binding.QtCore import Qt, QTimer
@@ -56,7 +56,7 @@ class Rosmon(Plugin):
         super().__init__(context)
         self.setObjectName("ROSMon")
         self._background = Background(self)
-        self._queue: Deque[Any] = deque(maxlen=1)
+        self._queue: deque[Any] = deque(maxlen=1)
         self._subscriber, self._shown, self._wanted = None, "", ""
         self.nodes = {}  # full name -> NodeState
         self._widget = self._build()

@@ -3,7 +3,7 @@
 import html
 import time
 from collections import deque
-from typing import Any, Deque
+from typing import Any
 
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -29,7 +29,7 @@ class RuntimeMonitor(Plugin):
     def __init__(self, context):
         super().__init__(context)
         self.setObjectName("RuntimeMonitor")
-        self._queue: Deque[Any] = deque(maxlen=1000)
+        self._queue: deque[Any] = deque(maxlen=1000)
         self._statuses = {}  # name -> (status, s of arrival, level shown, item)
         self._widget = QSplitter(Qt.Orientation.Vertical)
         self._widget.setObjectName("RuntimeMonitorWidget")

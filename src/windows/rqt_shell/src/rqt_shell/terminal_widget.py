@@ -7,7 +7,6 @@ import signal
 import struct
 import termios
 import time
-from typing import Optional
 
 import pyte
 from python_qt_binding.QtCore import QRectF, QSize, QSocketNotifier, Qt, QTimer, Signal
@@ -60,7 +59,7 @@ class TerminalWidget(QWidget):
         self.screen = pyte.HistoryScreen(80, 24, history=_HISTORY, ratio=0.3)
         self._stream = pyte.ByteStream(self.screen)
         self.setMinimumSize(200, 100)
-        self._descriptor: Optional[int]
+        self._descriptor: int | None
         self._process, self._descriptor = pty.fork()
         if self._process == 0:
             self._become(command or [os.environ.get("SHELL", "/bin/bash")])

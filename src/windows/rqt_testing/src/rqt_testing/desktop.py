@@ -27,7 +27,7 @@ import sys
 import tempfile
 import time
 from contextlib import ExitStack
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any
 
 from rviz_offscreen.display import private_display
 
@@ -43,10 +43,10 @@ class Desktop:
     def __init__(self, size: str = "1280x800x24"):
         self._size = size
         self._stack = ExitStack()
-        self._programs: List[Program] = []
-        self.environment: Dict[str, str] = {}
+        self._programs: list[Program] = []
+        self.environment: dict[str, str] = {}
 
-    def __enter__(self) -> "Desktop":
+    def __enter__(self) -> Desktop:
         self.home = self._stack.enter_context(tempfile.TemporaryDirectory(prefix="desktop_"))
         variables = self._stack.enter_context(private_display(self._size))
         os.mkdir(os.path.join(self.home, "run"), 0o700)
@@ -95,7 +95,7 @@ class Desktop:
             )
         return path
 
-    def run(self, command: List[str], **variables: str) -> "Program":
+    def run(self, command: list[str], **variables: str) -> Program:
         """Start one of our commands (found on PATH, or ``rosrun``'s way: ``["rosrun", package, script]``)."""
         if command[0] == "rosrun":
             found = subprocess.run(
@@ -116,7 +116,7 @@ class Desktop:
         self.xdotool("mousemove", "--sync", x, y)
         self.xdotool("click", "--repeat", times, "--delay", 60, button)
 
-    def drag(self, start: Tuple[int, int], end: Tuple[int, int], button: int = 1) -> None:
+    def drag(self, start: tuple[int, int], end: tuple[int, int], button: int = 1) -> None:
         """Press at ``start``, move in some steps, let go at ``end``: pixels of the screen."""
         self.xdotool("mousemove", "--sync", *start, "mousedown", button)
         for step in range(1, 9):
@@ -165,7 +165,7 @@ class Desktop:
 class Program:
     """A running command; ``output()`` is what it has printed so far."""
 
-    def __init__(self, desktop: Desktop, command: List[str], environment: Dict[str, str]):
+    def __init__(self, desktop: Desktop, command: list[str], environment: dict[str, str]):
         self._desktop = desktop
         number = len(desktop._programs)
         self._socket = os.path.join(desktop.home, f"{number}.socket")
@@ -205,7 +205,7 @@ class Program:
         program: [title, class, x, y, width, height]."""
         return self._wait(lambda: next((w for w in self.ask("windows") or [] if title in w[0]), None), f"window '{title}'", timeout)
 
-    def rect(self, name: str) -> Tuple[int, int, int, int]:
+    def rect(self, name: str) -> tuple[int, int, int, int]:
         """Where the visible widget of that ``objectName`` is: x, y, width, height in pixels of the screen."""
         return self._wait(lambda: self.ask("rect", name), f"widget {name}")
 
@@ -213,7 +213,7 @@ class Program:
         """What the widget of that ``objectName`` says, as soon as it is seen."""
         return self._wait(lambda: [text for text in [self.ask("text", name)] if text is not None], f"widget {name}")[0]
 
-    def click(self, name: str, button: int = 1, times: int = 1, at: Optional[Tuple[float, float]] = None) -> None:
+    def click(self, name: str, button: int = 1, times: int = 1, at: tuple[float, float] | None = None) -> None:
         """Click on the widget of that ``objectName``, in its middle or at a fraction of its width and height."""
         self._click(lambda: self.ask("rect", name), f"widget {name}", button, times, at)
 
@@ -228,7 +228,7 @@ class Program:
 
     def _click(self, find, what, button, times, at) -> None:
         """Click when the thing has come to rest: windows are moved by their manager, menus unfold."""
-        seen: List[Any] = [None, None]  # rectangles: the last but one, the last
+        seen: list[Any] = [None, None]  # rectangles: the last but one, the last
 
         def resting():
             seen[:] = seen[1], find()

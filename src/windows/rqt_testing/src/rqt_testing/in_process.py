@@ -21,7 +21,8 @@ import os
 import shutil
 import tempfile
 import time
-from typing import Any, Callable, Iterator, List, Optional, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
 
 os.environ["QT_QPA_PLATFORM"] = "offscreen"
 if "XDG_RUNTIME_DIR" not in os.environ:
@@ -39,8 +40,8 @@ from qt_gui.icon_loader import choose_theme  # noqa: E402
 from qt_gui.plugin_context import PluginContext  # noqa: E402
 
 accept_floats()
-errors: List[str] = []  # texts of warnings and errors since the last open_gui(): what a plugin raised, what the container refused
-_application: List[Any] = []
+errors: list[str] = []  # texts of warnings and errors since the last open_gui(): what a plugin raised, what the container refused
+_application: list[Any] = []
 
 
 def application() -> QApplication:
@@ -54,7 +55,7 @@ def application() -> QApplication:
 
 
 @contextlib.contextmanager
-def open_gui(arguments: Sequence[str] = (), settings: Optional[str] = None, providers=None) -> Iterator[Gui]:
+def open_gui(arguments: Sequence[str] = (), settings: str | None = None, providers=None) -> Iterator[Gui]:
     """A window as ``rqt ARGUMENTS`` opens it.
 
     :param settings: path of an INI file to keep settings in from one window to the next; private and empty without
@@ -75,7 +76,7 @@ def open_gui(arguments: Sequence[str] = (), settings: Optional[str] = None, prov
 
 
 @contextlib.contextmanager
-def open_plugin(name: str, argv: Sequence[str] = (), settings: Optional[str] = None, providers=None) -> Iterator[Gui]:
+def open_plugin(name: str, argv: Sequence[str] = (), settings: str | None = None, providers=None) -> Iterator[Gui]:
     """A window with one plugin, as ``rqt --standalone NAME --args ARGV`` opens it; ``gui.plugin`` is the instance."""
     with open_gui(["--standalone", name, *(["--args", *argv] if argv else [])], settings, providers) as gui:
         gui.plugin = gui.plugins.running()[0].plugin()
@@ -110,8 +111,8 @@ class FakeContext(PluginContext):
         application()
         self._parent = QObject()
         super().__init__(self._parent)
-        self.widgets: List[Any] = []
-        self.toolbars: List[Any] = []
+        self.widgets: list[Any] = []
+        self.toolbars: list[Any] = []
         self.closed = False
         self._argv, self._serial = list(argv), serial_number
 

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import time as clock
-from typing import Any, Dict, Optional
+from typing import Any
 
 import yaml
 from qt_gui.errors import WindowError
@@ -25,7 +25,7 @@ class FramesError(WindowError):
     """What the buffer says of its frames cannot be read; one line."""
 
 
-def parse(text: str) -> Dict[str, Dict[str, Any]]:
+def parse(text: str) -> dict[str, dict[str, Any]]:
     """Frame -> what is known of it, from the YAML of ``tf2_frames``; empty when there are none.
 
     :raises FramesError: the names of frames are such that the text is no YAML.
@@ -37,11 +37,11 @@ def parse(text: str) -> Dict[str, Dict[str, Any]]:
     return {str(name): values for name, values in frames.items()} if isinstance(frames, dict) else {}
 
 
-def _label(values: Dict[str, Any], line_break: str) -> str:
+def _label(values: dict[str, Any], line_break: str) -> str:
     return line_break.join(f"{title}: {values.get(key)}" for title, key in _FIELDS)
 
 
-def generate_dot(frames: Dict[str, Dict[str, Any]], time: float) -> str:
+def generate_dot(frames: dict[str, dict[str, Any]], time: float) -> str:
     """DOT text of the tree.
 
     :param time: of the recording, s
@@ -68,10 +68,10 @@ class RosTfTreeDotcodeGenerator:
 
     def __init__(self, initial_listen_duration: float = 1):
         self.listen_duration = initial_listen_duration
-        self.dotcode: Optional[str] = None
+        self.dotcode: str | None = None
         self.dotcode_factory: Any = None
         self.graph: Any = None
-        self._look: Dict[str, Any] = {}
+        self._look: dict[str, Any] = {}
 
     def generate_dotcode(
         self, dotcode_factory, tf2_frame_srv, timer=None, yaml_parser=yaml, rank="same", ranksep=0.2, rankdir="TB", force_refresh=False

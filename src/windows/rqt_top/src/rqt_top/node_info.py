@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import socket
-from typing import Any, Dict, List, NamedTuple, Optional
+from typing import Any, NamedTuple
 from urllib.parse import urlparse
 from xmlrpc.client import Error as XmlRpcError
 from xmlrpc.client import ServerProxy, Transport
@@ -47,9 +47,9 @@ class NodeInfo:
     """Looks at all nodes that run on this machine. Every call asks the master and the new nodes: not for the GUI's thread."""
 
     def __init__(self):
-        self._processes: Dict[str, psutil.Process] = {}  # by the node's address: a restarted node has another
+        self._processes: dict[str, psutil.Process] = {}  # by the node's address: a restarted node has another
 
-    def look(self) -> List[NodeUsage]:
+    def look(self) -> list[NodeUsage]:
         """:raises rosgraph.MasterException or OSError: no master."""
         master = rosgraph.Master("/rqt_top")
         usages, addresses = [], set()
@@ -66,7 +66,7 @@ class NodeInfo:
             del self._processes[gone]
         return usages
 
-    def _usage(self, name: str, address: str) -> Optional[NodeUsage]:
+    def _usage(self, name: str, address: str) -> NodeUsage | None:
         if address not in self._processes:
             process = self._process(address)
             if process is None:
@@ -92,7 +92,7 @@ class NodeInfo:
             return None
 
     @staticmethod
-    def _process(address: str) -> Optional[psutil.Process]:
+    def _process(address: str) -> psutil.Process | None:
         """The process of a node; None if it is on another machine or does not answer."""
         try:
             host = urlparse(address).hostname or ""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import textwrap
 import threading
-from typing import Dict
 
 import rosgraph
 from python_qt_binding.QtCore import Qt, Signal, qWarning
@@ -48,7 +47,7 @@ class Top(Plugin):
     def __init__(self, context):
         super().__init__(context)
         self.setObjectName("Top")
-        self._items: Dict[str, _Item] = {}
+        self._items: dict[str, _Item] = {}
         self._build()
         context.add_widget(self._container)
         self._looked.connect(self._show)

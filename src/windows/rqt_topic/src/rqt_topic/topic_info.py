@@ -3,7 +3,7 @@
 import threading
 import time
 from collections import deque
-from typing import Any, Deque, Optional, Tuple
+from typing import Any
 
 import rospy
 from rqt_py_common.topic_helpers import get_type_class
@@ -25,8 +25,8 @@ class TopicInfo:
         self.monitoring = False
         self._subscriber = None
         self._lock = threading.Lock()
-        self._arrivals: Deque[Tuple[float, int]] = deque(maxlen=WINDOW)  # (s, bytes)
-        self._newest: Optional[bytes] = None
+        self._arrivals: deque[tuple[float, int]] = deque(maxlen=WINDOW)  # (s, bytes)
+        self._newest: bytes | None = None
 
     def toggle_monitoring(self) -> None:
         (self.stop_monitoring if self.monitoring else self.start_monitoring)()
@@ -59,20 +59,20 @@ class TopicInfo:
         raw = self._newest
         return self.message_class().deserialize(raw) if raw is not None else None
 
-    def get_hz(self) -> Optional[float]:
+    def get_hz(self) -> float | None:
         """Messages a second; None if there are not enough to tell."""
         with self._lock:
             arrivals = list(self._arrivals)
         return _per_second(arrivals, len(arrivals))
 
-    def get_bw(self) -> Tuple[Optional[float], Optional[int]]:
+    def get_bw(self) -> tuple[float | None, int | None]:
         """Bytes a second, and bytes of the last message."""
         with self._lock:
             arrivals = list(self._arrivals)
         return _per_second(arrivals, sum(size for _, size in arrivals)), arrivals[-1][1] if arrivals else None
 
 
-def _per_second(arrivals, amount) -> Optional[float]:
+def _per_second(arrivals, amount) -> float | None:
     """Over the time from the first arrival to now, or to the last one if the next is not due yet."""
     if len(arrivals) < 2:
         return None

@@ -1,7 +1,5 @@
 """The tree of topics and their fields."""
 
-from typing import Dict
-
 import rospy
 from python_qt_binding.QtCore import QMimeData, QSize, Qt, QTimer
 from python_qt_binding.QtGui import QIcon
@@ -54,7 +52,7 @@ class TopicWidget(QWidget):
         self.setWindowTitle("Topic Monitor")
         self._selected, self._by_type = selected_topics, select_topic_type == self.SELECT_BY_MSGTYPE
         self._background = Background(self)
-        self._rows: Dict[str, tuple] = {}  # topic -> (item, TopicInfo)
+        self._rows: dict[str, tuple] = {}  # topic -> (item, TopicInfo)
         self.tree = TopicTree()
         self.tree.setObjectName("topics_tree_widget")
         EmptyText(self.tree, "There are no topics yet: start a node.")

@@ -1,7 +1,7 @@
 """The node draw_square: drives turtle1 along a square of 2 m by its pose, for ever."""
 
 import math
-from typing import Any, List, Optional, Tuple
+from typing import Any
 
 import node_signals
 import rospy
@@ -22,11 +22,11 @@ class SquareDriver:
     def __init__(self, log):
         """:param log: takes a line of text"""
         self._log = log
-        self._goal: Optional[Tuple[float, float, float]] = None  # x, y, theta
+        self._goal: tuple[float, float, float] | None = None  # x, y, theta
         self._moving = True  # False: waits until the turtle stands
         self._straight = True
 
-    def twist(self, pose) -> Optional[Tuple[float, float]]:
+    def twist(self, pose) -> tuple[float, float] | None:
         """(m/s, rad/s) to command now, or None."""
         if self._goal is None:
             self._aim_ahead(pose)
@@ -58,7 +58,7 @@ class SquareDriver:
 def main() -> None:
     node_signals.init_node("draw_square")
     driver = SquareDriver(rospy.loginfo)
-    newest: List[Any] = []
+    newest: list[Any] = []
     subscriber = rospy.Subscriber("turtle1/pose", Pose, lambda pose: newest.__setitem__(slice(None), [pose]), queue_size=1)
     publisher = rospy.Publisher("turtle1/cmd_vel", Twist, queue_size=1)
     try:

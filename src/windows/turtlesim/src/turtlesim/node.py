@@ -4,8 +4,8 @@ import queue
 import random
 import sys
 import time
+from collections.abc import Callable
 from concurrent.futures import Future
-from typing import Callable
 
 import node_signals
 import rosgraph
@@ -91,7 +91,7 @@ class TurtleNode:
 
     def __init__(self, window_of):
         """:param window_of: makes the window of a World"""
-        self._jobs: "queue.SimpleQueue[Callable[[], None]]" = queue.SimpleQueue()
+        self._jobs: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._faces = {}
         self._world = World()
         self.window = window_of(self._world)

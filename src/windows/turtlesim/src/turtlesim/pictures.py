@@ -1,6 +1,6 @@
 """The fourteen turtles, drawn with ellipses: each METRE pixels high, looking up."""
 
-from typing import List, NamedTuple
+from typing import NamedTuple
 
 from python_qt_binding.QtCore import QPointF, QRectF, Qt
 from python_qt_binding.QtGui import QColor, QImage, QPainter, QPen, QPolygonF
@@ -37,7 +37,7 @@ TURTLES = (
 _SHELL = QRectF(9, 11, 27, 29)
 
 
-def draw_all() -> List[QImage]:
+def draw_all() -> list[QImage]:
     """A picture per entry of TURTLES."""
     return [draw(looks) for looks in TURTLES]
 

@@ -4,7 +4,6 @@ import os
 import select
 import sys
 import termios
-from typing import Optional
 
 import node_signals
 import rospy
@@ -20,7 +19,7 @@ class Keyboard:
 
     def __init__(self, descriptor: int):
         self._descriptor = descriptor
-        self._settings: Optional[list] = None
+        self._settings: list | None = None
 
     def __enter__(self):
         try:

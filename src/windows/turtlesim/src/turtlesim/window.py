@@ -1,7 +1,7 @@
 """The window with the turtles and what they have drawn."""
 
 import math
-from typing import Iterable, Tuple
+from collections.abc import Iterable
 
 from python_qt_binding.QtCore import QPointF
 from python_qt_binding.QtGui import QColor, QImage, QPainter, QPen
@@ -41,7 +41,7 @@ class TurtleWindow(QFrame):
         painter.end()
         self.update()
 
-    def color_at(self, point: Point) -> Tuple[int, int, int]:
+    def color_at(self, point: Point) -> tuple[int, int, int]:
         """Red, green and blue of the paper below a point of the world."""
         color = self._paths.pixelColor(_pixel(point).toPoint())
         return color.red(), color.green(), color.blue()

@@ -6,14 +6,14 @@ Lengths in metres, angles in radians, x to the right and y up from the lower lef
 import math
 import struct
 from dataclasses import dataclass, field
-from typing import Dict, List, NamedTuple, Optional, Tuple
+from typing import NamedTuple
 
 PIXELS = 500  # of the window, both ways
 METRE = 45  # pixels
 COMMAND_LIFE = 1.0  # s of wall time that a velocity command counts
 _LARGEST = 3.4e38  # what a pose message can hold
 
-Point = Tuple[float, float]
+Point = tuple[float, float]
 
 
 def _single(value: float) -> float:
@@ -38,7 +38,7 @@ class Line(NamedTuple):
 
 @dataclass(frozen=True)
 class Pen:
-    color: Tuple[int, int, int] = (0xB3, 0xB8, 0xFF)
+    color: tuple[int, int, int] = (0xB3, 0xB8, 0xFF)
     width: int = 3  # pixels
 
 
@@ -53,7 +53,7 @@ class Turtle:
     picture: int = 0
     pen: Pen = field(default_factory=Pen)
     pen_down: bool = True
-    command: Tuple[float, float, float] = (0.0, 0.0, 0.0)  # m/s ahead, m/s to the left, rad/s
+    command: tuple[float, float, float] = (0.0, 0.0, 0.0)  # m/s ahead, m/s to the left, rad/s
     commanded_at: float = -math.inf  # s
 
     @property
@@ -69,19 +69,19 @@ class Turtle:
         _check_finite(self.name, "a velocity", ahead, left, turn)
         self.command, self.commanded_at = (ahead, left, turn), now
 
-    def set_pen(self, color: Tuple[int, int, int], width: int, off: bool) -> None:
+    def set_pen(self, color: tuple[int, int, int], width: int, off: bool) -> None:
         self.pen_down = not off
         if not off:
             self.pen = Pen(color, width or 1)
 
-    def teleport(self, x: float, y: float, theta: float) -> List[Line]:
+    def teleport(self, x: float, y: float, theta: float) -> list[Line]:
         """Put the turtle somewhere; what its pen draws on the way."""
         _check_finite(self.name, "a pose", x, y, theta)
         old = (self.x, self.y)
         self.x, self.y, self.theta = x, min(y, SIZE), theta
         return self._stroke(old)
 
-    def teleport_relative(self, distance: float, angle: float) -> List[Line]:
+    def teleport_relative(self, distance: float, angle: float) -> list[Line]:
         """Turn by an angle, then go ahead at once."""
         _check_finite(self.name, "a distance and angle", distance, angle)
         old = (self.x, self.y)
@@ -90,7 +90,7 @@ class Turtle:
         self.y += math.sin(self.theta) * distance
         return self._stroke(old)
 
-    def step(self, dt: float, now: float) -> Tuple[List[Line], Optional[Point]]:
+    def step(self, dt: float, now: float) -> tuple[list[Line], Point | None]:
         """Move on by dt seconds.
 
         :returns: what the pen draws, and where the turtle would be if it had not hit the wall (None: it has not)
@@ -109,7 +109,7 @@ class Turtle:
             self.x, self.y = (min(max(value, 0.0), SIZE) for value in beyond)
         return self._stroke(old) if old != (self.x, self.y) else [], beyond
 
-    def _stroke(self, start: Point) -> List[Line]:
+    def _stroke(self, start: Point) -> list[Line]:
         return [Line(start, (self.x, self.y), self.pen)] if self.pen_down else []
 
 
@@ -117,7 +117,7 @@ class World:
     """All turtles, by name in alphabetical order."""
 
     def __init__(self):
-        self.turtles: Dict[str, Turtle] = {}
+        self.turtles: dict[str, Turtle] = {}
         self._count = 0
 
     def spawn(self, name: str, x: float, y: float, theta: float, picture: int = 0) -> Turtle:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import functools
 import struct
-from typing import Any, Callable, Dict, Tuple
+from collections.abc import Callable
+from typing import Any
 
 from cbor2 import CBORTag
 
@@ -24,17 +25,17 @@ TAGGED = {
 }  # tag, letter of struct
 
 
-def extract_cbor_values(msg: Any) -> Dict[str, Any]:
+def extract_cbor_values(msg: Any) -> dict[str, Any]:
     """:param msg: a message, or the request or response of a service"""
     return {name: outward(getattr(msg, name)) for name, outward in _fields(type(msg))}
 
 
-@functools.lru_cache(maxsize=None)
-def _fields(kind: Any) -> Tuple[Tuple[str, Callable[[Any], Any]], ...]:
+@functools.cache
+def _fields(kind: Any) -> tuple[tuple[str, Callable[[Any], Any]], ...]:
     return tuple((name, _outward(rostype)) for name, rostype in zip(kind.__slots__, kind._slot_types))
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def _outward(rostype: str) -> Callable[[Any], Any]:
     base, length = split_type(rostype)
     if length is not None and base in BINARY:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import fnmatch
-from typing import Any, Tuple
+from typing import Any
 
 from rosbridge_library.internal.exceptions import InvalidArgumentException
 
 
-def globs(name: str, value: Any) -> Tuple[str, ...]:
+def globs(name: str, value: Any) -> tuple[str, ...]:
     """Patterns from "[/a, '/b*']", as launch files have them, or from a list; none: all is allowed.
 
     :raises InvalidArgumentException:
@@ -21,5 +21,5 @@ def globs(name: str, value: Any) -> Tuple[str, ...]:
     return tuple(word for word in (word.strip().strip("'\"") for word in words) if word)
 
 
-def allowed(name: str, patterns: Tuple[str, ...]) -> bool:
+def allowed(name: str, patterns: tuple[str, ...]) -> bool:
     return not patterns or any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns)

@@ -11,7 +11,8 @@ import base64
 import binascii
 import functools
 import math
-from typing import Any, Callable, Dict, Optional, Tuple
+from collections.abc import Callable
+from typing import Any
 
 import genpy
 import rospy
@@ -47,13 +48,13 @@ class InvalidMessageException(RosbridgeError):
 
 
 class NonexistentFieldException(RosbridgeError):
-    def __init__(self, basetype: str, fields: Tuple[str, ...], known: Tuple[str, ...] = ()) -> None:
+    def __init__(self, basetype: str, fields: tuple[str, ...], known: tuple[str, ...] = ()) -> None:
         has = f"; there {'are' if len(known) > 1 else 'is'} {', '.join(known)}" if known else "; it has none"
         super().__init__(f"{basetype} has no field {'.'.join(fields)}{has}")
 
 
 class FieldTypeMismatchException(RosbridgeError):
-    def __init__(self, roottype: str, fields: Tuple[str, ...], expected_type: str, found: Any) -> None:
+    def __init__(self, roottype: str, fields: tuple[str, ...], expected_type: str, found: Any) -> None:
         kind = _PYTHON.get(type(found), f"a {type(found).__name__}")
         value = f" ({found!r:.40})" if isinstance(found, (str, int, float)) else ""
         super().__init__(f"{'.'.join((roottype, *fields))} should be {expected_type}, not {kind}{value}")
@@ -63,8 +64,8 @@ class FieldValueException(RosbridgeError):
     """Of the right type, but more or less than the field holds."""
 
 
-@functools.lru_cache(maxsize=None)
-def split_type(rostype: str) -> Tuple[str, Optional[int]]:
+@functools.cache
+def split_type(rostype: str) -> tuple[str, int | None]:
     """``float64[36]`` -> ("float64", 36), "float64[]" -> ("float64", 0), "float64" -> ("float64", None)"""
     base, bracket, length = rostype.partition("[")
     return base, int(length[:-1] or 0) if bracket else None
@@ -73,7 +74,7 @@ def split_type(rostype: str) -> Tuple[str, Optional[int]]:
 # ---------------------------------------------------------------------------------------------- from messages
 
 
-def extract_values(inst: Any, bson: bool = False) -> Dict[str, Any]:
+def extract_values(inst: Any, bson: bool = False) -> dict[str, Any]:
     """
     :param inst: a message, or the request or response of a service
     :param bson: leave bytes and floats as they are
@@ -84,12 +85,12 @@ def extract_values(inst: Any, bson: bool = False) -> Dict[str, Any]:
     return {name: outward(getattr(inst, name)) for name, outward in _fields(type(inst), bson)}
 
 
-@functools.lru_cache(maxsize=None)
-def _fields(kind: Any, bson: bool) -> Tuple[Tuple[str, Callable[[Any], Any]], ...]:
+@functools.cache
+def _fields(kind: Any, bson: bool) -> tuple[tuple[str, Callable[[Any], Any]], ...]:
     return tuple((name, _outward(rostype, bson)) for name, rostype in zip(kind.__slots__, kind._slot_types))
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def _outward(rostype: str, bson: bool) -> Callable[[Any], Any]:
     base, length = split_type(rostype)
     if length is not None and base in BINARY:
@@ -116,7 +117,7 @@ def _finite_list(values: Any) -> Any:
 # ---------------------------------------------------------------------------------------------- into messages
 
 
-def populate_instance(msg: Dict[str, Any], inst: Any) -> Any:
+def populate_instance(msg: dict[str, Any], inst: Any) -> Any:
     """
     Give ``inst`` the fields that ``msg`` has. A header without a stamp gets the present time.
 
@@ -126,7 +127,7 @@ def populate_instance(msg: Dict[str, Any], inst: Any) -> Any:
     return _object(msg, inst._type, inst, inst._type, ())
 
 
-def _inward(value: Any, rostype: str, inst: Any, root: str, path: Tuple[str, ...]) -> Any:
+def _inward(value: Any, rostype: str, inst: Any, root: str, path: tuple[str, ...]) -> Any:
     base, length = split_type(rostype)
     if length is None:
         return _one(value, base, inst, root, path)
@@ -141,7 +142,7 @@ def _inward(value: Any, rostype: str, inst: Any, root: str, path: Tuple[str, ...
     return result
 
 
-def _one(value: Any, base: str, inst: Any, root: str, path: Tuple[str, ...]) -> Any:
+def _one(value: Any, base: str, inst: Any, root: str, path: tuple[str, ...]) -> Any:
     if base in TIMES:
         return _time(value, base, root, path)
     if base in INTEGERS:
@@ -162,7 +163,7 @@ def _one(value: Any, base: str, inst: Any, root: str, path: Tuple[str, ...]) -> 
     return _object(value, base, ros_loader.get_message_instance(base) if inst is None else inst, root, path)
 
 
-def _bytes(value: Any, rostype: str, root: str, path: Tuple[str, ...]) -> bytes:
+def _bytes(value: Any, rostype: str, root: str, path: tuple[str, ...]) -> bytes:
     try:
         if isinstance(value, str):
             return base64.b64decode(value.encode("ascii"), validate=True)
@@ -175,7 +176,7 @@ def _bytes(value: Any, rostype: str, root: str, path: Tuple[str, ...]) -> bytes:
     raise FieldTypeMismatchException(root, path, f"base64 text or list ({rostype})", value)
 
 
-def _time(value: Any, base: str, root: str, path: Tuple[str, ...]) -> Any:
+def _time(value: Any, base: str, root: str, path: tuple[str, ...]) -> Any:
     if isinstance(value, genpy.TVal):
         return value
     if base == "time" and value == "now":
@@ -186,7 +187,7 @@ def _time(value: Any, base: str, root: str, path: Tuple[str, ...]) -> Any:
     return TIMES[base](*(_one(value.get(name, 0), kind, None, root, (*path, name)) for name, kind in parts.items()))
 
 
-def _object(msg: Any, rostype: str, inst: Any, root: str, path: Tuple[str, ...]) -> Any:
+def _object(msg: Any, rostype: str, inst: Any, root: str, path: tuple[str, ...]) -> Any:
     if not isinstance(msg, dict):
         raise FieldTypeMismatchException(root, path, f"{rostype} (an object)", msg)
     types = dict(zip(inst.__slots__, inst._slot_types))

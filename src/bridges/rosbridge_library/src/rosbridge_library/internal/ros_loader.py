@@ -55,7 +55,7 @@ def _normal(typestring: str) -> str:
     return "/".join(words)
 
 
-@functools.lru_cache(maxsize=None)  # errors are not kept: a package may be built in between
+@functools.cache  # errors are not kept: a package may be built in between
 def _loaded(name: str, service: bool) -> Any:
     try:
         kind = (roslib.message.get_service_class if service else roslib.message.get_message_class)(name)

@@ -10,7 +10,6 @@ import queue
 import signal
 import sys
 import time
-from typing import List, Optional, Union
 
 import can
 import yaml
@@ -32,10 +31,10 @@ class Recorder:
     Stamps are the bench's own time, in which motors are never late.
     """
 
-    def __init__(self, path: Optional[str]) -> None:
+    def __init__(self, path: str | None) -> None:
         self._logger = can.Logger(path) if path else None
         self._start = time.time()
-        self.bench: Union[Bench, Replay, None] = None
+        self.bench: Bench | Replay | None = None
 
     def __call__(self, bus: str, frame: Frame) -> None:
         if self._logger and self.bench is not None:
@@ -53,7 +52,7 @@ class Recorder:
 class RosFace:
     """``~joint_states`` (100 Hz, behind the gearbox), ``~turn/MOTOR`` (std_msgs/Float64, rad by hand), ``~command``."""
 
-    def __init__(self, bench: Union[Bench, Replay], commands: "queue.Queue") -> None:
+    def __init__(self, bench: Bench | Replay, commands: queue.Queue) -> None:
         import rospy
         from sensor_msgs.msg import JointState
         from std_msgs.msg import Float64
@@ -65,7 +64,7 @@ class RosFace:
         self._publisher = rospy.Publisher("~joint_states", JointState, queue_size=5)
 
         def carry_out(line: str) -> BenchCommandResponse:
-            answer: "queue.Queue" = queue.Queue()
+            answer: queue.Queue = queue.Queue()
             commands.put((line, answer))
             return BenchCommandResponse(*answer.get())
 
@@ -88,7 +87,7 @@ class RosFace:
         self._rospy.signal_shutdown("the bench ends")
 
 
-def _arguments(arguments: List[str]) -> argparse.Namespace:
+def _arguments(arguments: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="motor_bench", description=__doc__.splitlines()[0], epilog=HELP, formatter_class=argparse.RawDescriptionHelpFormatter
     )
@@ -112,7 +111,7 @@ def _arguments(arguments: List[str]) -> argparse.Namespace:
     return parser.parse_args(arguments)
 
 
-def _status(bench: Union[Bench, Replay], selected: Optional[str]) -> str:
+def _status(bench: Bench | Replay, selected: str | None) -> str:
     parts = []
     for name, device in bench.devices.items():
         motor = device.motor
@@ -131,7 +130,7 @@ class App:
     def __init__(self, options: argparse.Namespace) -> None:
         self._recorder = Recorder(options.log)
         if options.replay:
-            self.bench: Union[Bench, Replay] = Replay(options.replay, options.dir, self._recorder)
+            self.bench: Bench | Replay = Replay(options.replay, options.dir, self._recorder)
         else:
             config = None
             if options.config:
@@ -142,7 +141,7 @@ class App:
             self.bench = Bench(config, options.dir, watch=self._recorder)
         self._recorder.bench = self.bench
         self._plan = sorted((float(seconds), line) for seconds, line in options.at)
-        self._commands: "queue.Queue" = queue.Queue()
+        self._commands: queue.Queue = queue.Queue()
         self._ros = None
         if not options.no_ros:
             import rosgraph
@@ -173,7 +172,7 @@ class App:
         if self._ros:
             self._ros.shutdown()
 
-    def _loop(self, keys: Optional[Keys]) -> None:
+    def _loop(self, keys: Keys | None) -> None:
         with contextlib.suppress(PermissionError):  # a motor is never late; the bench tries to be like it
             os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(_PRIORITY))
         due = time.monotonic()
@@ -209,7 +208,7 @@ class App:
         while not self._commands.empty():
             self._do(*self._commands.get())
 
-    def _do(self, line: str, answer: Optional["queue.Queue"]) -> None:
+    def _do(self, line: str, answer: queue.Queue | None) -> None:
         try:
             success, text = True, self.bench.command(line)
         except BenchError as error:
@@ -219,7 +218,7 @@ class App:
             answer.put((success, text))
 
 
-def main(arguments: Optional[List[str]] = None) -> int:
+def main(arguments: list[str] | None = None) -> int:
     """Run the bench; returns the exit code."""
     options = _arguments([a for a in (sys.argv[1:] if arguments is None else arguments) if ":=" not in a])
     try:

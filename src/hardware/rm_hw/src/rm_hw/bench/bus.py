@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import random
 from collections import deque
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Callable, Deque, Dict, List, Mapping, Optional, Tuple
 
 from rm_hw.bench.motor import SPECS, TUTORIAL_ARM, Load, Motor
 from rm_hw.bench.slcan import Frame, SlcanPort
@@ -48,7 +48,7 @@ class Device:
     late: float = 0.0
     every: int = 1
     hold_until_opened: bool = False
-    queue: Deque[Tuple[float, Frame]] = field(default_factory=deque)
+    queue: deque[tuple[float, Frame]] = field(default_factory=deque)
 
     def __post_init__(self) -> None:
         self.command_id, self.slot = command_slot(self.id)
@@ -59,11 +59,11 @@ class Bus:
 
     def __init__(self, name: str, directory: str, watch: Callable[[str, Frame], None]) -> None:
         self.name, self.works = name, True
-        self.devices: Dict[str, Device] = {}
-        self.commands: Dict[int, Frame] = {}
+        self.devices: dict[str, Device] = {}
+        self.commands: dict[int, Frame] = {}
         self._paths = (f"{directory}/{name}", f"{directory}/{name}.monitor")
         self._watch = watch
-        self.ports: List[SlcanPort] = []
+        self.ports: list[SlcanPort] = []
         self.plug()
 
     def plug(self) -> None:
@@ -94,7 +94,7 @@ class Bus:
                         if device.command_id == frame.id and device.present:
                             device.motor.command = values[device.slot]
 
-    def speak(self, frames: List[Frame]) -> None:
+    def speak(self, frames: list[Frame]) -> None:
         if not self.works or not frames:
             return
         for port in self.ports:
@@ -114,7 +114,7 @@ class Bench:
 
     def __init__(
         self,
-        config: Optional[dict] = None,
+        config: dict | None = None,
         directory: str = "/tmp/rm_bench",
         seed: int = 0,
         watch: Callable[[str, Frame], None] = lambda bus, frame: None,
@@ -122,8 +122,8 @@ class Bench:
         self.time = 0.0
         self.ticks = 0
         self.directory = directory
-        self.buses: Dict[str, Bus] = {}
-        self.devices: Dict[str, Device] = {}
+        self.buses: dict[str, Bus] = {}
+        self.devices: dict[str, Device] = {}
         self._random = random.Random(seed)
         self._watch = watch
         motors = (config or TUTORIAL).get("motors")

@@ -7,7 +7,6 @@ import select
 import sys
 import termios
 import tty
-from typing import Dict, Optional, Union
 
 from rm_hw.bench.bus import Bench, BenchError
 from rm_hw.bench.replay import Replay
@@ -21,12 +20,12 @@ _ARROWS = {"\x1b[C": 0.1, "\x1b[D": -0.1}
 class Keys:
     """Reads standard input without waiting. Use as a context manager: it restores the terminal."""
 
-    def __init__(self, bench: Union[Bench, Replay]) -> None:
+    def __init__(self, bench: Bench | Replay) -> None:
         self._bench = bench
         self._selected = 0
-        self._unplugged: Dict[str, bool] = {}
+        self._unplugged: dict[str, bool] = {}
 
-    def __enter__(self) -> "Keys":
+    def __enter__(self) -> Keys:
         self._saved = termios.tcgetattr(sys.stdin)
         tty.setcbreak(sys.stdin)
         return self
@@ -35,12 +34,12 @@ class Keys:
         termios.tcsetattr(sys.stdin, termios.TCSADRAIN, self._saved)
 
     @property
-    def motor(self) -> Optional[str]:
+    def motor(self) -> str | None:
         """The selected motor."""
         names = list(self._bench.devices)
         return names[self._selected % len(names)] if names else None
 
-    def poll(self) -> Optional[str]:
+    def poll(self) -> str | None:
         """Carry out a waiting key and say what it did; None without one. :raises EOFError: quit."""
         if not select.select([sys.stdin], [], [], 0)[0]:
             return None
@@ -58,7 +57,7 @@ class Keys:
         except BenchError as error:
             return str(error)
 
-    def _line(self, key: str) -> Optional[str]:
+    def _line(self, key: str) -> str | None:
         name = self.motor
         if name is None:
             return None

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Optional
 
 from rm_hw.frames import COUNTS_PER_TURN, Feedback
 
@@ -130,7 +129,7 @@ class Motor:
 
     spec: MotorSpec
     load: Load = field(default_factory=Load)
-    gear: Optional[float] = None
+    gear: float | None = None
     start: float = 0.0
     ambient: float = 25.0
     angle: float = 0.0

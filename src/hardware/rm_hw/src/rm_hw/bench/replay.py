@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Dict, Iterator, Optional
+from collections.abc import Iterator
 
 import can
 
@@ -28,15 +28,15 @@ class Replay:
             raise BenchError(f"cannot replay {path}: there is no frame in it")
         self._start = messages[0].timestamp
         self.time = 0.0
-        self.buses: Dict[str, Bus] = {}
+        self.buses: dict[str, Bus] = {}
         for message in messages:
             name = str(message.channel or "can0")
             if name not in self.buses:
                 self.buses[name] = Bus(name, directory, watch)
-        self.devices: Dict[str, Device] = {}
+        self.devices: dict[str, Device] = {}
         self._messages: Iterator[can.Message] = iter(m for m in messages if not m.is_error_frame and m.arbitration_id not in RM_COMMAND_IDS)
         self._since_last = 0.0
-        self._next: Optional[can.Message] = next(self._messages, None)
+        self._next: can.Message | None = next(self._messages, None)
 
     @property
     def finished(self) -> bool:

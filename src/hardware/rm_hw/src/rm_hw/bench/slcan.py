@@ -6,7 +6,8 @@ import errno
 import os
 import re
 import tty
-from typing import Iterable, List, NamedTuple
+from collections.abc import Iterable
+from typing import NamedTuple
 
 _OK, _BELL = b"\r", b"\a"
 _DATA = re.compile(rb"t([0-7][0-9A-Fa-f]{2})([0-8])((?:[0-9A-Fa-f]{2})*)$")
@@ -52,7 +53,7 @@ class SlcanPort:
             os.unlink(self.path)
         os.close(self._master)
 
-    def read(self, bus_works: bool = True) -> List[Frame]:
+    def read(self, bus_works: bool = True) -> list[Frame]:
         """Frames the user has sent since the last call; other SLCAN commands are answered here."""
         try:
             self._buffer += os.read(self._master, 65536)
@@ -66,14 +67,14 @@ class SlcanPort:
         *lines, self._buffer = self._buffer.split(_OK)
         if len(self._buffer) > _LONGEST_LINE:
             self._buffer = b""
-        frames: List[Frame] = []
+        frames: list[Frame] = []
         answers = b""
         for line in lines:
             answers += self._command(line, frames, bus_works)
         self._write(answers)
         return frames
 
-    def _command(self, line: bytes, frames: List[Frame], bus_works: bool) -> bytes:
+    def _command(self, line: bytes, frames: list[Frame], bus_works: bool) -> bytes:
         match = _DATA.match(line)
         if match:
             identifier, length, digits = match.groups()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Dict, List, Sequence, Tuple
+from collections.abc import Sequence
 
 import numpy as np
 import rospy
@@ -13,7 +13,7 @@ from tf.transformations import quaternion_about_axis, quaternion_from_euler, qua
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 #: sizes (m) of what the world file has; "table" is the table's top
-SIZES: Dict[str, Tuple[float, float, float]] = {"table": (0.5, 1.2, 0.04), "post": (0.08, 0.08, 0.4), "block": (0.05, 0.05, 0.12)}
+SIZES: dict[str, tuple[float, float, float]] = {"table": (0.5, 1.2, 0.04), "post": (0.08, 0.08, 0.4), "block": (0.05, 0.05, 0.12)}
 #: from tool0 to the middle between the finger tips, m
 REACH = 0.095
 OPEN, SQUEEZE = 0.04, 0.005  # m: a finger that is open from the middle; how far it is sent into what it holds
@@ -34,7 +34,7 @@ def position(pose: Pose) -> np.ndarray:
     return np.array((pose.position.x, pose.position.y, pose.position.z))
 
 
-def fill_scene(scene) -> List[str]:
+def fill_scene(scene) -> list[str]:
     """Put table, post and block where the simulator has them into a moveit_commander.PlanningSceneInterface.
 
     :return: the names of what was put; what the robot holds is left with it.
@@ -70,9 +70,9 @@ def fingers(opening: float) -> JointTrajectory:
     )
 
 
-def grasps(box: Pose, size: Sequence[float] = SIZES["block"]) -> List[Grasp]:
+def grasps(box: Pose, size: Sequence[float] = SIZES["block"]) -> list[Grasp]:
     """Ways to grip an upright box from above, a quarter of a turn apart; none where it is too wide, or lies on its side."""
-    found: List[Grasp] = []
+    found: list[Grasp] = []
     at, o = position(box), box.orientation
     turn = (o.x, o.y, o.z, o.w)
     if quaternion_matrix(turn)[2, 2] < 0.999:
@@ -98,7 +98,7 @@ def grasps(box: Pose, size: Sequence[float] = SIZES["block"]) -> List[Grasp]:
     return found
 
 
-def places(x: float, y: float, z: float) -> List[PlaceLocation]:
+def places(x: float, y: float, z: float) -> list[PlaceLocation]:
     """Ways to put the block down with its middle at x, y, z, turned by any quarter."""
     return [
         PlaceLocation(

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Dict
-
 import motion
 import rospy
 from moveit_core import convert, states
@@ -79,7 +77,7 @@ class Kinematics(Capability):
             position_only=all(part.position_only for part in parts),
         )
 
-    def _targets(self, scene, wanted, group) -> Dict[str, motion.Pose]:
+    def _targets(self, scene, wanted, group) -> dict[str, motion.Pose]:
         stamped, links = list(wanted.pose_stamped_vector), list(wanted.ik_link_names)
         if len(stamped) < 2:
             stamped, links = stamped or [wanted.pose_stamped], [wanted.ik_link_name]

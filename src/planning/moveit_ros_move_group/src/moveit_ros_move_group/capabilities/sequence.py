@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from typing import List, Optional
-
 import motion
 import rospy
 from moveit_core import states
@@ -18,7 +16,7 @@ from ..capability import ActionCapability, Capability, result_text, serve
 from .move_action import current_state_only, without_robot_state
 
 
-def plan_sequence(context, scene, request: MotionSequenceRequest, cancel: Optional[motion.CancelToken] = None):
+def plan_sequence(context, scene, request: MotionSequenceRequest, cancel: motion.CancelToken | None = None):
     """Plan a MotionSequenceRequest that is not empty.
 
     :raises PlanningError: a request cannot be understood, or there is no pipeline of industrial motions.
@@ -52,7 +50,7 @@ def _start_where_the_robot_is(request: MotionSequenceRequest) -> None:
             current_state_only(item.req)
 
 
-def _fill(response, trajectories: List[motion.Trajectory]) -> None:
+def _fill(response, trajectories: list[motion.Trajectory]) -> None:
     if trajectories:
         response.sequence_start = states.robot_state_message(trajectories[0].start)
         response.planned_trajectories = [states.trajectory_message(trajectory) for trajectory in trajectories]

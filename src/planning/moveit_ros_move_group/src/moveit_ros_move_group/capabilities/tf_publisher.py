@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-from typing import List
 
 import rospy
 import tf2_ros
@@ -43,7 +42,7 @@ class TfPublisher(Capability):
             if frames:
                 self._broadcaster.sendTransform(frames)
 
-    def _frames(self) -> List[TransformStamped]:
+    def _frames(self) -> list[TransformStamped]:
         scene, now, result = self.context.monitor.copy(), rospy.Time.now(), []
         for name in scene.objects:
             if not name.startswith("<"):
@@ -53,7 +52,7 @@ class TfPublisher(Capability):
             result += self._with_subframes(body.id, body.link, body.pose, body.subframes, now)
         return result
 
-    def _with_subframes(self, name: str, parent: str, pose, subframes, now) -> List[TransformStamped]:
+    def _with_subframes(self, name: str, parent: str, pose, subframes, now) -> list[TransformStamped]:
         frames = [self._frame(parent, self._prefix + name, pose, now)]
         frames += [self._frame(self._prefix + name, f"{self._prefix}{name}/{sub}", where, now) for sub, where in subframes.items()]
         return frames

@@ -7,7 +7,8 @@ program may replace, and left out.
 from __future__ import annotations
 
 import sys
-from typing import Any, Callable, Dict, List, Optional, Union
+from collections.abc import Callable
+from typing import Any
 from xml.dom import minidom
 from xml.etree import ElementTree
 
@@ -37,10 +38,10 @@ def number(value: str) -> float:
     return float(value)
 
 
-def numbers(count: int) -> Callable[[str], List[float]]:
+def numbers(count: int) -> Callable[[str], list[float]]:
     """A reader of ``count`` numbers."""
 
-    def read(value: str) -> List[float]:
+    def read(value: str) -> list[float]:
         found = [float(word) for word in value.split()]
         if len(found) != count:
             raise ValueError(f"'{value}' must be {count} numbers")
@@ -61,7 +62,7 @@ class Field:
 
     kind = ""
 
-    def __init__(self, xml: str, read: Any, required: bool = True, default: Any = None, var: Optional[str] = None):
+    def __init__(self, xml: str, read: Any, required: bool = True, default: Any = None, var: str | None = None):
         self.xml, self.read, self.required, self.default, self.var = xml, read, required, default, var or xml
 
     def missing(self, obj: Any, path: str) -> None:
@@ -111,7 +112,7 @@ class Child(Field):
 class Aggregate(Child):
     """Any number of children, kept in a list."""
 
-    def __init__(self, xml: str, read: Any, var: Optional[str] = None):
+    def __init__(self, xml: str, read: Any, var: str | None = None):
         super().__init__(xml, read, required=False, var=var or xml + "s")
 
     def missing(self, obj: Any, path: str) -> None:
@@ -129,12 +130,12 @@ class Object:
     """``TAG`` is what its element is called, ``FIELDS`` what is in it."""
 
     TAG = ""
-    FIELDS: List[Field] = []
+    FIELDS: list[Field] = []
 
     # reading
 
     @classmethod
-    def from_xml_string(cls, xml_string: Union[str, bytes]) -> Any:
+    def from_xml_string(cls, xml_string: str | bytes) -> Any:
         """:raises ParseError: what it says is missing or wrong, or no XML"""
         return cls._read(cls.__new_empty(), xml_string)
 
@@ -249,7 +250,7 @@ class Object:
     # lists
 
     def aggregate_init(self) -> None:
-        self.aggregate_order: List[Any] = []  # (name of the element, object), in the order of the file
+        self.aggregate_order: list[Any] = []  # (name of the element, object), in the order of the file
 
     def add_aggregate(self, xml_var: str, obj: Any) -> None:
         field = next(field for field in self.FIELDS if field.xml == xml_var)
@@ -264,10 +265,10 @@ class Object:
 
     # as text
 
-    def get_refl_vars(self) -> List[str]:
+    def get_refl_vars(self) -> list[str]:
         return [field.var for field in self.FIELDS]
 
-    def to_yaml(self) -> Dict[str, Any]:
+    def to_yaml(self) -> dict[str, Any]:
         return {name: _plain(getattr(self, name)) for name in self.get_refl_vars()}
 
     def __str__(self) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING, Dict, Optional, Tuple
+from typing import TYPE_CHECKING
 
 import rospy
 from dynamic_parameters import Parameter, Server
@@ -66,13 +66,13 @@ class ImageTopics:
     """
 
     def __init__(
-        self, topic: str, encoding: str, shape: Tuple[int, int], queue_size: int, source: str = "image", compressible: bool = True
+        self, topic: str, encoding: str, shape: tuple[int, int], queue_size: int, source: str = "image", compressible: bool = True
     ):
         self._source, self._encoding, (self._height, self._width) = source, encoding, shape
         self._raw = rospy.Publisher(topic, Image, queue_size=queue_size)
         self._compressed = self._depth = None
-        self._theora: Optional[TheoraPublisher] = None
-        self._parameters: Tuple[Server, ...] = ()
+        self._theora: TheoraPublisher | None = None
+        self._parameters: tuple[Server, ...] = ()
         if compressible:
             self._settings = f"jpeg:{COMPRESSED[1].default}"
             self._compressed = rospy.Publisher(f"{topic}/compressed", CompressedImage, queue_size=queue_size)
@@ -88,14 +88,14 @@ class ImageTopics:
 
                 self._theora = TheoraPublisher(topic, encoding, shape, queue_size)
 
-    def _configure(self, config: Dict, _level: int) -> None:
+    def _configure(self, config: dict, _level: int) -> None:
         kind = config["format"] if config["format"] in ("jpeg", "png") else "jpeg"
         self._settings = f"{kind}:{config['jpeg_quality' if kind == 'jpeg' else 'png_level']}"
 
-    def outputs(self) -> Tuple[str, ...]:
+    def outputs(self) -> tuple[str, ...]:
         """What somebody listens to now."""
         theora = self._theora is not None and self._theora.wanted()
-        wanted: Tuple[str, ...] = (self._source,) if theora or self._raw.get_num_connections() else ()
+        wanted: tuple[str, ...] = (self._source,) if theora or self._raw.get_num_connections() else ()
         if self._compressed is not None and self._compressed.get_num_connections():
             wanted += (self._settings,)
         return wanted

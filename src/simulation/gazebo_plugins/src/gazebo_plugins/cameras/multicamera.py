@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import List
-
 from gazebo_ros.names import join
 from gazebo_ros.plugin import PluginError, SensorPlugin
 
@@ -25,7 +23,7 @@ class Multicamera(SensorPlugin):
                 f"sensor '{sensor.name}' needs exactly two cameras, one with 'left' and one with 'right' in its name; it has: {names}"
             )
         namespace = node_namespace(sensor, sdf)
-        self.cameras: List[RosCamera] = []
+        self.cameras: list[RosCamera] = []
         try:
             for side, (element,) in by_side.items():
                 self.cameras.append(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Any, Dict
+from typing import Any
 
 import rospy
 from gazebo_ros.names import join
@@ -27,7 +27,7 @@ class Prosilica(Camera):
     def load(self, server, sensor, sdf) -> None:
         super().load(server, sensor, sdf)
         self._server, self._service = server, None
-        self._publishers: Dict[str, Any] = {}
+        self._publishers: dict[str, Any] = {}
         namespace = self.camera.namespace
         mode = self._mode(namespace)
         if mode not in ("streaming", "polled"):

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Callable, Optional, Tuple
 
 import numpy as np
 import rospy
@@ -69,14 +69,7 @@ class RosCamera:
     """
 
     def __init__(
-        self,
-        server,
-        sensor,
-        sdf,
-        element,
-        namespace: str,
-        baseline: Optional[float] = None,
-        depth_range: Tuple[float, float] = (0.0, np.inf),
+        self, server, sensor, sdf, element, namespace: str, baseline: float | None = None, depth_range: tuple[float, float] = (0.0, np.inf)
     ):
         self.sensor = sensor
         self.namespace = namespace
@@ -156,7 +149,7 @@ class RosCamera:
             self.publish_info(self.header())
             self.sensor.pictured(self.sensor.measurement_ns)
 
-    def shoot(self, header: Header, outputs: Tuple[str, ...], deliver: Callable[[Header, Frame], None]) -> None:
+    def shoot(self, header: Header, outputs: tuple[str, ...], deliver: Callable[[Header, Frame], None]) -> None:
         """Have ``outputs`` (of the render process) of now; ``deliver(header, frame)`` is called in the pictures'
         thread."""
         measured_ns = self.sensor.measurement_ns

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import List
-
 import rospy
 from gazebo_ros.plugin import ModelPlugin
 from node_signals.rates import PeriodAdded
@@ -98,7 +96,7 @@ class DiffDrive(ModelPlugin):
         self.topics.close()
 
 
-def wheel_states(now: rospy.Time, joints: List) -> JointState:
+def wheel_states(now: rospy.Time, joints: list) -> JointState:
     """Positions only, as this plugin family publishes them."""
     message = JointState()
     message.header.stamp = now

@@ -4,7 +4,6 @@ commanded velocity, wheels are there for the looks."""
 from __future__ import annotations
 
 import math
-from typing import Tuple
 
 import rospy
 from gazebo_ros.plugin import ModelPlugin, PluginError
@@ -63,7 +62,7 @@ class ForceBasedMove(ModelPlugin):
             raise PluginError(f"model {self.model.name} has no link to push")
         return self.model.links.get(name) or next(iter(self.model.links.values()))
 
-    def _inertias(self) -> Tuple[float, float, float]:
+    def _inertias(self) -> tuple[float, float, float]:
         """Of the whole model: mass twice, kg, and moment about the vertical axis of the base, kg m^2."""
         links = self.model.links.values()
         centre = self.link.com()

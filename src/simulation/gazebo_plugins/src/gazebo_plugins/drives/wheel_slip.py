@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict
+from typing import Any
 
 from dynamic_parameters import Parameter
 from dynamic_parameters import Server as Reconfigure
@@ -71,7 +71,7 @@ class WheelSlip(ModelPlugin):
         self.reconfigure = Reconfigure(namespace, _TABLE, self._changed)
         server.before_step(self.step)
 
-    def _changed(self, config: Dict[str, Any], _level: int) -> None:
+    def _changed(self, config: dict[str, Any], _level: int) -> None:
         def apply() -> None:  # server.call runs it at once while the plugin is being loaded
             for way in _TAGS:
                 value = config[f"slip_compliance_unitless_{way}"]

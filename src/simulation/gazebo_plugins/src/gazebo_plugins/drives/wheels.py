@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Sequence, Tuple
+from collections.abc import Sequence
 
 import rospy
 from geometry_msgs.msg import Twist, Vector3
@@ -47,7 +47,7 @@ def yaw_of(pose: Pose) -> float:
     return math3.quat_to_rpy(pose.q)[2]
 
 
-def ground_truth(model) -> Tuple[Pose, Tuple[float, float, float]]:
+def ground_truth(model) -> tuple[Pose, tuple[float, float, float]]:
     """X_WM, and the velocity (forward, left, yaw rate) in the model's heading: m/s, m/s, rad/s."""
     pose = model.pose
     linear, angular = model.twist()
@@ -79,7 +79,7 @@ class OdometryPublisher:
         self._message.pose.covariance = diagonal(pose_covariance)
         self._message.twist.covariance = diagonal(twist_covariance)
 
-    def publish(self, now: rospy.Time, pose: Pose, velocity: Tuple[float, float, float], flat: bool = False) -> None:
+    def publish(self, now: rospy.Time, pose: Pose, velocity: tuple[float, float, float], flat: bool = False) -> None:
         """:param flat: leave z of the message 0, as some plugins do"""
         message = self._message
         message.header.stamp = now

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import deque
-from typing import Deque, Dict, List, Tuple
 
 import numpy as np
 import rospy
@@ -42,13 +41,13 @@ class Bumper(SensorPlugin):
         self.topics = Topics(sdf, sensor.model.name, "C")
         self.frame = self.topics.frame(sdf.text_or("frameName", "world"))
         self.order = PairOrder()
-        self.steps: Deque[Tuple[rospy.Time, List[ContactState]]] = deque(maxlen=_MOST_STEPS)
+        self.steps: deque[tuple[rospy.Time, list[ContactState]]] = deque(maxlen=_MOST_STEPS)
         self.publisher = self.topics.publisher(sdf.text_or("bumperTopicName", "bumper_states"), ContactsState)
         self.wanted = subscribed(self.publisher)
         server.after_step(self.collect)
         sensor.connect(self.measure, self.wanted)
 
-    def _watched(self) -> List[CollisionHandle]:
+    def _watched(self) -> list[CollisionHandle]:
         """The collisions that ``<contact>`` names; one that is not there is an ERROR line and feels nothing."""
         contact = SdfElement(self.sensor.description.element).child("contact")
         wanted = [child.text for child in contact.children("collision")] if contact else []
@@ -69,7 +68,7 @@ class Bumper(SensorPlugin):
         if not self.wanted():
             return
         self.order.forget()
-        pairs: Dict[Tuple[int, int], list] = {}
+        pairs: dict[tuple[int, int], list] = {}
         for contact in self.world.contacts():
             pair = int(contact["collision1"]), int(contact["collision2"])
             if not self.collisions.isdisjoint(pair):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Tuple
 
 import numpy as np
 from gazebo_ros.plugin import ModelPlugin, SensorPlugin
@@ -138,7 +137,7 @@ class HectorGps(_BodyPlugin):
         self.status = sdf.get("status", NavSatStatus.STATUS_FIX)
         self.service_code = sdf.get("service", NavSatStatus.SERVICE_GPS)
 
-    def _north_west(self, x: float, y: float) -> Tuple[float, float]:
+    def _north_west(self, x: float, y: float) -> tuple[float, float]:
         cos, sin = math.cos(self.heading), math.sin(self.heading)
         return cos * x + sin * y, cos * y - sin * x
 

@@ -7,7 +7,6 @@ rest), the sensor's includes the reaction to gravity (+9.8 along z at rest).
 from __future__ import annotations
 
 import math
-from typing import Optional
 
 import numpy as np
 from gazebo_ros import SdfElement
@@ -83,7 +82,7 @@ class ImuPlugin(ModelPlugin):
 class AxisNoise:
     """SDF's ``<noise>`` of one axis: value + bias + N(mean, stddev), the bias drawn once, optionally wandering."""
 
-    def __init__(self, sdf: Optional[SdfElement], rng):
+    def __init__(self, sdf: SdfElement | None, rng):
         noise = sdf.child("noise") if sdf else None
         self._rng = rng
         get = noise.get if noise else (lambda tag, default: default)

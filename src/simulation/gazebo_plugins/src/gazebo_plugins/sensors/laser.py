@@ -5,8 +5,6 @@ A ``gpu_ray`` sensor needs no GPU here: both kinds cast rays against collision s
 
 from __future__ import annotations
 
-from typing import Optional
-
 import numpy as np
 import rospy
 from gazebo_ros import SdfElement, names
@@ -25,7 +23,7 @@ _MOST_RAYS = 1_000_000
 class _Scan:
     """``<scan>`` along one direction: ``samples`` values of ``resolution`` times as few rays."""
 
-    def __init__(self, sdf: Optional[SdfElement], samples: int):
+    def __init__(self, sdf: SdfElement | None, samples: int):
         self.samples = max(1, sdf.get("samples", samples)) if sdf else samples
         self.resolution = sdf.get("resolution", 1.0) if sdf else 1.0
         self.min_angle = sdf.get("min_angle", 0.0) if sdf else 0.0

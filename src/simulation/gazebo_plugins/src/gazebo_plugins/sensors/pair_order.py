@@ -9,7 +9,8 @@ the smaller class is the first; of equals the one that stands still, else the on
 from __future__ import annotations
 
 import math
-from typing import Any, Dict, Iterable, List
+from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 
@@ -30,7 +31,7 @@ def size_class(low: Iterable[float], high: Iterable[float]) -> int:
     return exponent if exponent <= _MOST else _BEYOND
 
 
-def _box(collision: Any) -> List[Any]:
+def _box(collision: Any) -> list[Any]:
     """What it fills, in a list; none of one that is no longer in the world."""
     try:
         return [collision.bounding_box()]
@@ -42,8 +43,8 @@ class PairOrder:
     """Asked in the physics thread; knows the classes until :meth:`forget` is called, which whoever asks does once a step."""
 
     def __init__(self) -> None:
-        self._moving: Dict[Any, int] = {}
-        self._static: Dict[Any, int] = {}
+        self._moving: dict[Any, int] = {}
+        self._static: dict[Any, int] = {}
 
     def forget(self) -> None:
         self._moving.clear()

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Callable, List, Optional, Tuple
+from typing import Any
 
 from gazebo_msgs.srv import ApplyBodyWrench, ApplyJointEffort, BodyRequest, JointRequest
 from ode_sim import math3
@@ -19,7 +20,7 @@ class _Job:
 
     target: Any  # link or joint handle
     start_ns: int
-    end_ns: Optional[int]
+    end_ns: int | None
     act: Callable[[], None]
 
     def active(self, now_ns: int) -> bool:
@@ -37,8 +38,8 @@ class ForceJobs:
 
     def __init__(self, server: Server):
         self._server = server
-        self._wrenches: List[_Job] = []
-        self._efforts: List[_Job] = []
+        self._wrenches: list[_Job] = []
+        self._efforts: list[_Job] = []
         server.before_step(self._on_step)
         server.world.on_remove.append(self._forget)
         advertise(server, "apply_body_wrench", ApplyBodyWrench, self._apply_body_wrench)
@@ -59,7 +60,7 @@ class ForceJobs:
         for jobs in (self._wrenches, self._efforts):
             jobs[:] = [job for job in jobs if job.target.model is not model]
 
-    def _times(self, request) -> Tuple[int, Optional[int]]:
+    def _times(self, request) -> tuple[int, int | None]:
         """(start_ns, end_ns) of a request; a start in the past is now."""
         start_ns = max(request.start_time.to_nsec(), self._server.now().to_nsec())
         duration_ns = request.duration.to_nsec()

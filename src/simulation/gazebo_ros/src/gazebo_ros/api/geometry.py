@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Tuple
+from typing import Any
 
 from geometry_msgs.msg import Point, Quaternion, Twist, Vector3
 from geometry_msgs.msg import Pose as PoseMsg
@@ -43,7 +43,7 @@ def twist_msg(linear: Vec3, angular: Vec3) -> Twist:
     return Twist(Vector3(*linear), Vector3(*angular))
 
 
-def entity_twist(entity: Any) -> Tuple[Vec3, Vec3]:
+def entity_twist(entity: Any) -> tuple[Vec3, Vec3]:
     """(linear, angular), world axes, of a link handle at its origin; of a model, its first link's; of a collision, its
     link's."""
     if isinstance(entity, ModelHandle):

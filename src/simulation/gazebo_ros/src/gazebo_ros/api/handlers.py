@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, Iterable, Optional
+from collections.abc import Callable, Iterable
+from typing import Any
 
 import rospy
 from ode_sim.errors import Refused
@@ -21,7 +22,7 @@ class Answer(Refused):
 
 
 def advertise(
-    server: Server, name: str, service: Any, f: Callable[[Any, Any], Optional[str]], in_physics_thread: bool = True, prefix: str = ""
+    server: Server, name: str, service: Any, f: Callable[[Any, Any], str | None], in_physics_thread: bool = True, prefix: str = ""
 ) -> rospy.Service:
     """Offer ``~name``. ``f(request, response)`` fills the response and returns the status line, if there is one.
 

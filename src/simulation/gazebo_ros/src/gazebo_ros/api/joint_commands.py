@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Dict, Optional
 
 from ode_sim import JointHandle
 
@@ -32,7 +31,7 @@ class JointDrive:
     i: float = 0.0
     d: float = 0.0
     error_sum: float = 0.0
-    last_error: Optional[float] = None
+    last_error: float | None = None
 
     def apply(self, dt: float) -> None:
         """:param dt: s of sim time since the last step."""
@@ -51,7 +50,7 @@ class JointCommands:
 
     def __init__(self, server: Server):
         self._server = server
-        self._drives: Dict[str, JointDrive] = {}
+        self._drives: dict[str, JointDrive] = {}
         self._driving = Occasional(server.before_step, self._on_step)
         self._time_ns = 0
         server.world.on_remove.append(self._on_remove)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any, Dict, Iterator, Tuple
+from typing import Any
 
 import numpy as np
 from gazebo_msgs.srv import DeleteLight, GetLightProperties, SetLightProperties
@@ -25,7 +26,7 @@ class LightServices:
         advertise(server, "get_light_properties", GetLightProperties, self._get, prefix="getLightProperties")
         advertise(server, "set_light_properties", SetLightProperties, self._set, prefix="setLightProperties")
 
-    def _all(self) -> Iterator[Tuple[str, Dict[str, Light], str, Any]]:
+    def _all(self) -> Iterator[tuple[str, dict[str, Light], str, Any]]:
         """(scoped name, the lights it is one of, its name there, the link that carries it or None)"""
         for name in self._world.lights:
             yield name, self._world.lights, name, None
@@ -34,7 +35,7 @@ class LightServices:
                 for name in link.lights:
                     yield f"{link.scoped_name}::{name}", link.lights, name, link
 
-    def _find(self, wanted: str, gazebo: str = "Requested light {} not found!") -> Tuple[Dict[str, Light], str, Any]:
+    def _find(self, wanted: str, gazebo: str = "Requested light {} not found!") -> tuple[dict[str, Light], str, Any]:
         for scoped, lights, name, link in self._all():
             if wanted in (scoped, name):
                 return lights, name, link

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from typing import Dict, Optional, Tuple
 
 import rospy
 from gazebo_msgs.msg import PerformanceMetrics, SensorPerformanceMetric
@@ -21,10 +20,10 @@ class _Rate:
     """Of one sensor: from the times of its measurements, so that it does not depend on where a message cuts them."""
 
     def __init__(self) -> None:
-        self._before: Optional[Count] = None
+        self._before: Count | None = None
         self._rates = (0.0, 0.0)
 
-    def read(self, now: Count, sim_ns: int) -> Tuple[float, float]:
+    def read(self, now: Count, sim_ns: int) -> tuple[float, float]:
         """Hz of sim time and of wall time.
 
         :param now: what the sensor has counted. :param sim_ns: the time
@@ -49,7 +48,7 @@ class MetricsPublisher:
         self._publisher = rospy.Publisher("~performance_metrics", PerformanceMetrics, queue_size=10)
         self._wall_ns = time.monotonic_ns()
         self._sim_ns = server.world.time_ns
-        self._rates: Dict[str, _Rate] = {}
+        self._rates: dict[str, _Rate] = {}
         server.after_step(self._on_step)
         server.stepped.connect(self._restart)  # a pause is no slow simulation
 
@@ -75,7 +74,7 @@ class MetricsPublisher:
         self._rates.clear()
         self._elapsed()
 
-    def _elapsed(self) -> Tuple[float, float]:
+    def _elapsed(self) -> tuple[float, float]:
         """(wall, sim) seconds since the last call."""
         wall_ns, sim_ns = time.monotonic_ns(), self._server.world.time_ns
         wall, sim = (wall_ns - self._wall_ns) / 1e9, max(sim_ns - self._sim_ns, 0) / 1e9

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from typing import Any, Tuple
+from typing import Any
 
 import rospy
 from gazebo_msgs.msg import LinkState, ModelState
@@ -59,7 +59,7 @@ class ModelServices:
         rospy.Subscriber("~set_model_state", ModelState, self._on_message, (self._set_model_state, "set_model_state"), queue_size=10)
         rospy.Subscriber("~set_link_state", LinkState, self._on_message, (self._set_link_state, "set_link_state"), queue_size=10)
 
-    def _on_message(self, message: Any, how: Tuple) -> None:
+    def _on_message(self, message: Any, how: tuple) -> None:
         f, topic = how
         try:
             self._server.call(lambda: f(message))
@@ -194,7 +194,7 @@ class ModelServices:
         return "SetLinkProperties: properties set"
 
 
-def _relative_state(entity: Any, frame: Any) -> Tuple[PoseMsg, Any]:
+def _relative_state(entity: Any, frame: Any) -> tuple[PoseMsg, Any]:
     """Pose and twist of ``entity`` in ``frame`` (None = world); the frame's rotation adds no velocity, as in Gazebo."""
     pose = entity.pose
     linear, angular = entity_twist(entity)

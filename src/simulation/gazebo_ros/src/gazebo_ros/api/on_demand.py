@@ -5,8 +5,8 @@ from __future__ import annotations
 import threading
 import time
 import xmlrpc.client
+from collections.abc import Callable
 from http.client import HTTPException
-from typing import Callable, Dict, Optional, Set
 
 import rosgraph
 import rospy
@@ -19,7 +19,7 @@ _TROUBLE = (OSError, xmlrpc.client.Error, HTTPException, rosgraph.MasterExceptio
 class _Topic:
     def __init__(self, make: Callable[[], rospy.Publisher], gone: Callable[[], None]):
         self.make, self.gone = make, gone
-        self.publisher: Optional[rospy.Publisher] = None
+        self.publisher: rospy.Publisher | None = None
         self.wanted_at = 0.0
 
 
@@ -27,7 +27,7 @@ class OnDemand:
     """Asks the master twice a second who subscribes: it tells publishers of nobody, and this node publishes only then."""
 
     def __init__(self) -> None:
-        self._topics: Dict[str, _Topic] = {}
+        self._topics: dict[str, _Topic] = {}
         self._lock = threading.Lock()
         self._master = rosgraph.Master(rospy.get_caller_id())
 
@@ -60,7 +60,7 @@ class OnDemand:
                 return
             ended.wait(_PERIOD)
 
-    def _look(self, subscribed: Set[str]) -> None:
+    def _look(self, subscribed: set[str]) -> None:
         with self._lock:
             for name, topic in self._topics.items():
                 if name in subscribed:

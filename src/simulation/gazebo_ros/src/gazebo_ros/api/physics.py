@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, Dict, Optional
+from typing import Any
 
 import rospy
 from dynamic_parameters import Parameter
@@ -52,7 +52,7 @@ class PhysicsServices:
         self._server = server
         self._world = server.world
         self._auto_disable = False
-        self._parameters: Optional[ParameterServer] = None
+        self._parameters: ParameterServer | None = None
         advertise(server, "get_physics_properties", GetPhysicsProperties, self._get)
         advertise(server, "set_physics_properties", SetPhysicsProperties, self._set, in_physics_thread=False)
 
@@ -63,7 +63,7 @@ class PhysicsServices:
         )
         rospy.loginfo("Physics dynamic reconfigure ready.")
 
-    def _values(self) -> Dict[str, Any]:
+    def _values(self) -> dict[str, Any]:
         gravity = self._world.gravity
         return {
             **{name: getattr(self._world.physics, setting) for name, setting in _SETTINGS.items()},
@@ -74,7 +74,7 @@ class PhysicsServices:
             "sor_pgs_rms_error_tol": 0.0,
         }
 
-    def _apply(self, values: Dict[str, Any]) -> None:
+    def _apply(self, values: dict[str, Any]) -> None:
         """Take over all values, or none.
 
         :raises Refused, ValueError: a value that no simulation can run with
@@ -105,7 +105,7 @@ class PhysicsServices:
             self._parameters.refresh()
         return "physics engine updated"
 
-    def _on_reconfigure(self, config: Dict[str, Any], level: int) -> None:
+    def _on_reconfigure(self, config: dict[str, Any], level: int) -> None:
         if level == -1:  # the call at start
             return
         self._server.call(lambda: self._apply(config))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Optional
+from typing import TYPE_CHECKING
 
 import numpy as np
 import rospy
@@ -22,7 +22,7 @@ _LARGEST = 4096  # pixels along a side
 class PictureServices:
     def __init__(self, server: Server):
         self._server = server
-        self._painter: "Optional[Painter]" = None
+        self._painter: Painter | None = None
         advertise(server, "take_picture", TakePicture, self._take, in_physics_thread=False)
 
     def _take(self, request, response) -> str:

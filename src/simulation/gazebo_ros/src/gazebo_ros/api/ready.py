@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-from typing import Optional
 
 import rospy
 from std_msgs.msg import Bool
@@ -15,7 +14,7 @@ class Ready:
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._set = False
-        self._publisher: Optional[rospy.Publisher] = None
+        self._publisher: rospy.Publisher | None = None
 
     def set(self) -> None:
         with self._lock:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from typing import List
 
 from gazebo_msgs.srv import SpawnModel
 from ode_sim import math3, prepare
@@ -102,7 +101,7 @@ class SpawnServices:
         return math3.compose(x_we, x_em)
 
 
-def plugins_of(model: Model) -> List[Plugin]:
+def plugins_of(model: Model) -> list[Plugin]:
     """Those of the model and of its sensors."""
     return list(model.plugins) + [plugin for part in model.parts for sensor in part.sensors for plugin in sensor.plugins]
 

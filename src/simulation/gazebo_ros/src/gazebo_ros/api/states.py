@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import struct
-from typing import Any, Iterable, List, Tuple
+from collections.abc import Iterable
+from typing import Any
 
 import rospy
 from gazebo_msgs.msg import LinkStates, ModelStates
@@ -15,11 +16,11 @@ from gazebo_ros.server import Server, WallLimit
 class _Serialized:
     """Writes itself as names, poses and twists without a message object per entry: at 1 kHz that is what counts."""
 
-    def set(self, entries: Iterable[Tuple[bytes, Any]]) -> None:
+    def set(self, entries: Iterable[tuple[bytes, Any]]) -> None:
         """:param entries: (name, model or link handle)"""
-        names: List[bytes] = []
-        poses: List[float] = []
-        twists: List[float] = []
+        names: list[bytes] = []
+        poses: list[float] = []
+        twists: list[float] = []
         for name, entity in entries:
             names.append(struct.pack("<I", len(name)) + name)
             pose = entity.pose

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import List
-
 from ode_sim import CollisionHandle, LinkHandle, ModelHandle
 from ode_sim.description import model as d
 from ode_sim.description.exchange import loads
@@ -35,7 +33,7 @@ class SurfaceServices:
         response.mu, response.mu2, response.restitution = surface.mu, surface.mu2, surface.restitution
         return f"CollisionSurface: {len(found)} collisions"
 
-    def _collisions(self, name: str) -> List[CollisionHandle]:
+    def _collisions(self, name: str) -> list[CollisionHandle]:
         entity = self._world.find_entity(name)
         if isinstance(entity, CollisionHandle):
             return [entity]

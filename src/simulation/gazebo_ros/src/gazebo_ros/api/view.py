@@ -5,8 +5,9 @@ from __future__ import annotations
 import random
 import threading
 import time
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, Callable, List, Optional, Tuple
+from typing import Any
 
 import numpy as np
 import rospy
@@ -34,12 +35,12 @@ class RunClock:
     def __init__(self, server: Server):
         self._server = server
         self._ran = 0.0
-        self._since: Optional[float] = None if server.paused else time.monotonic()
+        self._since: float | None = None if server.paused else time.monotonic()
         self._sim_ns = server.world.time_ns
         self._marks: list = []
         server.stepped.connect(self._on_change)
 
-    def read(self) -> Tuple[float, float]:
+    def read(self) -> tuple[float, float]:
         """(real time, s; real-time factor)."""
         now, sim_ns = time.monotonic(), self._server.world.time_ns
         if sim_ns < self._sim_ns:  # reset, or gone back on the timeline
@@ -85,9 +86,9 @@ class Stream:
         self._period = period
         self._read = read
         self._watched = watched
-        self._thread: Optional[threading.Thread] = None
+        self._thread: threading.Thread | None = None
         self._lock = threading.Lock()
-        self._publisher: Optional[rospy.Publisher] = None
+        self._publisher: rospy.Publisher | None = None
         on_demand.offer(name, self._make)
 
     def _make(self) -> rospy.Publisher:
@@ -128,7 +129,7 @@ class ViewServices:
         self._clock = RunClock(server)
         self._revision = random.getrandbits(30)  # another one than that of the server before this one
         contacts = ContactWatch(server.world)
-        self._streams: List[Stream] = [
+        self._streams: list[Stream] = [
             Stream(server, on_demand, "~view", WorldView, _PERIOD, self._read),
             Stream(
                 server,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-from typing import List
 
 from ode_sim.errors import SimulationError
 
@@ -17,7 +16,7 @@ class Failure(SimulationError):
     """A command cannot go on: this line for its user, and exit code 1."""
 
 
-def parse(arguments: List[str]) -> argparse.Namespace:
+def parse(arguments: list[str]) -> argparse.Namespace:
     """Options as gzserver of Gazebo 11 takes them; unknown ones are kept in ``unknown``.
 
     :param arguments: without the program name and without ROS remappings
@@ -60,7 +59,7 @@ def parse(arguments: List[str]) -> argparse.Namespace:
     return options
 
 
-def remarks(options: argparse.Namespace) -> List[str]:
+def remarks(options: argparse.Namespace) -> list[str]:
     """What of the options has no effect, one line each."""
     lines = []
     if options.physics not in ENGINES:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 import sys
 import time
-from typing import Any, List
+from typing import Any
 
 import node_signals
 import rosgraph
@@ -234,7 +234,7 @@ def parser() -> argparse.ArgumentParser:
     return top
 
 
-def main(arguments: List[str]) -> int:
+def main(arguments: list[str]) -> int:
     """Exit code: 0 done, 1 refused, 2 wrong options."""
     options = parser().parse_args(arguments)
     try:

@@ -6,7 +6,7 @@ import argparse
 import sys
 import threading
 import time
-from typing import Callable, List, Optional
+from collections.abc import Callable
 
 from gazebo_ros.commands.command_line import Failure
 
@@ -62,7 +62,7 @@ def _echo(node, name: str, options: argparse.Namespace) -> None:
     _run(node, name, lambda now, data: _core.message_text(kind, data, options.unformatted) + end, options.duration)
 
 
-def _run(node, name: str, line: Callable[[float, bytes], str], duration: Optional[float]) -> None:
+def _run(node, name: str, line: Callable[[float, bytes], str], duration: float | None) -> None:
     """Print what ``line`` makes of each message, until the time is over, nobody reads it, or Ctrl-C.
 
     :param line: of the time it came (s) and the message; "" for nothing
@@ -88,7 +88,7 @@ class Rate:
     """The rate of each message after the one before."""
 
     def __init__(self):
-        self._last: Optional[float] = None
+        self._last: float | None = None
 
     def __call__(self, now: float, data: bytes) -> str:
         last, self._last = self._last, now
@@ -99,9 +99,9 @@ class Bandwidth:
     """A line for each second with at least ten messages."""
 
     def __init__(self):
-        self._sizes: List[int] = []
-        self._times: List[float] = []
-        self._said: Optional[float] = None
+        self._sizes: list[int] = []
+        self._times: list[float] = []
+        self._said: float | None = None
 
     def __call__(self, now: float, data: bytes) -> str:
         if self._said is None:

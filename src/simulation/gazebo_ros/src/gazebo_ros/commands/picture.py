@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-from typing import List
 
 import node_signals
 import rosgraph
@@ -28,7 +27,7 @@ def parser() -> argparse.ArgumentParser:
     return made
 
 
-def main(arguments: List[str]) -> int:
+def main(arguments: list[str]) -> int:
     """Exit code: 0 done, 1 refused, 2 wrong options."""
     options = parser().parse_args(arguments)
     width, _, height = options.size.partition("x")

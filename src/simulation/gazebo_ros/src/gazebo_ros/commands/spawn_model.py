@@ -8,7 +8,7 @@ import re
 import sys
 import threading
 import xml.etree.ElementTree as ET
-from typing import Callable, List, Tuple
+from collections.abc import Callable
 
 import node_signals
 import rosgraph
@@ -27,7 +27,7 @@ _PACKAGE = re.compile(r"""(<mesh\b[^>]*?\bfilename\s*=\s*["'])package://""")
 _ANSWER = 20.0  # s, in which the simulator answers between two steps
 
 
-def parse(arguments: List[str]) -> argparse.Namespace:
+def parse(arguments: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="spawn_model", description="Spawn a model in the simulator.")
     form = parser.add_mutually_exclusive_group(required=True)
     form.add_argument("-urdf", action="store_true", help="the text is URDF")
@@ -85,7 +85,7 @@ def pose_of(options: argparse.Namespace) -> Pose:
     )
 
 
-def model_text(options: argparse.Namespace) -> Tuple[str, str]:
+def model_text(options: argparse.Namespace) -> tuple[str, str]:
     """The XML to send, from wherever the options say, and what that place is called: to the letter, so that the server's line
     numbers are the file's.
 

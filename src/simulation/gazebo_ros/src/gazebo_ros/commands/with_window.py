@@ -7,14 +7,13 @@ import signal
 import subprocess
 import sys
 import threading
-from typing import List
 
 from node_signals.children import end_with_parent
 
 _QUIET = ("-h", "--help", "-v", "--version")
 
 
-def open_window(arguments: List[str]) -> None:
+def open_window(arguments: list[str]) -> None:
     """Start gzclient; once it ends, however, this process is told to end as by Ctrl-C.
 
     Main thread only: the window ends with the thread that starts it.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 from dataclasses import dataclass
-from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 
@@ -30,14 +29,14 @@ class Animation:
     positions: np.ndarray
     rotations: np.ndarray
     moved: np.ndarray
-    root_turn: Optional[Quat] = None  # x y z w, by which a path is turned: of BVH files, in which y is up
+    root_turn: Quat | None = None  # x y z w, by which a path is turned: of BVH files, in which y is up
 
     @property
     def length(self) -> float:
         """s; from 0 to the last frame."""
         return float(self.times[-1])
 
-    def pose_at(self, time: float) -> Tuple[np.ndarray, np.ndarray]:
+    def pose_at(self, time: float) -> tuple[np.ndarray, np.ndarray]:
         """Positions (N, 3) and rotations (N, 4); after its end it begins anew, before its first frame that one counts."""
         time = looped(time, self.length)
         after = int(np.searchsorted(self.times, time, side="right"))
@@ -51,7 +50,7 @@ class Animation:
             slerp(self.rotations[before], self.rotations[after], part),
         )
 
-    def time_at(self, distance: float) -> Optional[float]:
+    def time_at(self, distance: float) -> float | None:
         """When the root has come so far along its x, m; beyond the last frame it begins anew. None: it does not go there."""
         x = self.positions[:, 0, 0]
         if not self.moved[0] or not x[-1] > max(x[0], 1e-6):
@@ -108,7 +107,7 @@ def _load(path: str, _stamp) -> Animation:
 
 def _read(tree: ColladaTree) -> Animation:
     skeleton = read_skeleton(tree)
-    channels: Dict[int, List[Element]] = {}
+    channels: dict[int, list[Element]] = {}
     by_id = {bone.id: index for index, bone in reversed(list(enumerate(skeleton.bones)))}
     for channel in _channels(tree):
         bone = by_id.get((channel.get("target") or "").partition("/")[0])
@@ -120,7 +119,7 @@ def _read(tree: ColladaTree) -> Animation:
     return assembled(tree, skeleton, moved)
 
 
-def assembled(tree, skeleton: Skeleton, moved: Dict[int, Tuple[np.ndarray, np.ndarray]]) -> Animation:
+def assembled(tree, skeleton: Skeleton, moved: dict[int, tuple[np.ndarray, np.ndarray]]) -> Animation:
     """Of times (T,) and matrices (T, 4, 4) of each bone that moves: all at all times."""
     times = np.unique(np.concatenate([own for own, _ in moved.values()]))
     count = len(skeleton.bones)
@@ -146,7 +145,7 @@ def assembled(tree, skeleton: Skeleton, moved: Dict[int, Tuple[np.ndarray, np.nd
     return Animation(skeleton, times, positions, rotations, flags)
 
 
-def _channels(tree: ColladaTree) -> List[Element]:
+def _channels(tree: ColladaTree) -> list[Element]:
     """Those of the first animation: Gazebo plays no other."""
     library = child(tree.root, "library_animations")
     sets = children(library, "animation")
@@ -155,7 +154,7 @@ def _channels(tree: ColladaTree) -> List[Element]:
     return [element for element in library.iter() if tag(element) == "channel"] if library is not None else []
 
 
-def _node(tree: ColladaTree, bone: Bone, channels: List[Element]) -> Tuple[np.ndarray, np.ndarray]:
+def _node(tree: ColladaTree, bone: Bone, channels: list[Element]) -> tuple[np.ndarray, np.ndarray]:
     """Times (T,) and poses (T, 4, 4), in metres, of a bone."""
     tracks = [_track(tree, channel, bone) for channel in channels]
     times = np.unique(np.concatenate([own for _, _, own, _ in tracks]))
@@ -178,7 +177,7 @@ def _node(tree: ColladaTree, bone: Bone, channels: List[Element]) -> Tuple[np.nd
     return times, result
 
 
-def _track(tree: ColladaTree, channel: Element, bone: Bone) -> Tuple[str, Optional[int], np.ndarray, np.ndarray]:
+def _track(tree: ColladaTree, channel: Element, bone: Bone) -> tuple[str, int | None, np.ndarray, np.ndarray]:
     """What a channel moves: the transform's name, one of its numbers or None for all; times (T,), values (T, n)."""
     sid, component = _target(channel.get("target") or "")
     sampler = tree.by_url(channel.get("source"), "sampler")
@@ -192,7 +191,7 @@ def _track(tree: ColladaTree, channel: Element, bone: Bone) -> Tuple[str, Option
     return sid, component, times[order], values.reshape(len(times), -1)[order]
 
 
-def _target(target: str) -> Tuple[str, Optional[int]]:
+def _target(target: str) -> tuple[str, int | None]:
     """``transform``, ``rotateX.ANGLE``, ``transform(0)(3)``: which transform of the bone, and which of its numbers."""
     path = target.partition("/")[2]
     name, dot, word = path.partition(".")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 
@@ -24,9 +23,9 @@ class _Reader:
 
     def __init__(self, path: str):
         self.path = path
-        self.bones: List[Bone] = []
-        self.offsets: List[np.ndarray] = []
-        self.channels: List[List[str]] = []
+        self.bones: list[Bone] = []
+        self.offsets: list[np.ndarray] = []
+        self.channels: list[list[str]] = []
         if os.path.getsize(path) > _MOST_BYTES:
             raise self.fault(f"is larger than {_MOST_BYTES // 1_000_000} MB")
         with open(path, encoding="utf-8", errors="replace") as stream:
@@ -40,8 +39,8 @@ class _Reader:
 
     def _hierarchy(self) -> int:
         """:return: the number of the line MOTION."""
-        around: List[Optional[int]] = []  # None: an end site
-        latest: Optional[int] = -1
+        around: list[int | None] = []  # None: an end site
+        latest: int | None = -1
         for number, words in enumerate(self.lines[1:], 1):
             kind = words[0]
             if kind == "MOTION":
@@ -70,7 +69,7 @@ class _Reader:
                 self.channels.append(words[2 : 2 + int(words[1])])
         raise self.fault("has no MOTION")
 
-    def frames(self) -> Tuple[float, np.ndarray]:
+    def frames(self) -> tuple[float, np.ndarray]:
         """Seconds between two, and (T, channels) numbers; lines that are too short are left out, as in Gazebo."""
         head = self.lines[self.motion + 1 : self.motion + 3]
         if len(head) < 2 or head[0][0] != "Frames:" or head[1][:2] != ["Frame", "Time:"]:
@@ -134,11 +133,11 @@ def _quat(turn: np.ndarray) -> Quat:
     return x, y, z, w
 
 
-def _aligners(bvh: Skeleton, skin: Skeleton) -> Tuple[np.ndarray, np.ndarray]:
+def _aligners(bvh: Skeleton, skin: Skeleton) -> tuple[np.ndarray, np.ndarray]:
     """(N, 3, 3) each: what a bone's motion is multiplied by from the left and from the right."""
     local = bvh.rest.copy()
     frames, skin_frames = bvh.model_frames(), skin.model_frames()
-    known: Dict[int, np.ndarray] = {0: skin.rest[0, :3, :3]}
+    known: dict[int, np.ndarray] = {0: skin.rest[0, :3, :3]}
     local[0, :3, :3] = known[0]
     counts = bvh.child_counts
     for index in range(len(bvh.bones)):

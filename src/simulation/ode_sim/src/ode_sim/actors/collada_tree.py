@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Dict, Iterator, List, Optional, Tuple
+from collections.abc import Iterator
 from xml.etree import ElementTree
 
 import numpy as np
@@ -18,11 +18,11 @@ def tag(element: Element) -> str:
     return str(element.tag).rpartition("}")[2]
 
 
-def children(element: Optional[Element], name: str) -> List[Element]:
+def children(element: Element | None, name: str) -> list[Element]:
     return [child for child in element if tag(child) == name] if element is not None else []
 
 
-def child(element: Optional[Element], *names: str) -> Optional[Element]:
+def child(element: Element | None, *names: str) -> Element | None:
     """The first child of that name, its first child of the next ..."""
     for name in names:
         element = next(iter(children(element, name)), None)
@@ -35,7 +35,7 @@ class ColladaTree:
     def __init__(self, path: str):
         self.path = path
         self.root = ElementTree.fromstring(sound_document(path, file_content(path, ".dae")))
-        self._ids: Dict[Tuple[str, str], Element] = {}
+        self._ids: dict[tuple[str, str], Element] = {}
         for element in self.root.iter():
             name = element.get("id")
             if name:
@@ -55,7 +55,7 @@ class ColladaTree:
             raise self.fault(f"{what} is '{quoted(text)}', no number")
         return value
 
-    def numbers(self, element: Optional[Element], what: str) -> np.ndarray:
+    def numbers(self, element: Element | None, what: str) -> np.ndarray:
         """Those in the text of an element."""
         if element is None:
             raise self.fault(f"{what} is missing")
@@ -67,23 +67,23 @@ class ColladaTree:
             raise self.fault(f"{what} holds something that is no finite number")
         return values
 
-    def matrix(self, element: Optional[Element], what: str) -> np.ndarray:
+    def matrix(self, element: Element | None, what: str) -> np.ndarray:
         """(4, 4)."""
         values = self.numbers(element, what)
         if len(values) != 16:
             raise self.fault(f"{what} holds {len(values)} numbers; a matrix has 16")
         return values.reshape(4, 4)
 
-    def by_url(self, url: Optional[str], kind: str) -> Optional[Element]:
+    def by_url(self, url: str | None, kind: str) -> Element | None:
         """The element of that tag and id: another one may have the same id."""
         return self._ids.get((kind, (url or "").strip().lstrip("#")))
 
-    def source(self, inputs: Element, semantic: str) -> Optional[Element]:
+    def source(self, inputs: Element, semantic: str) -> Element | None:
         """The ``<source>`` that an ``<input>`` of that meaning names."""
         found = next((entry for entry in children(inputs, "input") if entry.get("semantic") == semantic), None)
         return self.by_url(found.get("source"), "source") if found is not None else None
 
-    def words(self, source: Optional[Element], what: str) -> List[str]:
+    def words(self, source: Element | None, what: str) -> list[str]:
         array = child(source, "Name_array")
         array = child(source, "IDREF_array") if array is None else array
         if array is None:

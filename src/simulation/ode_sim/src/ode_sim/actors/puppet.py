@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any
 
 import numpy as np
 
@@ -26,7 +26,7 @@ class Rig:
         self._rest = np.column_stack([skeleton.rest[:, :3, 3], quaternions.from_matrices(skeleton.rest[:, :3, :3])])
         self.stands = tuple(self._rest[0, 3:].tolist())  # rotation of the root, as the skin was bound
 
-    def bend(self, animation: Optional[Tuple[Animation, ActorAnimation]], time: float) -> np.ndarray:
+    def bend(self, animation: tuple[Animation, ActorAnimation] | None, time: float) -> np.ndarray:
         """(N, 7) x y z qx qy qz qw of each bone in its parent; at rest without an animation."""
         poses = self._rest.copy()
         if animation is not None:
@@ -48,21 +48,21 @@ class Puppet:
     def __init__(self, model: Any, time_ns: int):
         actor: Actor = model.description.actor
         self.model = model
-        self.problems: List[str] = []
+        self.problems: list[str] = []
         self._actor = actor
-        self._rig: Optional[Rig] = None
-        self._animations: Dict[str, Tuple[Animation, ActorAnimation]] = {}
+        self._rig: Rig | None = None
+        self._animations: dict[str, tuple[Animation, ActorAnimation]] = {}
         self._load(actor)
         self.lengths = {name: animation.length for name, (animation, _) in self._animations.items()}
         self.script = Script(actor.script, self.lengths)
-        self.custom: Optional[str] = None
+        self.custom: str | None = None
         self.script_time = 0.0
         self.collides = False
         self._director: Any = None
         self._refused = False
         self._links = list(model.links.values())
-        self._bones: List[int] = []  # which bone each link is, of those that are one
-        self._rows: List[int] = []  # and which link that is
+        self._bones: list[int] = []  # which bone each link is, of those that are one
+        self._rows: list[int] = []  # and which link that is
         self._parents = self._join()
         self._fixed = np.array([(*link.description.pose.p, *link.description.pose.q) for link in self._links])
         self.restart(time_ns)
@@ -78,11 +78,11 @@ class Puppet:
         except DescriptionError as error:  # the file was another one when the description was read
             self.problems.append(str(error))
 
-    def _join(self) -> List[int]:
+    def _join(self) -> list[int]:
         """The link that each link hangs on, by their places; -1: the world. Bones hang on bones, the rest on the first link."""
         parents = [-1] + [0] * (len(self._links) - 1)
         rows = {link.name: row for row, link in enumerate(self._links) if row}
-        of_bone: Dict[int, int] = {}
+        of_bone: dict[int, int] = {}
         for bone, name in enumerate(self._rig.names if self._rig else ()):
             row = rows.pop(name, None)
             if row is None or self._rig is None:
@@ -144,12 +144,12 @@ class Puppet:
         if self.custom is None:
             self._tell(anew=True)
 
-    def state(self) -> List[Any]:
+    def state(self) -> list[Any]:
         """For snapshots; numbers and texts."""
         return [self.started_ns, self.active, self._frame, self.custom, self.script_time, self.collides]
 
     @staticmethod
-    def read_state(state: List[Any]) -> Tuple[int, bool, int, Optional[str], float, bool]:
+    def read_state(state: list[Any]) -> tuple[int, bool, int, str | None, float, bool]:
         """What :meth:`state` gave, for :meth:`set_state`.
 
         :raises ValueError, TypeError: it is damaged
@@ -157,7 +157,7 @@ class Puppet:
         started, active, frame, custom, script_time, collides = state
         return int(started), bool(active), int(frame), None if custom is None else str(custom), float(script_time), bool(collides)
 
-    def set_state(self, state: Tuple[int, bool, int, Optional[str], float, bool]) -> None:
+    def set_state(self, state: tuple[int, bool, int, str | None, float, bool]) -> None:
         self.started_ns, self.active, self._frame, self.custom, self.script_time, self.collides = state
         if self.custom is None:
             self._tell(anew=True)
@@ -188,10 +188,10 @@ class Puppet:
 
     # ------------------------------------------------------------------ where the links are
 
-    def _animation(self, name: str) -> Optional[Tuple[Animation, ActorAnimation]]:
+    def _animation(self, name: str) -> tuple[Animation, ActorAnimation] | None:
         return self._animations.get(name)
 
-    def _first_animation(self) -> Optional[Tuple[Animation, ActorAnimation]]:
+    def _first_animation(self) -> tuple[Animation, ActorAnimation] | None:
         moment = self.script.moment(0)
         return self._animation(moment.clip.type) if moment else None
 
@@ -227,9 +227,7 @@ class Puppet:
                 return time
         return moment.time
 
-    def _bend(
-        self, root: Pose, found: Optional[Tuple[Animation, ActorAnimation]], time: float, seconds: float, waits: bool = False
-    ) -> None:
+    def _bend(self, root: Pose, found: tuple[Animation, ActorAnimation] | None, time: float, seconds: float, waits: bool = False) -> None:
         """:param waits: nobody plays it yet, and it stands as its skin was bound; those who play turn the whole of it."""
         poses = self._fixed.copy()
         if self._rig is not None:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import bisect
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import List, Mapping, NamedTuple, Optional, Sequence
+from typing import NamedTuple
 
 from ode_sim.actors.splines import PositionSpline, RotationSpline
 from ode_sim.description.model import ActorScript, Pose, Trajectory, Waypoint
@@ -30,7 +31,7 @@ class Path:
         self._positions = PositionSpline([pose.p for pose in poses], tension)
         self._rotations = RotationSpline([pose.q for pose in poses])
         self._step = max(1.0 / FRAME_RATE, self.duration / _MOST_SAMPLES)  # s
-        self._lengths: List[float] = []  # ways walked until each, m; measured when somebody asks
+        self._lengths: list[float] = []  # ways walked until each, m; measured when somebody asks
 
     def pose(self, time: float) -> Pose:
         """In the world."""
@@ -46,7 +47,7 @@ class Path:
             return self._poses[after - 1]
         return Pose(self._positions.at(after - 1, part), self._rotations.at(after - 1, part))
 
-    def _measure(self) -> List[float]:
+    def _measure(self) -> list[float]:
         lengths, at = [0.0], self._poses[0].p
         for number in range(1, int(self.duration / self._step) + 2):
             now = self.pose(number * self._step).p
@@ -67,7 +68,7 @@ class Path:
         return norm(sub(self._poses[-1].p, self._poses[0].p))
 
 
-def _latest(waypoints: Sequence[Waypoint]) -> List[Waypoint]:
+def _latest(waypoints: Sequence[Waypoint]) -> list[Waypoint]:
     return list({point.time: point for point in waypoints}.values())
 
 
@@ -77,7 +78,7 @@ class Clip:
 
     id: int
     type: str
-    path: Optional[Path]
+    path: Path | None
     start: float
     duration: float
 
@@ -103,7 +104,7 @@ class Script:
         trajectories = sorted(script.trajectories, key=lambda trajectory: trajectory.id)
         if not trajectories and lengths:
             trajectories = [Trajectory(0, min(lengths))]
-        self.clips: List[Clip] = []
+        self.clips: list[Clip] = []
         self.length = 0.0
         for trajectory in trajectories:
             path = Path(trajectory.waypoints, trajectory.tension) if trajectory.waypoints else None
@@ -111,7 +112,7 @@ class Script:
             self.clips.append(Clip(trajectory.id, trajectory.type, path, self.length, duration))
             self.length += duration
 
-    def moment(self, elapsed_ns: int) -> Optional[Moment]:
+    def moment(self, elapsed_ns: int) -> Moment | None:
         """What is played so long after the start, ns; None without trajectories.
 
         Until ``delay_start`` is over, in every round anew, the first moment; after the end of what does not loop, the last.

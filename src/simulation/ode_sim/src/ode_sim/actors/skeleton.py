@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable, Dict, List, Optional, Tuple, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
@@ -23,7 +24,7 @@ class NodeTransform:
 
     kind: str
     sid: str
-    values: Tuple[float, ...]
+    values: tuple[float, ...]
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ class Bone:
     name: str
     id: str
     parent: int  # -1: the root
-    transforms: Tuple[NodeTransform, ...]
+    transforms: tuple[NodeTransform, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,22 +40,22 @@ class Skeleton:
     """Bones in the order in which Gazebo numbers them, parents first; lengths in metres."""
 
     path: str
-    bones: Tuple[Bone, ...]
+    bones: tuple[Bone, ...]
     rest: np.ndarray  # (N, 4, 4), of each in its parent
-    inverse_bind: Dict[int, np.ndarray]  # (4, 4) in the file's own unit, of those that carry skin
+    inverse_bind: dict[int, np.ndarray]  # (4, 4) in the file's own unit, of those that carry skin
 
     @property
-    def child_counts(self) -> List[int]:
+    def child_counts(self) -> list[int]:
         counts = [0] * len(self.bones)
         for bone in self.bones:
             if bone.parent >= 0:
                 counts[bone.parent] += 1
         return counts
 
-    def children(self, index: int) -> List[int]:
+    def children(self, index: int) -> list[int]:
         return [i for i, bone in enumerate(self.bones) if bone.parent == index]
 
-    def index_of(self, word: str) -> Optional[int]:
+    def index_of(self, word: str) -> int | None:
         """By name, as skins tell bones; else by id, as animations do."""
         for index, bone in enumerate(self.bones):
             if bone.name == word:
@@ -95,7 +96,7 @@ def read_skeleton(tree: ColladaTree) -> Skeleton:
     controller, instance = skin_of(tree)
     roots = [tree.by_url(skeleton.text, "node") for skeleton in children(instance, "skeleton")]
     nodes = [node for node in roots if node is not None] or children(tree.scene(), "node")
-    bones: List[Bone] = []
+    bones: list[Bone] = []
     if len(nodes) > 1:
         bones.append(Bone("gazebo-dummy-root", "gazebo-dummy-root", -1, ()))
     for node in nodes:
@@ -110,7 +111,7 @@ def read_skeleton(tree: ColladaTree) -> Skeleton:
     return bound
 
 
-def skin_of(tree: ColladaTree) -> Tuple[Element, Element]:
+def skin_of(tree: ColladaTree) -> tuple[Element, Element]:
     """The first controller with a skin that the scene shows, and where it does so."""
     for instance in tree.iter("instance_controller"):
         controller = tree.by_url(instance.get("url"), "controller")
@@ -120,7 +121,7 @@ def skin_of(tree: ColladaTree) -> Tuple[Element, Element]:
     raise tree.fault("has no skin on a skeleton (<library_controllers>)")
 
 
-def _gather(tree: ColladaTree, node: Element, parent: int, bones: List[Bone]) -> None:
+def _gather(tree: ColladaTree, node: Element, parent: int, bones: list[Bone]) -> None:
     todo = [(node, parent)]
     while todo:
         at, above = todo.pop()
@@ -133,7 +134,7 @@ def _gather(tree: ColladaTree, node: Element, parent: int, bones: List[Bone]) ->
         todo += [(below, index) for below in reversed(children(at, "node"))]
 
 
-def _transforms(tree: ColladaTree, node: Element, name: str) -> Tuple[NodeTransform, ...]:
+def _transforms(tree: ColladaTree, node: Element, name: str) -> tuple[NodeTransform, ...]:
     counts = {"matrix": 16, "translate": 3, "rotate": 4, "scale": 3}
     found = []
     for entry in node:
@@ -146,7 +147,7 @@ def _transforms(tree: ColladaTree, node: Element, name: str) -> Tuple[NodeTransf
     return tuple(found)
 
 
-def matrix_of(transforms: Tuple[NodeTransform, ...]) -> np.ndarray:
+def matrix_of(transforms: tuple[NodeTransform, ...]) -> np.ndarray:
     """(4, 4), one after the other."""
     result = np.eye(4)
     for transform in transforms:
@@ -176,7 +177,7 @@ def matrices_of(kind: str, values: np.ndarray) -> np.ndarray:
     return result
 
 
-def _inverse_bind(tree: ColladaTree, skin: Optional[Element], skeleton: Skeleton) -> Dict[int, np.ndarray]:
+def _inverse_bind(tree: ColladaTree, skin: Element | None, skeleton: Skeleton) -> dict[int, np.ndarray]:
     joints = child(skin, "joints")
     if joints is None:
         raise tree.fault("its skin has no <joints>")
@@ -195,7 +196,7 @@ def _inverse_bind(tree: ColladaTree, skin: Optional[Element], skeleton: Skeleton
     return found
 
 
-def _at_bind(skeleton: Skeleton, inverse_bind: Dict[int, np.ndarray], unit: float) -> np.ndarray:
+def _at_bind(skeleton: Skeleton, inverse_bind: dict[int, np.ndarray], unit: float) -> np.ndarray:
     """Rest is where the skin was bound to a bone, as in Gazebo; bones without skin rest where the file has them."""
     rest = skeleton.rest.copy()
     frames = np.empty_like(rest)

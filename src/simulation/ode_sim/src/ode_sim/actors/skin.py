@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import functools
 from dataclasses import replace
-from typing import Any, Dict, List, Optional
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -33,7 +33,7 @@ def piece_name(bone: str, animation: str = "") -> str:
     return SKIN_PIECE + bone + (_BENT_BY + animation if animation else "")
 
 
-def load_pieces(path: str, animation: str = "") -> Dict[str, List[MeshPart]]:
+def load_pieces(path: str, animation: str = "") -> dict[str, list[MeshPart]]:
     """Pieces by the name of their bone; bones without skin have none. Lengths in metres.
 
     :raises DescriptionError: one line that names the file.
@@ -41,7 +41,7 @@ def load_pieces(path: str, animation: str = "") -> Dict[str, List[MeshPart]]:
     return _load(path, animation, file_stamp(path), file_stamp(animation) if animation else ())
 
 
-def load_piece(path: str, submesh: str) -> List[MeshPart]:
+def load_piece(path: str, submesh: str) -> list[MeshPart]:
     """The piece that :func:`piece_name` names."""
     bone, _, animation = submesh[len(SKIN_PIECE) :].partition(_BENT_BY)
     pieces = load_pieces(path, animation)
@@ -51,11 +51,11 @@ def load_piece(path: str, submesh: str) -> List[MeshPart]:
 
 
 @functools.lru_cache(maxsize=16)
-def _load(path: str, animation: str, _stamp, _other_stamp) -> Dict[str, List[MeshPart]]:
+def _load(path: str, animation: str, _stamp, _other_stamp) -> dict[str, list[MeshPart]]:
     return told_in_one_line(path, lambda: _read(ColladaTree(path), animation))
 
 
-def _read(tree: ColladaTree, bent_by: str) -> Dict[str, List[MeshPart]]:
+def _read(tree: ColladaTree, bent_by: str) -> dict[str, list[MeshPart]]:
     skeleton = read_skeleton(tree)
     animation = animation_for(bent_by, skeleton) if bent_by else None
     controller, instance = skin_of(tree)
@@ -72,7 +72,7 @@ def _read(tree: ColladaTree, bent_by: str) -> Dict[str, List[MeshPart]]:
     materials = _materials(tree, instance, document)
     frames = _mean_frames(skeleton, animation)
     hangs = {bone: _scaled(frames[bone], 1.0 / tree.unit) @ inverse @ at_bind for bone, inverse in skeleton.inverse_bind.items()}
-    pieces: Dict[str, List[MeshPart]] = {}
+    pieces: dict[str, list[MeshPart]] = {}
     count = 0
     for primitive in geometry.primitives:
         for part, corners in collada_mesh.parts_of(primitive, geometry, materials.get(primitive.material), tree.path):
@@ -100,7 +100,7 @@ def _checked(tree: ColladaTree, corners: np.ndarray, most: int) -> np.ndarray:
     return corners
 
 
-def _materials(tree: ColladaTree, instance: Element, document: Any) -> Dict[Optional[str], Any]:
+def _materials(tree: ColladaTree, instance: Element, document: Any) -> dict[str | None, Any]:
     """By the symbol under which the shape's triangles name them."""
     found = {}
     for bind in children(instance, "bind_material"):
@@ -139,7 +139,7 @@ def _weights(tree: ColladaTree, skin: Element, skeleton: Skeleton) -> np.ndarray
     return result / result.sum(axis=1, keepdims=True)
 
 
-def _cut(part: MeshPart, weights: np.ndarray) -> Dict[int, MeshPart]:
+def _cut(part: MeshPart, weights: np.ndarray) -> dict[int, MeshPart]:
     """Pieces by the number of their bone. ``weights`` (V, N) are of the part's own corners."""
     of_triangle = weights[part.triangles].mean(axis=1)
     largest = weights[part.triangles].max(axis=1)
@@ -159,7 +159,7 @@ def _cut(part: MeshPart, weights: np.ndarray) -> Dict[int, MeshPart]:
     return pieces
 
 
-def _mean_frames(skeleton: Skeleton, animation: Optional[Animation]) -> np.ndarray:
+def _mean_frames(skeleton: Skeleton, animation: Animation | None) -> np.ndarray:
     """(N, 4, 4) of the bones in the skeleton's frame, in metres, rigid: turned as the animation has them in the mean, else as bound."""
     frames = skeleton.model_frames()
     frames[:, :3, :3] = to_matrices(from_matrices(frames[:, :3, :3]))
@@ -184,7 +184,7 @@ def _scaled(frame: np.ndarray, factor: float) -> np.ndarray:
     return result
 
 
-def _bent(part: MeshPart, weights: np.ndarray, hangs: Dict[int, np.ndarray], unit: float) -> MeshPart:
+def _bent(part: MeshPart, weights: np.ndarray, hangs: dict[int, np.ndarray], unit: float) -> MeshPart:
     """Each corner where its bones have it in the mean, in metres. :param hangs: from the file's frame to where the bone has it."""
     vertices = np.zeros_like(part.vertices)
     normals = None if part.normals is None else np.zeros_like(part.normals)

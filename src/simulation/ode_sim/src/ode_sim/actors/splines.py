@@ -6,7 +6,7 @@ Between two points the parameter runs from 0 to 1; how long it takes changes not
 from __future__ import annotations
 
 import math
-from typing import List, Sequence
+from collections.abc import Sequence
 
 from ode_sim.math3 import Quat, Vec3, add, dot, quat_inverse, quat_multiply, quat_normalize, scale, sub
 
@@ -20,7 +20,7 @@ class PositionSpline:
         self._points = list(points)
         self._tangents = self._make_tangents(1.0 - tension)
 
-    def _make_tangents(self, loose: float) -> List[Vec3]:
+    def _make_tangents(self, loose: float) -> list[Vec3]:
         points = self._points
         last = len(points) - 1
         if last < 1:
@@ -48,7 +48,7 @@ class RotationSpline:
         self._points = list(points)
         self._tangents = self._make_tangents()
 
-    def _make_tangents(self) -> List[Quat]:
+    def _make_tangents(self) -> list[Quat]:
         points = self._points
         last = len(points) - 1
         if last < 1:

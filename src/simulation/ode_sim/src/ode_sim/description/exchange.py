@@ -9,14 +9,14 @@ from __future__ import annotations
 import json
 import xml.etree.ElementTree as ET
 from dataclasses import MISSING, fields, is_dataclass
-from typing import Any, Dict, Tuple
+from typing import Any
 
 from ode_sim.description import model
 from ode_sim.math3 import Pose
 
 _CLASS = "_"
 _XML = "xml"
-_RECORDS: Dict[str, type] = {
+_RECORDS: dict[str, type] = {
     cls.__name__: cls
     for cls in vars(model).values()
     if isinstance(cls, type) and is_dataclass(cls) and cls not in (model.Source, model.Problem)
@@ -81,10 +81,10 @@ def _record(plain: Any) -> Any:
     return _RECORDS[kind](**{name: _record(item) for name, item in plain.items() if name != _CLASS})
 
 
-_default_cache: Dict[type, Tuple] = {}
+_default_cache: dict[type, tuple] = {}
 
 
-def _defaults(cls: type) -> Tuple:
+def _defaults(cls: type) -> tuple:
     """((field, its default or MISSING), ...) without ``source``."""
     if cls not in _default_cache:
         _default_cache[cls] = tuple(

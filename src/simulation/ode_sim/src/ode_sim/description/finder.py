@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import Callable, Dict, Iterable, Iterator, List, Optional, Tuple
 from urllib.parse import quote, unquote
 
 from ode_sim.description.model import DescriptionError, quoted
@@ -16,11 +16,11 @@ _NEWEST_SDF = (1, 7)
 _EDITORS = ("~/model_editor_models", "~/building_editor_models")
 
 
-def _entries(variable: str) -> List[str]:
+def _entries(variable: str) -> list[str]:
     return [entry for entry in os.environ.get(variable, "").split(":") if entry]
 
 
-def find_ros_package(name: str) -> Optional[str]:
+def find_ros_package(name: str) -> str | None:
     """Directory of a ROS package below ROS_PACKAGE_PATH, by its folder name; None if there is none."""
     for root in _entries("ROS_PACKAGE_PATH"):
         for folder, folders, files in os.walk(root):
@@ -32,7 +32,7 @@ def find_ros_package(name: str) -> Optional[str]:
     return None
 
 
-def _installed() -> List[str]:
+def _installed() -> list[str]:
     """Where projects without ROS put their models and worlds, beside GAZEBO_MODEL_PATH of find_package(gazebo)."""
     folders = [os.path.join(prefix, "share/gazebo-11") for prefix in _entries("CMAKE_PREFIX_PATH")]
     return [folder for folder in folders if os.path.isdir(folder)]
@@ -42,7 +42,7 @@ def _leads_up(name: str) -> bool:
     return os.path.normpath(name.lstrip("/")).split("/")[0] == ".."
 
 
-def _below(folder: str, name: str) -> List[str]:
+def _below(folder: str, name: str) -> list[str]:
     """``name`` in ``folder``; nothing if it lies elsewhere. Links are followed: a catkin workspace is full of them."""
     return [] if _leads_up(name) else [os.path.join(folder, os.path.normpath(name.lstrip("/")))]
 
@@ -61,10 +61,10 @@ class ResourceFinder:
 
     def __init__(
         self,
-        model_paths: Optional[Iterable[str]] = None,
-        resource_paths: Optional[Iterable[str]] = None,
-        package_path: Optional[Callable[[str], Optional[str]]] = None,
-        stock: Optional[str] = None,
+        model_paths: Iterable[str] | None = None,
+        resource_paths: Iterable[str] | None = None,
+        package_path: Callable[[str], str | None] | None = None,
+        stock: str | None = None,
         environment: bool = True,
     ):
         self._package_path = package_path or find_ros_package
@@ -82,12 +82,12 @@ class ResourceFinder:
         if self.stock:
             models.append(os.path.join(self.stock, "models"))
             resources.append(self.stock)
-        self.model_paths: List[str] = list(dict.fromkeys(models))
-        self.resource_paths: List[str] = list(dict.fromkeys(resources))
+        self.model_paths: list[str] = list(dict.fromkeys(models))
+        self.resource_paths: list[str] = list(dict.fromkeys(resources))
 
     # ------------------------------------------------------------------ names to files
 
-    def find(self, uri: str, base: str = "") -> Optional[str]:
+    def find(self, uri: str, base: str = "") -> str | None:
         """Absolute path of an existing file or directory, or None.
 
         A URI never leads out of the folder that it names (``model://cup/../../secret`` is not found): what is loaded may
@@ -156,12 +156,12 @@ class ResourceFinder:
             f"export GAZEBO_MODEL_PATH=$GAZEBO_MODEL_PATH:{os.path.dirname(folder)}"
         )
 
-    def find_world(self, name: str) -> Optional[str]:
+    def find_world(self, name: str) -> str | None:
         """A world file by path, URI, or name relative to the resource paths (``worlds/empty.world``)."""
         found = self.find(name)
         return found if found and os.path.isfile(found) else None
 
-    def _in_models(self, name: str) -> Optional[str]:
+    def _in_models(self, name: str) -> str | None:
         return self._first(candidate for path in self.model_paths for candidate in _below(path, name)) if name else None
 
     def _relative(self, name: str, base: str) -> Iterator[str]:
@@ -179,7 +179,7 @@ class ResourceFinder:
                 yield from _below(os.path.join(path, folder), name)
 
     @staticmethod
-    def _first(candidates: Iterable[str]) -> Optional[str]:
+    def _first(candidates: Iterable[str]) -> str | None:
         for candidate in candidates:
             if os.path.exists(candidate):
                 return os.path.abspath(candidate)
@@ -187,7 +187,7 @@ class ResourceFinder:
 
     # ------------------------------------------------------------------ models
 
-    def find_model_sdf(self, uri: str, base: str = "") -> Optional[str]:
+    def find_model_sdf(self, uri: str, base: str = "") -> str | None:
         """The SDF file of a model directory, chosen by its model.config, or of a URI that names a file.
 
         :raises DescriptionError: the directory is there, but its model.config or SDF file is not usable.
@@ -205,7 +205,7 @@ class ResourceFinder:
     @staticmethod
     def _sdf_of_config(config: str) -> str:
         root = parse_xml(read_bytes(config), config)
-        entries: List[Tuple[Tuple[int, ...], str]] = []
+        entries: list[tuple[tuple[int, ...], str]] = []
         for entry in root.iter("sdf"):
             try:
                 version = tuple(int(part) for part in (entry.get("version") or "1.0").split("."))
@@ -221,9 +221,9 @@ class ResourceFinder:
             raise DescriptionError(f"{config}: names '{quoted(best)}', which is not there")
         return file
 
-    def models(self) -> Dict[str, str]:
+    def models(self) -> dict[str, str]:
         """Models of the model path: name of the folder -> its SDF file. Of two of a name the first one counts."""
-        found: Dict[str, str] = {}
+        found: dict[str, str] = {}
         for path in self.model_paths:
             for config in sorted(Path(path).glob("*/model.config")):
                 if config.parent.name not in found:
@@ -233,12 +233,12 @@ class ResourceFinder:
                         continue  # whoever asks for it by name is told
         return found
 
-    def stock_models(self) -> List[str]:
+    def stock_models(self) -> list[str]:
         """Names of the models that come with the simulator."""
         folder = Path(self.stock) / "models"
         return sorted(f.parent.name for f in folder.glob("*/model.config")) if self.stock else []
 
-    def stock_worlds(self) -> List[str]:
+    def stock_worlds(self) -> list[str]:
         """Names of the worlds that come with the simulator, such as ``worlds/empty.world``."""
         folder = Path(self.stock) / "worlds"
         return sorted(f"worlds/{f.name}" for f in folder.glob("*.world")) if self.stock else []

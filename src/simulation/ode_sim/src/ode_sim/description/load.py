@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from typing import List, Optional, Tuple, Union, cast
+from typing import cast
 
 from ode_sim.description.finder import ResourceFinder
 from ode_sim.description.model import DescriptionError, Light, Model, Problem, World, quoted
@@ -15,7 +15,7 @@ from ode_sim.description.urdf import urdf_to_model
 from ode_sim.description.xmlsource import Element, fault, parse_xml, read_bytes
 
 
-def load_world(path_or_text: str, finder: Optional[ResourceFinder] = None) -> Tuple[World, List[Problem]]:
+def load_world(path_or_text: str, finder: ResourceFinder | None = None) -> tuple[World, list[Problem]]:
     """A world from XML text (it starts with ``<``), a path, a URI, or a name such as ``worlds/empty.world``.
 
     :returns: the world, and what was noticed while reading it, in file order.
@@ -24,7 +24,7 @@ def load_world(path_or_text: str, finder: Optional[ResourceFinder] = None) -> Tu
     finder = finder or ResourceFinder()
     if path_or_text.lstrip("\ufeff \t\r\n").startswith("<"):
         file = ""
-        text: Union[str, bytes] = path_or_text
+        text: str | bytes = path_or_text
     else:
         file = finder.find_world(path_or_text) or ""
         if not file:
@@ -50,7 +50,7 @@ class Entity:
     :raises DescriptionError: neither URDF nor SDF, nothing in it to spawn, or not XML.
     """
 
-    def __init__(self, text: str, finder: Optional[ResourceFinder] = None, file: str = ""):
+    def __init__(self, text: str, finder: ResourceFinder | None = None, file: str = ""):
         root = parse_xml(text, file)
         self._reader = SdfReader(finder, os.path.dirname(file))
         self._reader.warn_of_text(root)
@@ -64,7 +64,7 @@ class Entity:
         self._element = _entity(self._reader, root)
         self.kind = self._element.tag
 
-    def model(self, name: Optional[str] = None) -> Tuple[Model, List[Problem]]:
+    def model(self, name: str | None = None) -> tuple[Model, list[Problem]]:
         """The model, and what was noticed while reading it. :param name: takes the place of the one in the text."""
         if self.kind == "urdf":
             model = urdf_to_model(cast(Element, self._element), self._reader)
@@ -74,7 +74,7 @@ class Entity:
             raise fault(self._element, "is no <model>")
         return (replace(model, name=name) if name else model), self._reader.problems
 
-    def light(self, name: Optional[str] = None) -> Tuple[Light, List[Problem]]:
+    def light(self, name: str | None = None) -> tuple[Light, list[Problem]]:
         """The light, as :meth:`model`."""
         if self.kind != "light":
             raise fault(self._element, "is no <light>")
@@ -82,7 +82,7 @@ class Entity:
         return (replace(light, name=name) if name else light), self._reader.problems
 
 
-def root_kind(text: str, finder: Optional[ResourceFinder] = None) -> str:
+def root_kind(text: str, finder: ResourceFinder | None = None) -> str:
     """What a text to spawn is: ``urdf``, ``model``, ``light`` or ``actor``.
 
     :raises DescriptionError: none of these, or not XML.
@@ -90,9 +90,7 @@ def root_kind(text: str, finder: Optional[ResourceFinder] = None) -> str:
     return Entity(text, finder).kind
 
 
-def read_model(
-    text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None, file: str = ""
-) -> Tuple[Model, List[Problem]]:
+def read_model(text: str, *, name: str | None = None, finder: ResourceFinder | None = None, file: str = "") -> tuple[Model, list[Problem]]:
     """A model from URDF or SDF text, whichever it is.
 
     :param name: takes the place of the one in the text.
@@ -101,9 +99,7 @@ def read_model(
     return Entity(text, finder, file).model(name)
 
 
-def read_urdf(
-    text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None, file: str = ""
-) -> Tuple[Model, List[Problem]]:
+def read_urdf(text: str, *, name: str | None = None, finder: ResourceFinder | None = None, file: str = "") -> tuple[Model, list[Problem]]:
     """A model from URDF text, by Gazebo's conversion rules."""
     reader = SdfReader(finder, os.path.dirname(file))
     root = parse_xml(text, file)
@@ -113,8 +109,8 @@ def read_urdf(
 
 
 def read_sdf_model(
-    text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None, file: str = ""
-) -> Tuple[Model, List[Problem]]:
+    text: str, *, name: str | None = None, finder: ResourceFinder | None = None, file: str = ""
+) -> tuple[Model, list[Problem]]:
     """The first model of SDF text: ``<sdf><model>``, or in a ``<world>``, there also by ``<include>``."""
     entity = Entity(text, finder, file)
     if entity.kind == "urdf":
@@ -122,9 +118,7 @@ def read_sdf_model(
     return entity.model(name)
 
 
-def read_light(
-    text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None, file: str = ""
-) -> Tuple[Light, List[Problem]]:
+def read_light(text: str, *, name: str | None = None, finder: ResourceFinder | None = None, file: str = "") -> tuple[Light, list[Problem]]:
     """The first light of SDF text."""
     return Entity(text, finder, file).light(name)
 

@@ -6,27 +6,27 @@ import functools
 import glob
 import os
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Dict, Iterable, List, Optional, Tuple
 
 from ode_sim.description.finder import ResourceFinder
 from ode_sim.description.model import Material, Rgba
 
-Rgb = Tuple[float, float, float]
+Rgb = tuple[float, float, float]
 _BRIGHTEST = 1e6  # of colours, which are 0..1
 
 
 @dataclass(frozen=True)
 class _Look:
     diffuse: Rgb
-    ambient: Optional[Rgb] = None  # None: as diffuse
+    ambient: Rgb | None = None  # None: as diffuse
     alpha: float = 1.0
     glows: bool = False
     specular: Rgb = (0.0, 0.0, 0.0)
     texture: str = ""  # file below media/materials/textures; the colour stands in for it when it is not there
 
 
-_BASE: Dict[str, Rgb] = {
+_BASE: dict[str, Rgb] = {
     "White": (1, 1, 1),
     "Red": (1, 0, 0),
     "Green": (0, 1, 0),
@@ -36,7 +36,7 @@ _BASE: Dict[str, Rgb] = {
     "Turquoise": (0, 1, 1),
 }
 
-_LOOKS: Dict[str, _Look] = {
+_LOOKS: dict[str, _Look] = {
     **{name: _Look(rgb) for name, rgb in _BASE.items()},
     **{name + "Glow": _Look(rgb, glows=True) for name, rgb in _BASE.items()},
     **{name + "Transparent": _Look(_BASE[name], alpha=0.5) for name in ("Red", "Green", "Blue", "Yellow")},
@@ -91,7 +91,7 @@ _LOOKS["Gray"], _LOOKS["DarkGray"] = _LOOKS["Grey"], _LOOKS["DarkGrey"]
 NAMES = tuple(sorted("Gazebo/" + name for name in _LOOKS))
 
 
-def gazebo_material(name: str, finder: Optional[ResourceFinder] = None) -> Optional[Material]:
+def gazebo_material(name: str, finder: ResourceFinder | None = None) -> Material | None:
     """The material ``Gazebo/<Colour>`` (case matters), or None if there is no such name."""
     look = _LOOKS.get(name[7:]) if name.startswith("Gazebo/") else None
     if look is None:
@@ -123,7 +123,7 @@ _MOST_PARENTS = 20  # of a material
 _RESOURCES = ("media/materials/scripts", "", "media/materials/textures", "media/materials/programs", "media/models")
 
 
-def script_material(name: str, locations: Iterable[str]) -> Optional[Material]:
+def script_material(name: str, locations: Iterable[str]) -> Material | None:
     """The material ``name`` of the OGRE scripts in ``locations`` (files, or directories to look through).
 
     The first pass counts; of a texture unit only the image is taken, from the directories of ``locations``, a
@@ -131,9 +131,9 @@ def script_material(name: str, locations: Iterable[str]) -> Optional[Material]:
     (``material A : B``). What cannot be read as a script has no materials.
     """
     files, folders = _scripts(locations)
-    statements: List[List[str]] = []
-    known: Optional[Material] = None
-    found_in: List[str] = []
+    statements: list[list[str]] = []
+    known: Material | None = None
+    found_in: list[str] = []
     wanted = name
     while wanted and len(found_in) < _MOST_PARENTS:
         found = _find(wanted, files)
@@ -149,12 +149,12 @@ def script_material(name: str, locations: Iterable[str]) -> Optional[Material]:
     return _material_of(name, statements, [*dict.fromkeys(found_in), *folders], known)
 
 
-def resource_material(name: str, finder: ResourceFinder) -> Optional[Material]:
+def resource_material(name: str, finder: ResourceFinder) -> Material | None:
     """The material ``name`` of the scripts on the resource paths (GAZEBO_RESOURCE_PATH, ``gazebo_media_path`` exports)."""
     return script_material(name, [os.path.join(path, folder) for path in finder.resource_paths for folder in _RESOURCES])
 
 
-def _find(name: str, files: Iterable[str]) -> Optional[Tuple[List[List[str]], str, str]]:
+def _find(name: str, files: Iterable[str]) -> tuple[list[list[str]], str, str] | None:
     """Statements, parent and file of a material."""
     for file in files:
         try:
@@ -169,15 +169,15 @@ def _find(name: str, files: Iterable[str]) -> Optional[Tuple[List[List[str]], st
 
 
 @functools.lru_cache(maxsize=256)
-def _script(file: str, stamp: Tuple[int, int]) -> str:
+def _script(file: str, stamp: tuple[int, int]) -> str:
     with open(file, encoding="utf-8", errors="replace") as stream:
         return stream.read(_LONGEST_SCRIPT)
 
 
-def _scripts(locations: Iterable[str]) -> Tuple[List[str], List[str]]:
+def _scripts(locations: Iterable[str]) -> tuple[list[str], list[str]]:
     """(files, folders to find textures in)"""
-    files: List[str] = []
-    folders: List[str] = []
+    files: list[str] = []
+    folders: list[str] = []
     for location in locations:
         if os.path.isdir(location):
             files += sorted(glob.glob(os.path.join(glob.escape(location), "*.material")))[:_MOST_SCRIPTS]
@@ -205,12 +205,12 @@ def _without_comments(text: str) -> str:
     return "".join(pieces) + text[at:]
 
 
-def _statements(text: str, name: str) -> Optional[Tuple[List[List[str]], str]]:
+def _statements(text: str, name: str) -> tuple[list[list[str]], str] | None:
     """The lines inside ``material <name> { ... }``, each split into words, and the name of its parent; None if there is no such."""
     parent = ""
     depth = 0
-    found: Optional[List[List[str]]] = None
-    header: List[str] = []  # words since the last statement outside of all braces
+    found: list[list[str]] | None = None
+    header: list[str] = []  # words since the last statement outside of all braces
     for piece in _PIECE.findall(_without_comments(text)):
         if piece == "{":
             if depth == 0 and found is None and _begins(header, name):
@@ -230,19 +230,19 @@ def _statements(text: str, name: str) -> Optional[Tuple[List[List[str]], str]]:
     return None if found is None else (found, parent)
 
 
-def _begins(header: List[str], name: str) -> bool:
+def _begins(header: list[str], name: str) -> bool:
     """Whether this is ``material <name>``, which may be followed by ``: <parent>``."""
     rest = " ".join(header[1:])
     return header[:1] == ["material"] and rest.startswith(name) and rest[len(name) :].lstrip()[:1] in ("", ":")
 
 
-def _material_of(name: str, statements: List[List[str]], folders: List[str], parent: Optional[Material]) -> Material:
+def _material_of(name: str, statements: list[list[str]], folders: list[str], parent: Material | None) -> Material:
     """:param statements: its own, then those of its parents. :param parent: of the last of these, one that no script has."""
-    variables: Dict[str, List[str]] = {}
+    variables: dict[str, list[str]] = {}
     for words in statements:
         if words[0] == "set" and len(words) > 2:
             variables.setdefault(words[1], words[2:])
-    colours: Dict[str, Rgba] = {}
+    colours: dict[str, Rgba] = {}
     texture = ""
     for words in statements:
         key, values = words[0], [value for word in words[1:] for value in variables.get(word, [word])]

@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field
-from typing import Optional, Tuple, Union
 
 from ode_sim.errors import DescriptionError, Source, one_line, quoted  # noqa: F401  (part of the description)
 from ode_sim.math3 import Pose, Quat, Vec3  # noqa: F401  (part of the description)
@@ -70,7 +69,7 @@ class Plane:
     """Infinite for collision; ``size`` (x, y) is what is drawn."""
 
     normal: Vec3 = (0.0, 0.0, 1.0)
-    size: Tuple[float, float] = (1.0, 1.0)
+    size: tuple[float, float] = (1.0, 1.0)
 
 
 @dataclass(frozen=True)
@@ -97,7 +96,7 @@ class Heightmap:
 class Polyline:
     """Extruded along z from 0 to ``height``."""
 
-    points: Tuple[Tuple[float, float], ...] = ()
+    points: tuple[tuple[float, float], ...] = ()
     height: float = 1.0
 
 
@@ -105,15 +104,15 @@ class Polyline:
 class Ribbon:
     """A strip of that width (m) along ``points``, seen from above. Roads are drawn as ribbons; nothing collides with one."""
 
-    points: Tuple[Vec3, ...] = ()
+    points: tuple[Vec3, ...] = ()
     width: float = 1.0
 
 
-Geometry = Union[Box, Sphere, Cylinder, Capsule, Plane, Mesh, Heightmap, Polyline, Ribbon, None]
+Geometry = Box | Sphere | Cylinder | Capsule | Plane | Mesh | Heightmap | Polyline | Ribbon | None
 
 # ---------------------------------------------------------------------------------------------- looks
 
-Rgba = Tuple[float, float, float, float]
+Rgba = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True)
@@ -122,10 +121,10 @@ class Material:
     the colours where known); ``texture`` an absolute image file, '' if none."""
 
     name: str = ""
-    ambient: Optional[Rgba] = None
-    diffuse: Optional[Rgba] = None
-    specular: Optional[Rgba] = None
-    emissive: Optional[Rgba] = None
+    ambient: Rgba | None = None
+    diffuse: Rgba | None = None
+    specular: Rgba | None = None
+    emissive: Rgba | None = None
     texture: str = ""
 
 
@@ -134,7 +133,7 @@ class Visual:
     name: str
     pose: Pose  # X_LV, in the link frame
     geometry: Geometry
-    material: Optional[Material] = None  # None: the mesh's own, or white
+    material: Material | None = None  # None: the mesh's own, or white
     transparency: float = 0.0
     cast_shadows: bool = True
     laser_retro: float = 0.0
@@ -215,7 +214,7 @@ class Sensor:
     element: ET.Element = field(compare=False)
     update_rate: float = 0.0  # Hz of sim time, 0 = every step
     always_on: bool = False
-    plugins: Tuple[Plugin, ...] = ()
+    plugins: tuple[Plugin, ...] = ()
     source: Source = Source()
 
 
@@ -241,12 +240,12 @@ class Link:
     name: str
     pose: Pose = Pose()  # X_ML, in the model frame
     inertial: Inertial = Inertial()
-    collisions: Tuple[Collision, ...] = ()
-    visuals: Tuple[Visual, ...] = ()
-    sensors: Tuple[Sensor, ...] = ()
-    lights: Tuple[Light, ...] = ()
+    collisions: tuple[Collision, ...] = ()
+    visuals: tuple[Visual, ...] = ()
+    sensors: tuple[Sensor, ...] = ()
+    lights: tuple[Light, ...] = ()
     gravity: bool = True
-    self_collide: Optional[bool] = None  # None: the model's
+    self_collide: bool | None = None  # None: the model's
     kinematic: bool = False
     linear_decay: float = 0.0
     angular_decay: float = 0.0
@@ -285,7 +284,7 @@ class Joint:
     parent: str
     child: str
     pose: Pose = Pose()
-    axes: Tuple[Axis, ...] = ()
+    axes: tuple[Axis, ...] = ()
     limit_erp: float = 0.2
     limit_cfm: float = 0.0
     provide_feedback: bool = False
@@ -294,9 +293,9 @@ class Joint:
     thread_pitch: float = 1.0  # of a screw, rad/m: by an angle the child goes -angle / thread_pitch along the axis
     gearbox_ratio: float = 1.0  # the child turns at -gearbox_ratio times the rate of the parent, each about its own axis
     gearbox_reference_body: str = ""  # link that both turn in
-    mimic: Optional[Mimic] = None  # from URDF; Gazebo drops it, a plugin may ask for it
+    mimic: Mimic | None = None  # from URDF; Gazebo drops it, a plugin may ask for it
     urdf_type: str = ""  # 'continuous' is told from 'revolute' by this; '' when the source was SDF
-    sensors: Tuple[Sensor, ...] = ()  # force_torque alone
+    sensors: tuple[Sensor, ...] = ()  # force_torque alone
     source: Source = Source()
 
 
@@ -312,7 +311,7 @@ class Trajectory:
 
     id: int
     type: str
-    waypoints: Tuple[Waypoint, ...] = ()
+    waypoints: tuple[Waypoint, ...] = ()
     tension: float = 0.0  # 0: a smooth curve, 1: straight from point to point
 
 
@@ -331,7 +330,7 @@ class ActorScript:
     loop: bool = True
     delay_start: float = 0.0  # s
     auto_start: bool = True
-    trajectories: Tuple[Trajectory, ...] = ()
+    trajectories: tuple[Trajectory, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -341,26 +340,26 @@ class Actor:
 
     skin: str = ""
     scale: float = 1.0
-    animations: Tuple[ActorAnimation, ...] = ()
+    animations: tuple[ActorAnimation, ...] = ()
     script: ActorScript = ActorScript()
-    element: Optional[ET.Element] = field(default=None, compare=False)
+    element: ET.Element | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True)
 class Model:
     name: str
     pose: Pose = Pose()  # X_WM
-    links: Tuple[Link, ...] = ()
-    joints: Tuple[Joint, ...] = ()
-    plugins: Tuple[Plugin, ...] = ()
+    links: tuple[Link, ...] = ()
+    joints: tuple[Joint, ...] = ()
+    plugins: tuple[Plugin, ...] = ()
     static: bool = False
     self_collide: bool = False
     allow_auto_disable: bool = True
-    actor: Optional[Actor] = None  # its first link is the model's frame, then the bones of its skin
+    actor: Actor | None = None  # its first link is the model's frame, then the bones of its skin
     source: Source = Source()
 
     @property
-    def parts(self) -> Tuple[Union[Link, Joint], ...]:
+    def parts(self) -> tuple[Link | Joint, ...]:
         """Links and joints: what may have sensors."""
         return (*self.links, *self.joints)
 
@@ -392,9 +391,9 @@ class LinkState:
 @dataclass(frozen=True)
 class ModelState:
     name: str
-    pose: Optional[Pose] = None  # X_WM
+    pose: Pose | None = None  # X_WM
     scale: Vec3 = (1.0, 1.0, 1.0)
-    links: Tuple[LinkState, ...] = ()
+    links: tuple[LinkState, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -403,9 +402,9 @@ class WorldState:
 
     sim_time: float = 0.0
     iterations: int = 0
-    models: Tuple[ModelState, ...] = ()
-    light_poses: Tuple[Tuple[str, Pose], ...] = ()
-    deletions: Tuple[str, ...] = ()
+    models: tuple[ModelState, ...] = ()
+    light_poses: tuple[tuple[str, Pose], ...] = ()
+    deletions: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -415,10 +414,10 @@ class Scene:
     shadows: bool = True
     grid: bool = True
     sky: bool = False
-    roads: Tuple[Visual, ...] = ()  # ribbons, in the world frame
+    roads: tuple[Visual, ...] = ()  # ribbons, in the world frame
 
     @property
-    def behind_all(self) -> Tuple[float, float, float]:
+    def behind_all(self) -> tuple[float, float, float]:
         """The colour where nothing is; of a sky in place of Gazebo's moving clouds."""
         return (0.55, 0.70, 0.90) if self.sky else self.background[:3]
 
@@ -430,9 +429,9 @@ class World:
     magnetic_field: Vec3 = (5.5645e-6, 22.8758e-6, -42.3884e-6)
     physics: Physics = Physics()
     scene: Scene = Scene()
-    models: Tuple[Model, ...] = ()
-    lights: Tuple[Light, ...] = ()
-    plugins: Tuple[Plugin, ...] = ()
-    state: Optional[WorldState] = None
-    spherical_coordinates: Tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)  # lat, lon (deg), elevation (m), heading (deg)
+    models: tuple[Model, ...] = ()
+    lights: tuple[Light, ...] = ()
+    plugins: tuple[Plugin, ...] = ()
+    state: WorldState | None = None
+    spherical_coordinates: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)  # lat, lon (deg), elevation (m), heading (deg)
     source: Source = Source()

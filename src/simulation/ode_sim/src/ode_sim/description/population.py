@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import random
 import xml.etree.ElementTree as ET
-from typing import Iterator, Optional
+from collections.abc import Iterator
 
 from ode_sim import math3
 from ode_sim.description.model import FARTHEST, Pose, quoted
@@ -14,7 +14,7 @@ from ode_sim.description.xmlsource import child, clone, text_of
 _MOST = 1_000_000  # of anything counted
 
 
-def population(reader, element: ET.Element, template: Optional[ET.Element]) -> Iterator[ET.Element]:
+def population(reader, element: ET.Element, template: ET.Element | None) -> Iterator[ET.Element]:
     """Model elements named ``<model>_clone_<i>``; random places are the same in every run.
 
     :param reader: the :class:`~ode_sim.description.sdf.SdfReader` that reads the numbers and takes the warnings.

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Set
+from typing import Any
 
 from ode_sim import math3
 from ode_sim.description.model import (
@@ -46,12 +47,12 @@ class _Contents:
     """
 
     def __init__(self, reader: SdfReader, frames: Mapping[str, Pose]):
-        self.models: List[Model] = []
-        self.lights: List[Light] = []
-        self.roads: List[Visual] = []
+        self.models: list[Model] = []
+        self.lights: list[Light] = []
+        self.roads: list[Visual] = []
         self._reader = reader
         self._frames = frames
-        self._taken: Set[str] = set()  # names of models
+        self._taken: set[str] = set()  # names of models
 
     def add(self, child: ET.Element) -> None:
         """An element of ``<world>``; of what is neither model, light nor road some is left out, with a word if it should be seen."""
@@ -144,7 +145,7 @@ class SdfReader(SdfActors):
         older = self.vector(world, "physics/gravity", default, most=STRONGEST_GRAVITY)
         return self.vector(world, "gravity", older, most=STRONGEST_GRAVITY)
 
-    def _scaled(self, models: List[Model], state: WorldState, world: ET.Element) -> List[Model]:
+    def _scaled(self, models: list[Model], state: WorldState, world: ET.Element) -> list[Model]:
         """What was stretched in the simulator's window is saved at its old size, with the factors in ``<state>``."""
         scales = {saved.name: saved.scale for saved in state.models}
 
@@ -177,7 +178,7 @@ class SdfReader(SdfActors):
             self.warn(block, f"the physics engine is ODE; '{quoted(kind)}' is simulated by it, its own parameters are ignored")
         default = Physics()
         ode = block.find("ode")
-        values: Dict[str, Any] = {  # counts as written: usable_physics makes them whole
+        values: dict[str, Any] = {  # counts as written: usable_physics makes them whole
             "max_step_size": self.number(block, "max_step_size", self.number(block, "dt", default.max_step_size)),
             "max_contacts": self.number(block, "max_contacts", default.max_contacts),
         }
@@ -205,7 +206,7 @@ class SdfReader(SdfActors):
             self.warn(block, change)
         return physics
 
-    def _scene(self, element: Optional[ET.Element]) -> Scene:
+    def _scene(self, element: ET.Element | None) -> Scene:
         if element is None:
             return Scene()
         default = Scene()
@@ -217,7 +218,7 @@ class SdfReader(SdfActors):
             sky=element.find("sky") is not None,
         )
 
-    def _state(self, element: Optional[ET.Element]) -> Optional[WorldState]:
+    def _state(self, element: ET.Element | None) -> WorldState | None:
         if element is None:
             return None
 

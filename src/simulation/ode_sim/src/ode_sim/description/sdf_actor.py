@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from typing import Dict, List, Tuple
 
 import numpy as np
 
@@ -80,7 +79,7 @@ class SdfActors(SdfModels):
 
     # ------------------------------------------------------------------ skin
 
-    def _skin(self, element: ET.Element, name: str) -> Tuple[str, float]:
+    def _skin(self, element: ET.Element, name: str) -> tuple[str, float]:
         """The file, '' if there is none that can be used, and what it is multiplied by."""
         from ode_sim.actors.skeleton import load_skeleton
 
@@ -111,7 +110,7 @@ class SdfActors(SdfModels):
         self.warn(element.find("scale"), f"scale {scale:g} must be positive; using 1")
         return 1.0
 
-    def _bones(self, element: ET.Element, path: str, scale: float, bent_by: str) -> List[Link]:
+    def _bones(self, element: ET.Element, path: str, scale: float, bent_by: str) -> list[Link]:
         """A link for each bone, where it is at rest as seen from the root."""
         from ode_sim.actors.quaternions import from_matrices
         from ode_sim.actors.skeleton import load_skeleton
@@ -133,8 +132,8 @@ class SdfActors(SdfModels):
                 continue
             names.add(bone.name)
             pose = math3.relative(root, Pose(tuple(frames[index, :3, 3].tolist()), turned[index]))
-            visuals: Tuple[Visual, ...] = ()
-            shapes: List[Collision] = []
+            visuals: tuple[Visual, ...] = ()
+            shapes: list[Collision] = []
             if bone.name in pieces:
                 uri = text_of(skin.find("filename")) if skin is not None else path
                 mesh = Mesh(path, uri, (scale,) * 3, piece_name(bone.name, bent_by))
@@ -151,7 +150,7 @@ class SdfActors(SdfModels):
 
     # ------------------------------------------------------------------ animations and script
 
-    def _animations(self, element: ET.Element, skin: str, name: str) -> Tuple[ActorAnimation, ...]:
+    def _animations(self, element: ET.Element, skin: str, name: str) -> tuple[ActorAnimation, ...]:
         from ode_sim.actors.animation import animation_for
         from ode_sim.actors.skeleton import load_skeleton
 
@@ -173,7 +172,7 @@ class SdfActors(SdfModels):
                 )
                 for entry in written
             ]
-        found: Dict[str, ActorAnimation] = {}
+        found: dict[str, ActorAnimation] = {}
         skeleton = load_skeleton(skin)
         for entry, called, path, scale, along in wanted:
             if not path:
@@ -224,7 +223,7 @@ class SdfActors(SdfModels):
 
 def _bone_box(
     bone: str, child: str, frame: np.ndarray, child_frame: np.ndarray, turned: math3.Quat, between: np.ndarray
-) -> List[Collision]:
+) -> list[Collision]:
     """Between two bones, as upstream has it: how it is turned about its own length shows when a plugin makes it thicker."""
     way = child_frame[:3, 3] - frame[:3, 3]
     length = float(np.linalg.norm(way))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Tuple, Union, cast
+from typing import cast
 
 from ode_sim.description.model import quoted
 from ode_sim.description.xmlsource import Element, child, fault, is_true, parse_xml, text_of
@@ -10,7 +10,7 @@ from ode_sim.description.xmlsource import Element, child, fault, is_true, parse_
 ENTITIES = ("model", "light", "actor")
 
 
-def parse_sdf(text: Union[str, bytes], file: str = "") -> Element:
+def parse_sdf(text: str | bytes, file: str = "") -> Element:
     """The ``<sdf>`` element (``<gazebo>`` in files before 1.3, or a bare ``<world>``, ``<model>``, ``<light>``).
 
     :raises DescriptionError: not XML, or not SDF.
@@ -46,7 +46,7 @@ def _say_frames_of_axes(root: Element, in_model: bool) -> None:
             xyz.set("expressed_in", xyz.get("expressed_in") or "__model__")
 
 
-def _version(root: Element) -> Tuple[int, ...]:
+def _version(root: Element) -> tuple[int, ...]:
     try:
         return tuple(int(part) for part in root.get("version", "1.6").split("."))
     except ValueError:

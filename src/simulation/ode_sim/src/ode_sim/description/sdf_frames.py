@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from typing import Dict, Optional, Sequence, Tuple
+from collections.abc import Sequence
 
 from ode_sim import math3
 from ode_sim.description.model import Pose
 from ode_sim.description.xmlsource import joint_end, source_of
 from ode_sim.errors import DescriptionError, Source, quoted
 
-Nested = Tuple[str, ET.Element, Dict[str, Pose]]  # name, element, X_S of its own frames
+Nested = tuple[str, ET.Element, dict[str, Pose]]  # name, element, X_S of its own frames
 
 
-def relative_to(pose: Optional[ET.Element]) -> str:
+def relative_to(pose: ET.Element | None) -> str:
     """The frame a ``<pose>`` names, '' for the usual one."""
     if pose is None:
         return ""
     return (pose.get("relative_to") or pose.get("frame") or "").strip()
 
 
-def model_frames(reader, model: ET.Element, nested: Sequence[Nested]) -> Dict[str, Pose]:
+def model_frames(reader, model: ET.Element, nested: Sequence[Nested]) -> dict[str, Pose]:
     """X_M of a model's links, joints, frames and nested models, whatever their poses refer to.
 
     :param reader: the :class:`~ode_sim.description.sdf.SdfReader` that reads the numbers and takes the warnings.
@@ -32,8 +32,8 @@ def model_frames(reader, model: ET.Element, nested: Sequence[Nested]) -> Dict[st
 class _Solver:
     def __init__(self, reader, model: ET.Element, nested: Sequence[Nested]):
         self._reader = reader
-        self._entries: Dict[str, Tuple[Pose, str, Optional[ET.Element]]] = {}  # name -> X_RF, name of R, element
-        self._solved: Dict[str, Pose] = {"__model__": math3.IDENTITY}
+        self._entries: dict[str, tuple[Pose, str, ET.Element | None]] = {}  # name -> X_RF, name of R, element
+        self._solved: dict[str, Pose] = {"__model__": math3.IDENTITY}
         for sub, element, frames in nested:
             self._add(sub, element.find("pose"), "__model__")
             for name, x_sf in frames.items():
@@ -48,11 +48,11 @@ class _Solver:
                     usual = (element.get("attached_to") or "").strip() or "__model__"
                 self._add(element.get("name") or "", element.find("pose"), usual)
 
-    def _add(self, name: str, pose: Optional[ET.Element], usual: str) -> None:
+    def _add(self, name: str, pose: ET.Element | None, usual: str) -> None:
         if name not in self._entries:  # links win over joints of the same name, as old files have them
             self._entries[name] = (self._reader.pose(pose), relative_to(pose) or usual, pose)
 
-    def resolved(self) -> Dict[str, Pose]:
+    def resolved(self) -> dict[str, Pose]:
         for name in self._entries:
             self._solve(name)
         return self._solved
@@ -80,9 +80,9 @@ class _Solver:
             self._solved[name] = x_rf
 
 
-def world_frames(reader, world: ET.Element) -> Dict[str, Pose]:
+def world_frames(reader, world: ET.Element) -> dict[str, Pose]:
     """X_W of the ``<frame>``s of a world, as far as they refer to earlier ones."""
-    frames: Dict[str, Pose] = {}
+    frames: dict[str, Pose] = {}
     for element in world.findall("frame"):
         pose = element.find("pose")
         reference = relative_to(pose) or element.get("attached_to", "")

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
-from typing import Any, Callable, Dict, Iterator, List, Optional, Set
+from typing import Any
 
 from ode_sim import math3
 from ode_sim.description.model import FORCE_TORQUE, Axis, Joint, Link, Plugin, Pose, Sensor, Vec3, quoted
@@ -26,12 +27,12 @@ class Parts:
     name: str
     element: ET.Element
     pose: Pose  # of M in whatever it is part of
-    links: List[Link] = field(default_factory=list)
-    joints: List[Joint] = field(default_factory=list)
-    plugins: List[Plugin] = field(default_factory=list)
-    frames: Dict[str, Pose] = field(default_factory=dict)  # X_M of links, joints, frames, for relative_to
-    still: Set[str] = field(default_factory=set)  # links of nested models that are static
-    attached_to: Dict[str, str] = field(init=False)  # of each <frame>, by name
+    links: list[Link] = field(default_factory=list)
+    joints: list[Joint] = field(default_factory=list)
+    plugins: list[Plugin] = field(default_factory=list)
+    frames: dict[str, Pose] = field(default_factory=dict)  # X_M of links, joints, frames, for relative_to
+    still: set[str] = field(default_factory=set)  # links of nested models that are static
+    attached_to: dict[str, str] = field(init=False)  # of each <frame>, by name
 
     def __post_init__(self) -> None:
         self.attached_to = {frame.get("name") or "": (frame.get("attached_to") or "").strip() for frame in self.element.findall("frame")}
@@ -53,7 +54,7 @@ def _turn_round(sensor: ET.Element) -> None:
 class SdfJoints(SdfShapes):
     """Reads ``<joint>``. What it shares with links is the model's reader's."""
 
-    def _pose_in(self, owner: ET.Element, x_mo: Pose, child: ET.Element, frames: Dict[str, Pose]) -> Pose:
+    def _pose_in(self, owner: ET.Element, x_mo: Pose, child: ET.Element, frames: dict[str, Pose]) -> Pose:
         raise NotImplementedError
 
     def _unique(self, parent: ET.Element, tag: str, read: Callable[[ET.Element], Any]) -> Iterator:
@@ -62,7 +63,7 @@ class SdfJoints(SdfShapes):
     def _sensor(self, element: ET.Element, pose: Pose, of_joint: bool) -> Sensor:
         raise NotImplementedError
 
-    def joint(self, element: ET.Element, parts: Parts, known: Set[str]) -> List[Joint]:
+    def joint(self, element: ET.Element, parts: Parts, known: set[str]) -> list[Joint]:
         name = element.get("name") or ""
         kind = (element.get("type") or "").strip()
         endless = kind == "continuous"
@@ -139,7 +140,7 @@ class SdfJoints(SdfShapes):
         self.warn(lead if pitch is None else pitch, "a thread's pitch cannot be 0; using 1 rad/m")
         return 1.0
 
-    def _joint_pose(self, pose: Optional[ET.Element], child: str, parts: Parts) -> Pose:
+    def _joint_pose(self, pose: ET.Element | None, child: str, parts: Parts) -> Pose:
         """X_MJ; without a frame of its own in that of the child, and in the world's where the world is the child."""
         reference = relative_to(pose) or child
         if reference == "world":
@@ -152,7 +153,7 @@ class SdfJoints(SdfShapes):
         return math3.compose(parts.frames[reference], self.pose(pose))
 
     @staticmethod
-    def _link_of(name: str, parts: Parts, known: Set[str]) -> str:
+    def _link_of(name: str, parts: Parts, known: set[str]) -> str:
         """The link that a joint names, or that the frame it names is attached to; ``name`` where there is none."""
         link = name
         for _ in parts.attached_to:
@@ -161,7 +162,7 @@ class SdfJoints(SdfShapes):
             link = parts.attached_to[link]
         return link if link in known else name
 
-    def _axes(self, element: ET.Element, kind: str, frames: Dict[str, Pose], x_mj: Pose) -> Iterator[Axis]:
+    def _axes(self, element: ET.Element, kind: str, frames: dict[str, Pose], x_mj: Pose) -> Iterator[Axis]:
         tags = ("axis", "axis2")[: _JOINT_AXES[kind]]
         if kind == "revolute2" and element.find("axis2") is None:
             self.warn(element, "a revolute2 joint needs an <axis2>; using the z axis")

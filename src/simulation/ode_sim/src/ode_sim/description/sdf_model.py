@@ -6,8 +6,8 @@ import math
 import os
 import re
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import Dict, Iterator, List, Optional, Set, Tuple
 
 from ode_sim import math3
 from ode_sim.description.model import (
@@ -149,7 +149,7 @@ class SdfModels(SdfJoints):
 
     def _named_once(self, parent: ET.Element, tag: str) -> Iterator[ET.Element]:
         """Children of one kind without those whose name another one before them has."""
-        names: Set[Optional[str]] = set()
+        names: set[str | None] = set()
         for element in parent.findall(tag):
             if element.get("name") in names:
                 self.warn(element, f"a {tag} of this name is there already; this one is left out", "error")
@@ -179,7 +179,7 @@ class SdfModels(SdfJoints):
             )
         parts.plugins += sub.plugins
 
-    def plugins(self, parent: ET.Element) -> List[Plugin]:
+    def plugins(self, parent: ET.Element) -> list[Plugin]:
         return [
             Plugin(name=(p.get("name") or "").strip(), filename=(p.get("filename") or "").strip(), element=p, source=source_of(p))
             for p in parent.findall("plugin")
@@ -187,7 +187,7 @@ class SdfModels(SdfJoints):
 
     # ------------------------------------------------------------------ links
 
-    def _link(self, element: ET.Element, frames: Dict[str, Pose]) -> Link:
+    def _link(self, element: ET.Element, frames: dict[str, Pose]) -> Link:
         name = element.get("name") or ""
         x_ml = frames[name]
 
@@ -217,7 +217,7 @@ class SdfModels(SdfJoints):
             source=source_of(element),
         )
 
-    def _pose_in(self, owner: ET.Element, x_mo: Pose, child: ET.Element, frames: Dict[str, Pose]) -> Pose:
+    def _pose_in(self, owner: ET.Element, x_mo: Pose, child: ET.Element, frames: dict[str, Pose]) -> Pose:
         """X_OC of what a link or joint O has, which may be written relative to another frame."""
         pose = child.find("pose")
         x = self.pose(pose)
@@ -241,7 +241,7 @@ class SdfModels(SdfJoints):
                     f"{error.message}; {tag} '{quoted(element.get('name'))}' of {parent.tag} '{quoted(parent.get('name'))}' is left out",
                 )
         given = {item.name for _, item in items}
-        seen: Dict[str, int] = {}
+        seen: dict[str, int] = {}
         for element, item in items:
             count = seen.get(item.name, 0)
             if count:
@@ -251,7 +251,7 @@ class SdfModels(SdfJoints):
             seen[item.name] = count + 1
             yield replace(item, name=f"{item.name}_{count}") if count else item
 
-    def _inertial(self, element: Optional[ET.Element], in_link) -> Inertial:
+    def _inertial(self, element: ET.Element | None, in_link) -> Inertial:
         if element is None:
             return Inertial()
         values = {
@@ -320,7 +320,7 @@ class SdfModels(SdfJoints):
             source=source_of(element),
         )
 
-    def _surface(self, element: Optional[ET.Element]) -> Surface:
+    def _surface(self, element: ET.Element | None) -> Surface:
         if element is None:
             return Surface()
         default = Surface()
@@ -358,7 +358,7 @@ class SdfModels(SdfJoints):
 
     # ------------------------------------------------------------------ include
 
-    def include(self, include: ET.Element, chain: Tuple[str, ...] = ()) -> Optional[ET.Element]:
+    def include(self, include: ET.Element, chain: tuple[str, ...] = ()) -> ET.Element | None:
         """The model, light or actor that an ``<include>`` stands for, changed as it says; None with a warning.
 
         :param chain: URIs that led here, outermost first.

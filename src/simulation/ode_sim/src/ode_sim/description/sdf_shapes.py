@@ -6,7 +6,6 @@ import math
 import os
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from typing import Optional
 
 from ode_sim import math3
 from ode_sim.description import materials
@@ -110,7 +109,7 @@ class SdfShapes(SdfValues):
         self.warn_missing(element, uri, "this shape is left out")
         return ""
 
-    def material(self, element: Optional[ET.Element]) -> Optional[Material]:
+    def material(self, element: ET.Element | None) -> Material | None:
         if element is None:
             return None
         name = text_of(element.find("script/name"))
@@ -156,7 +155,7 @@ class SdfShapes(SdfValues):
             source=source_of(element),
         )
 
-    def _road_look(self) -> Optional[Material]:
+    def _road_look(self) -> Material | None:
         return materials.gazebo_material("Gazebo/Road", self.finder)
 
     def light(self, element: ET.Element) -> Light:

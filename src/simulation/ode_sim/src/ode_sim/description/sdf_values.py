@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
-from typing import List, Optional, Set, Tuple, TypeVar, Union, cast
+from typing import TypeVar, cast
 
 from ode_sim import math3
 from ode_sim.description.finder import ResourceFinder
 from ode_sim.description.model import FARTHEST, Pose, Problem, Source, quoted
 from ode_sim.description.xmlsource import fault, is_true, leading_numbers, source_of, text_of
 
-Numbers = TypeVar("Numbers", bound=Tuple[float, ...])
+Numbers = TypeVar("Numbers", bound=tuple[float, ...])
 
 LONGEST = 1e100  # of vectors that only tell a direction; the square of a longer one is infinite
 _BRIGHTEST = 1e6  # of colours, which are 0..1
@@ -20,17 +20,17 @@ _BRIGHTEST = 1e6  # of colours, which are 0..1
 class SdfValues:
     """Reads values of one file or text; collects :attr:`problems` on the way."""
 
-    def __init__(self, finder: Optional[ResourceFinder] = None, base: str = ""):
+    def __init__(self, finder: ResourceFinder | None = None, base: str = ""):
         """:param base: directory that relative file names are tried in first."""
         self.finder = finder or ResourceFinder()
         self.base = base
-        self.problems: List[Problem] = []
-        self._missing: Set[str] = set()  # names reported as not found
-        self._noticed: Set[Problem] = set()
+        self.problems: list[Problem] = []
+        self._missing: set[str] = set()  # names reported as not found
+        self._noticed: set[Problem] = set()
 
     # ------------------------------------------------------------------ values
 
-    def warn(self, element: Union[ET.Element, Source, None], message: str, severity: str = "warning") -> None:
+    def warn(self, element: ET.Element | Source | None, message: str, severity: str = "warning") -> None:
         source = element if isinstance(element, Source) else source_of(element) if element is not None else Source()
         problem = Problem(severity, message, source)
         if problem not in self._noticed:
@@ -48,7 +48,7 @@ class SdfValues:
             self._missing.add(uri)
             self.warn(element, f"cannot find '{quoted(uri, 200)}' ({self.finder.explain(uri)}); {consequence}")
 
-    def numbers(self, element: Optional[ET.Element], default: Numbers, nan: bool = False, most: float = math.inf) -> Numbers:
+    def numbers(self, element: ET.Element | None, default: Numbers, nan: bool = False, most: float = math.inf) -> Numbers:
         """As many numbers as ``default`` has. As in Gazebo, numbers that stand first count, whatever follows them; those
         that are missing, or are a NaN, are taken from the default, with a warning.
 
@@ -71,10 +71,10 @@ class SdfValues:
         self.warn(element, f"'{quoted(text)}' {problem}; using {' '.join(f'{v:g}' for v in values)}")
         return cast(Numbers, values)
 
-    def number(self, parent: Optional[ET.Element], path: str, default: float, nan: bool = False, most: float = math.inf) -> float:
+    def number(self, parent: ET.Element | None, path: str, default: float, nan: bool = False, most: float = math.inf) -> float:
         return self.numbers(parent.find(path), (default,), nan, most)[0] if parent is not None else default
 
-    def between(self, parent: Optional[ET.Element], path: str, default: float, lowest: float, highest: float) -> float:
+    def between(self, parent: ET.Element | None, path: str, default: float, lowest: float, highest: float) -> float:
         """A number of that range; outside of it the default, with a warning."""
         value = self.number(parent, path, default)
         if not lowest <= value <= highest:
@@ -84,11 +84,11 @@ class SdfValues:
             return default
         return value
 
-    def whole(self, parent: Optional[ET.Element], path: str, default: int, lowest: int, highest: int) -> int:
+    def whole(self, parent: ET.Element | None, path: str, default: int, lowest: int, highest: int) -> int:
         """As :meth:`between`, without what stands behind the decimal point."""
         return int(self.between(parent, path, default, lowest, highest))
 
-    def vector(self, parent: Optional[ET.Element], path: str, default: Numbers, most: float = math.inf) -> Numbers:
+    def vector(self, parent: ET.Element | None, path: str, default: Numbers, most: float = math.inf) -> Numbers:
         return self.numbers(parent.find(path), default, most=most) if parent is not None else default
 
     @staticmethod
@@ -96,7 +96,7 @@ class SdfValues:
         text = text_of(parent.find(path))
         return is_true(text) if text else default
 
-    def rgba(self, parent: Optional[ET.Element], tag: str, default=None):
+    def rgba(self, parent: ET.Element | None, tag: str, default=None):
         element = parent.find(tag) if parent is not None else None
         if element is None or not text_of(element):
             return default
@@ -104,7 +104,7 @@ class SdfValues:
             return self.numbers(element, (0.0, 0.0, 0.0, 1.0), most=_BRIGHTEST)
         return (*self.numbers(element, (0.0, 0.0, 0.0), most=_BRIGHTEST), 1.0)
 
-    def pose(self, element: Optional[ET.Element]) -> Pose:
+    def pose(self, element: ET.Element | None) -> Pose:
         """The numbers of a ``<pose>``, whatever frame they are in.
 
         :raises DescriptionError: not finite, or farther away than :data:`FARTHEST`.
@@ -114,7 +114,7 @@ class SdfValues:
             return math3.IDENTITY
         by_quaternion = element.get("rotation_format") == "quat_xyzw"
         count = 7 if by_quaternion else 3 if len(text.split(None, 4)) == 3 else 6
-        values: Tuple[float, ...] = self.numbers(element, ((0.0,) * 6 + (1.0,))[:count], nan=True)
+        values: tuple[float, ...] = self.numbers(element, ((0.0,) * 6 + (1.0,))[:count], nan=True)
         if not all(math.isfinite(value) for value in values):
             raise fault(element, f"'{quoted(text)}' is not a pose; give finite values")
         if max(abs(value) for value in values[:3]) > FARTHEST:

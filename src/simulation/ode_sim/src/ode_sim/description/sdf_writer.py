@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import os
 import xml.etree.ElementTree as ET
-from typing import Any, Iterable, Optional, Union
+from collections.abc import Iterable
+from typing import Any
 
 from ode_sim import math3
 from ode_sim.description import model as d
@@ -260,7 +261,7 @@ def _geometry(parent: ET.Element, shape: d.Geometry) -> None:
             _leaf(made, name, getattr(shape, name, None))
 
 
-def _uri(shape: Union[d.Mesh, d.Heightmap]) -> str:
+def _uri(shape: d.Mesh | d.Heightmap) -> str:
     """As it was written, where that names the file wherever it is read."""
     return shape.uri if "://" in shape.uri or not shape.path else "file://" + os.path.abspath(shape.path)
 
@@ -280,7 +281,7 @@ def _material(parent: ET.Element, material: d.Material) -> None:
         _leaf(element, tag, getattr(material, tag))
 
 
-def _materials_folder(texture: str) -> Optional[str]:
+def _materials_folder(texture: str) -> str | None:
     folder, last = os.path.split(os.path.dirname(texture))
     return folder if last == "textures" and os.path.isdir(os.path.join(folder, "scripts")) else None
 

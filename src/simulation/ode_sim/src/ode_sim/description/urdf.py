@@ -8,8 +8,8 @@ Children are taken in the order of their joints' names, as urdfdom keeps them.
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from typing import Dict, Iterator, List, Optional, Tuple
 
 from ode_sim import math3
 from ode_sim.description import urdf_extensions as extensions
@@ -42,16 +42,16 @@ class _Shape:
 class _UrdfLink:
     name: str
     element: ET.Element
-    inertial: Optional[_Mass] = None
-    raw_inertial: Optional[Tuple[Pose, Tuple[float, ...]]] = None  # as written, while nothing was lumped in
-    fault: Optional[DescriptionError] = None  # why it has no mass although it has an <inertial>
-    visuals: List[_Shape] = field(default_factory=list)
-    collisions: List[_Shape] = field(default_factory=list)
-    parent_joint: Optional["_UrdfJoint"] = None
-    child_joints: List["_UrdfJoint"] = field(default_factory=list)  # as written
-    joints: List["_UrdfJoint"] = field(default_factory=list)  # those that hang on it, once fixed ones are lumped
+    inertial: _Mass | None = None
+    raw_inertial: tuple[Pose, tuple[float, ...]] | None = None  # as written, while nothing was lumped in
+    fault: DescriptionError | None = None  # why it has no mass although it has an <inertial>
+    visuals: list[_Shape] = field(default_factory=list)
+    collisions: list[_Shape] = field(default_factory=list)
+    parent_joint: _UrdfJoint | None = None
+    child_joints: list[_UrdfJoint] = field(default_factory=list)  # as written
+    joints: list[_UrdfJoint] = field(default_factory=list)  # those that hang on it, once fixed ones are lumped
     fixed_below: int = 0  # of the longest row of fixed joints that was lumped into it
-    lumped_into: Optional["_UrdfLink"] = None
+    lumped_into: _UrdfLink | None = None
 
 
 @dataclass
@@ -96,8 +96,8 @@ class _Conversion:
         self.robot = robot
         self.reader = reader
         self.extensions = extensions.Extensions(robot, reader)
-        self.links: Dict[str, _UrdfLink] = {}
-        self.joints: Dict[str, _UrdfJoint] = {}
+        self.links: dict[str, _UrdfLink] = {}
+        self.joints: dict[str, _UrdfJoint] = {}
 
     # ------------------------------------------------------------------ reading
 
@@ -185,7 +185,7 @@ class _Conversion:
         return link
 
     def _weigh(self, link: _UrdfLink, inertial: ET.Element) -> None:
-        faults: List[DescriptionError] = []
+        faults: list[DescriptionError] = []
         mass, pose, tensor = parts.inertial(inertial, faults.append)
         self._refuse_xacro(faults)
         if mass > 0.0:
@@ -199,7 +199,7 @@ class _Conversion:
         elif faults:
             link.fault = faults[0]
 
-    def _shapes(self, elements: List[ET.Element], link: str) -> List[_Shape]:
+    def _shapes(self, elements: list[ET.Element], link: str) -> list[_Shape]:
         shapes = []
         for element in elements:
             try:
@@ -212,7 +212,7 @@ class _Conversion:
         return shapes
 
     @staticmethod
-    def _refuse_xacro(faults: List[DescriptionError]) -> None:
+    def _refuse_xacro(faults: list[DescriptionError]) -> None:
         for error in faults:
             if parts.is_xacro(error):
                 raise error
@@ -395,7 +395,7 @@ class _Conversion:
         child(limit, "velocity", repr(limits.velocity))
 
 
-def _combined(parent: Optional[_Mass], lumped: _Mass, x_pl: Pose) -> _Mass:
+def _combined(parent: _Mass | None, lumped: _Mass, x_pl: Pose) -> _Mass:
     """Both bodies as one, in the frame of the parent."""
     moved = _Mass(lumped.mass, math3.transform(x_pl, lumped.com), math3.rotate_inertia(x_pl.q, lumped.inertia))
     if parent is None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field
-from typing import Dict, List, Optional, Tuple
 
 from ode_sim import math3
 from ode_sim.description.model import FARTHEST, Pose, quoted
@@ -56,10 +55,10 @@ class _Extension:
     """One ``<gazebo reference>`` block. ``origin`` stays the link it was written for when that one is lumped."""
 
     origin: str
-    values: Dict[str, ET.Element] = field(default_factory=dict)  # known tags
-    in_visual: List[ET.Element] = field(default_factory=list)
-    in_collision: List[ET.Element] = field(default_factory=list)
-    others: List[Element] = field(default_factory=list)  # copied verbatim
+    values: dict[str, ET.Element] = field(default_factory=dict)  # known tags
+    in_visual: list[ET.Element] = field(default_factory=list)
+    in_collision: list[ET.Element] = field(default_factory=list)
+    others: list[Element] = field(default_factory=list)  # copied verbatim
 
 
 class Extensions:
@@ -67,7 +66,7 @@ class Extensions:
 
     def __init__(self, robot: ET.Element, reader):
         self._reader = reader
-        self._blocks: Dict[str, List[_Extension]] = {}
+        self._blocks: dict[str, list[_Extension]] = {}
         known = set(_COLLISION_TAGS) | set(_JOINT_TAGS) | set(_LINK_TAGS) | set(_OWN_MEANING)
         names = {e.get("name") for e in robot if e.tag in ("link", "joint")}
         for block in robot.findall("gazebo"):
@@ -83,8 +82,8 @@ class Extensions:
                 else:
                     extension.others.append(clone(element))
             self._blocks.setdefault(reference, []).append(extension)
-        self._numbered: Dict[str, Dict[str, List[Tuple[int, _Extension]]]] = {}  # link -> origin -> its blocks, in order
-        self._referring: Dict[str, Dict[int, Element]] = {}  # link -> what names it, beside the links, by id()
+        self._numbered: dict[str, dict[str, list[tuple[int, _Extension]]]] = {}  # link -> origin -> its blocks, in order
+        self._referring: dict[str, dict[int, Element]] = {}  # link -> what names it, beside the links, by id()
         for blocks in self._blocks.values():
             for element in (element for block in blocks for element in block.others):
                 for name in {text_of(named) for tag in _NAMING.get(element.tag, ()) for named in element.findall(tag)}:
@@ -192,7 +191,7 @@ class Extensions:
             self._set(element, "material/script/name", "Gazebo/White")
             self._set(element, "material/script/uri", _MATERIAL_SCRIPT)
 
-    def sensors_of(self, joint: str) -> List[Element]:
+    def sensors_of(self, joint: str) -> list[Element]:
         return [element for block in self._blocks.get(joint, ()) for element in block.others if element.tag == "sensor"]
 
     def insert_in_joint(self, element: Element, joint: str) -> None:
@@ -200,7 +199,7 @@ class Extensions:
             self._insert(element, block, _JOINT_TAGS)
             element.extend(block.others)
 
-    def _blocks_for(self, element: Element, link: str, suffix: str) -> List[_Extension]:
+    def _blocks_for(self, element: Element, link: str, suffix: str) -> list[_Extension]:
         """Those of the link that the shape was written in: its name tells, as in sdformat."""
         if link not in self._numbered:
             numbered = self._numbered[link] = {}
@@ -214,19 +213,19 @@ class Extensions:
         return [block for _, block in sorted(found, key=lambda entry: entry[0])]
 
     @staticmethod
-    def _insert_blobs(element: Element, blobs: List[ET.Element], replacing: str) -> None:
+    def _insert_blobs(element: Element, blobs: list[ET.Element], replacing: str) -> None:
         for blob in blobs:
             if blob.tag == replacing:
                 for old in element.findall(replacing):
                     element.remove(old)
             element.append(clone(blob))
 
-    def _insert(self, element: Element, block: _Extension, tags: Dict[str, str]) -> None:
+    def _insert(self, element: Element, block: _Extension, tags: dict[str, str]) -> None:
         for tag, path in tags.items():
             if tag in block.values:
                 self._set(element, path, text_of(block.values[tag]), block.values[tag])
 
-    def _set(self, element: ET.Element, path: str, text: str, like: Optional[ET.Element] = None) -> None:
+    def _set(self, element: ET.Element, path: str, text: str, like: ET.Element | None = None) -> None:
         """Give the element at ``path`` this text, made if it is not there."""
         tags = path.split("/")
         for tag in tags[:-1]:

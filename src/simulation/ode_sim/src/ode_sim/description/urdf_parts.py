@@ -9,8 +9,9 @@ from __future__ import annotations
 import math
 import re
 import xml.etree.ElementTree as ET
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable, List, Optional, Tuple, TypeVar, cast
+from typing import TypeVar, cast
 
 from ode_sim import math3
 from ode_sim.description.model import FARTHEST, DescriptionError, Mimic, Pose, Vec3, quoted
@@ -40,9 +41,9 @@ class JointParts:
     type: str
     pose: Pose
     axis: Vec3 = (1.0, 0.0, 0.0)
-    limit: Optional[Limit] = None
-    mimic: Optional[Mimic] = None
-    losses: Optional[Tuple[float, float]] = None
+    limit: Limit | None = None
+    mimic: Mimic | None = None
+    losses: tuple[float, float] | None = None
 
 
 # ------------------------------------------------------------------------------------------------ attributes
@@ -56,7 +57,7 @@ def name_of(element: ET.Element, key: str = "name") -> str:
     return value
 
 
-def number(element: ET.Element, key: str, default: Optional[float] = None) -> float:
+def number(element: ET.Element, key: str, default: float | None = None) -> float:
     """:param default: where the attribute is not there; without one it must be.
     :raises DescriptionError: no number, or none at all.
     """
@@ -101,7 +102,7 @@ def is_xacro(error: DescriptionError) -> bool:
     return error.message.endswith(_XACRO)
 
 
-def _value(text: str) -> Optional[float]:
+def _value(text: str) -> float | None:
     if not _NUMBER.fullmatch(text):
         return None
     value = float(text)
@@ -119,7 +120,7 @@ def _hint(text: str) -> str:
 # ------------------------------------------------------------------------------------------------ links
 
 
-def inertial(element: ET.Element, problems: Callable[[DescriptionError], None]) -> Tuple[float, Pose, Tuple[float, ...]]:
+def inertial(element: ET.Element, problems: Callable[[DescriptionError], None]) -> tuple[float, Pose, tuple[float, ...]]:
     """Mass (kg), pose and tensor (kg m^2) of an ``<inertial>``; what is at fault is 0, and goes to ``problems``."""
 
     def read(value: Callable[[], Read], otherwise: Read) -> Read:
@@ -131,7 +132,7 @@ def inertial(element: ET.Element, problems: Callable[[DescriptionError], None]) 
 
     mass = read(lambda: number(part(element, "mass"), "value"), 0.0)
     pose = read(lambda: origin(element), math3.IDENTITY)
-    nothing: Tuple[float, ...] = (0.0,) * len(TENSOR)
+    nothing: tuple[float, ...] = (0.0,) * len(TENSOR)
     tensor = read(lambda: tuple(number(part(element, "inertia"), key) for key in TENSOR), nothing)
     return mass, pose, tensor
 
@@ -144,7 +145,7 @@ def part(inertial: ET.Element, tag: str) -> ET.Element:
     return found
 
 
-def shape(element: ET.Element) -> Tuple[ET.Element, Pose]:
+def shape(element: ET.Element) -> tuple[ET.Element, Pose]:
     """The shape in the ``<geometry>`` of a visual or collision, and its pose in the link.
 
     :raises DescriptionError: what urdfdom would not take.
@@ -154,7 +155,7 @@ def shape(element: ET.Element) -> Tuple[ET.Element, Pose]:
     if geometry is None or len(geometry) == 0:
         raise fault(element, "it has no shape in its <geometry>")
     form = geometry[0]
-    sizes: Tuple[float, ...] = ()
+    sizes: tuple[float, ...] = ()
     if form.tag == "box":
         if form.get("size") is None:
             raise fault(form, "attribute 'size' is missing; it is 3 numbers")
@@ -178,7 +179,7 @@ def shape(element: ET.Element) -> Tuple[ET.Element, Pose]:
     return form, pose
 
 
-def mesh_scale(mesh: ET.Element) -> Tuple[float, ...]:
+def mesh_scale(mesh: ET.Element) -> tuple[float, ...]:
     """Three numbers; one stands for all three axes."""
     words = (mesh.get("scale") or "").split()
     return floats(mesh, "scale", (1.0, 1.0, 1.0)) if len(words) != 1 else (number(mesh, "scale"),) * 3
@@ -215,7 +216,7 @@ def joint(element: ET.Element, name: str, problems: Callable[[ET.Element, str], 
     return JointParts(kind, origin(element), xyz, limit, _mimic(element, name, problems), _losses(element))
 
 
-def _mimic(element: ET.Element, name: str, problems: Callable[[ET.Element, str], None]) -> Optional[Mimic]:
+def _mimic(element: ET.Element, name: str, problems: Callable[[ET.Element, str], None]) -> Mimic | None:
     mimic = element.find("mimic")
     if mimic is None:
         return None
@@ -229,7 +230,7 @@ def _mimic(element: ET.Element, name: str, problems: Callable[[ET.Element, str],
     return Mimic(followed.strip(), factor, offset)
 
 
-def _losses(element: ET.Element) -> Optional[Tuple[float, float]]:
+def _losses(element: ET.Element) -> tuple[float, float] | None:
     dynamics = element.find("dynamics")
     if dynamics is None:
         return None
@@ -257,7 +258,7 @@ def check_robot(robot: ET.Element) -> None:
     version = robot.get("version")
     if version is not None and not re.fullmatch(r"\s*\+?0*1\.\s*\+?0+", version):
         raise fault(robot, f"version='{quoted(version)}'; there is URDF 1.0 only, write version='1.0' or leave it out")
-    names: List[str] = []
+    names: list[str] = []
     for material in robot.findall("material"):
         name = material.get("name") or ""
         if name in names:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from typing import List, Optional, Tuple, Union
 from xml.parsers import expat
 
 import lenient_xml
@@ -29,7 +28,7 @@ class Element(ET.Element):
     oddities: tuple = ()  # of a root: (line, what) of all that was read otherwise than it is written
 
 
-def parse_xml(text: Union[str, bytes], file: str = "") -> Element:
+def parse_xml(text: str | bytes, file: str = "") -> Element:
     """Root element of ``text``. Prefixes of namespaces stay part of the tag names, declared or not.
 
     As Gazebo's parser does, it tolerates blank lines before the XML declaration, ``--`` inside comments and anything
@@ -62,7 +61,7 @@ def parse_xml(text: Union[str, bytes], file: str = "") -> Element:
         ) from None
 
 
-def _decoded(text: Union[str, bytes]) -> str:
+def _decoded(text: str | bytes) -> str:
     if isinstance(text, str):
         return text
     try:
@@ -80,7 +79,7 @@ def _without_comments(text: str) -> str:
     return "".join(pieces) + text[at:]
 
 
-def _as_tinyxml(text: str, file: str) -> Optional[Element]:
+def _as_tinyxml(text: str, file: str) -> Element | None:
     """The root that counts, None where TinyXML finds none either."""
     builder = _Builder(file)
     try:
@@ -98,8 +97,8 @@ class _Builder:
 
     def __init__(self, file: str):
         self.file = file
-        self.roots: List[Element] = []
-        self._stack: List[Element] = []
+        self.roots: list[Element] = []
+        self._stack: list[Element] = []
         self._count = 0
 
     def start(self, tag: str, attrib: dict, line: int) -> None:
@@ -191,7 +190,7 @@ def clone(element: ET.Element) -> Element:
     return copy
 
 
-def child(parent: ET.Element, tag: str, text: str = "", attrib: Optional[dict] = None, like: Optional[ET.Element] = None) -> Element:
+def child(parent: ET.Element, tag: str, text: str = "", attrib: dict | None = None, like: ET.Element | None = None) -> Element:
     """Append a new element to ``parent``; it takes the line of ``like``, or of ``parent``."""
     element = Element(tag, attrib or {})
     element.text = text
@@ -214,7 +213,7 @@ def source_of(element: ET.Element) -> Source:
     return Source(getattr(element, "file", ""), getattr(element, "line", 0), shown)
 
 
-def text_of(element: Optional[ET.Element], default: str = "") -> str:
+def text_of(element: ET.Element | None, default: str = "") -> str:
     """Stripped text of an element, or its ``value`` attribute as old files have it."""
     if element is None:
         return default
@@ -235,11 +234,11 @@ def is_true(text: str) -> bool:
     return text.strip().lower() in ("true", "yes", "1")
 
 
-def leading_numbers(text: str, count: int) -> Tuple[float, ...]:
+def leading_numbers(text: str, count: int) -> tuple[float, ...]:
     """Up to ``count`` numbers from the start of ``text``, as a C++ stream reads them: what follows is left alone (``0.3m``
     is 0.3), the first word that is no number ends the row.
     """
-    numbers: List[float] = []
+    numbers: list[float] = []
     position = 0
     while len(numbers) < count:
         match = _NUMBER.match(text, position)

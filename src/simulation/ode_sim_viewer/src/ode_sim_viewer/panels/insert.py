@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Any, Dict, Tuple
+from typing import Any
 
 from ode_sim.description import DescriptionError, read_model
 from ode_sim.description import model as d
@@ -23,7 +23,7 @@ class InsertPanel(Panel):
 
     def __init__(self, page: Any):
         super().__init__(page)
-        self._models: Dict[str, str] = {}
+        self._models: dict[str, str] = {}
         self._asked = False
         self._by_hand = self.gui.add_checkbox(
             "Put it down with the mouse",
@@ -70,7 +70,7 @@ class InsertPanel(Panel):
             self.page.selection.insert(thing.name, thing.text, compose(place, thing.lift))
 
     def _shape(self, event: Any) -> None:
-        shapes: Dict[str, Tuple[Simple, str]] = {
+        shapes: dict[str, tuple[Simple, str]] = {
             "Box": (d.Box(), "unit_box"),
             "Sphere": (d.Sphere(0.5), "unit_sphere"),
             "Cylinder": (d.Cylinder(0.5, 1.0), "unit_cylinder"),

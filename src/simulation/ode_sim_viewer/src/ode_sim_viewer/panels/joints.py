@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import partial
-from typing import Any, Dict, List, Tuple
+from typing import Any
 
 from ode_sim.description import model as d
 
@@ -30,8 +30,8 @@ class JointsPanel(Panel):
             )
         self._force = self.gui.add_number("Largest force (N m, N)", 10.0, min=0.001, step=1.0)
         self._folder = self.gui.add_folder("Pick a model first")
-        self._sliders: Dict[str, Any] = {}
-        self._made: List[Any] = []
+        self._sliders: dict[str, Any] = {}
+        self._made: list[Any] = []
         self._model = ""
         page.selection.on_change.append(self._on_select)
         self._gains = dict(_GAINS)  # as they were typed last, by mode
@@ -86,7 +86,7 @@ class JointsPanel(Panel):
             self.simulation.command_joint(self._model, joint, mode, float(value), self._typed())
 
 
-def range_of(joint: d.Joint, mode: str, largest_force: float = 10.0) -> Tuple[float, float]:
+def range_of(joint: d.Joint, mode: str, largest_force: float = 10.0) -> tuple[float, float]:
     """What a slider of this joint goes through: its limits, or what is usual where it has none.
 
     :param mode: ``force`` (N m, N), ``velocity`` (rad/s, m/s), else a position (rad, m). :param largest_force: whatever the joint bears

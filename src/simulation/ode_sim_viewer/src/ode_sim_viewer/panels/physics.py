@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import Any, Callable, Dict, NamedTuple, Optional, Tuple
+from typing import Any, NamedTuple
 
 from ode_sim.description import model as d
 
@@ -18,7 +19,7 @@ PATIENCE = 2.0  # s after the last key, until a refused number is taken back: th
 class _Field(NamedTuple):
     control: Any
     shown: Callable[[d.Physics, d.Vec3], Any]
-    put: Callable[[d.Physics, d.Vec3, Any], Tuple[d.Physics, d.Vec3]]
+    put: Callable[[d.Physics, d.Vec3, Any], tuple[d.Physics, d.Vec3]]
 
 
 def _number(control: Any, name: str, kind: Callable[[Any], Any] = float) -> _Field:
@@ -40,7 +41,7 @@ class PhysicsPanel(Panel):
 
     def __init__(self, page: Any):
         super().__init__(page)
-        self._known: Optional[str] = None
+        self._known: str | None = None
         self._gravity = self.gui.add_vector3("Gravity (m/s²)", (0.0, 0.0, -9.8), step=0.1)
         self._step = self.gui.add_number("Step (s)", 0.001, min=1e-6, max=0.1, step=0.001)
         self._rate = self.gui.add_number("Steps per second", 1000.0, min=0.0, step=100.0, hint="0: as fast as possible")
@@ -58,7 +59,7 @@ class PhysicsPanel(Panel):
         self._layer = self.gui.add_number("Contacts: depth that stays (m)", 0.001, min=0.0, max=0.1, step=0.0005)
         self._contacts = self.gui.add_number("Contacts of a pair at most", 20, min=1, max=1000, step=1)
         self._lock = threading.Lock()  # each key of a number is a call of its own, in a thread of its own
-        self._waiting: Dict[str, threading.Timer] = {}
+        self._waiting: dict[str, threading.Timer] = {}
         self._fields = (
             _Field(self._gravity, lambda _, gravity: _vector(gravity), lambda physics, _, value: (physics, _vector(value))),
             _Field(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any, Dict, List, Tuple
+from typing import Any
 
 from ode_sim.description import model as d
 from ode_sim.math3 import Pose, quat_from_rpy, to_rpy, vec3
@@ -22,7 +22,7 @@ class Properties:
         self.panel = panel
         self.page = panel.page
         self.gui = panel.gui
-        self.handles: List[Any] = []
+        self.handles: list[Any] = []
 
     def build(self) -> None:
         """Add the controls; a refusal leaves those that are there already.
@@ -48,7 +48,7 @@ class Properties:
         """While a hand makes it so."""
         self._put({"size": size_of(geometry)})
 
-    def _put(self, values: Dict[str, Any]) -> None:
+    def _put(self, values: dict[str, Any]) -> None:
         """:param values: attribute -> of that control, if there is one."""
         for name, value in values.items():
             if hasattr(self, name):
@@ -164,7 +164,7 @@ class ModelProperties(Properties):
             for control in (self.friction, self.bounce):
                 self.panel.on_update(control, lambda _: self._set_surface())
 
-    def _links(self, record: ModelRecord) -> List[d.Link]:
+    def _links(self, record: ModelRecord) -> list[d.Link]:
         return [link for link in record.description.links if self._link in ("", link.name)]
 
     def _paint(self, rgba: d.Rgba) -> None:
@@ -217,16 +217,16 @@ class ModelProperties(Properties):
         )
 
 
-def _inertial(now: LinkProperties) -> Dict[str, Any]:
+def _inertial(now: LinkProperties) -> dict[str, Any]:
     diagonal, products = (tuple(float(now.inertia[i]) for i in part) for part in ((0, 3, 5), (1, 2, 4)))
     return {"mass": float(now.mass), "gravity": now.gravity, "com": tuple(map(float, now.com)), "diagonal": diagonal, "products": products}
 
 
-def _contact(now: SurfaceProperties) -> Dict[str, Any]:
+def _contact(now: SurfaceProperties) -> dict[str, Any]:
     return {"friction": (min(now.mu, 1e6), min(now.mu2, 1e6)), "bounce": float(now.restitution)}
 
 
-def _colour(visual: d.Visual) -> Tuple[int, ...]:
+def _colour(visual: d.Visual) -> tuple[int, ...]:
     """0 to 255: red, green, blue and how solid it is."""
     rgba = (visual.material.diffuse if visual.material else None) or (0.7, 0.7, 0.7, 1.0)
     return (*rgb255(rgba), byte_of(rgba[3] * (1.0 - visual.transparency)))
@@ -268,7 +268,7 @@ class LightProperties(Properties):
         self.page.selection.change_light(**changes)
 
 
-def _shine(light: d.Light) -> Dict[str, Any]:
+def _shine(light: d.Light) -> dict[str, Any]:
     return {
         "diffuse": rgb255(light.diffuse),
         "shadows": light.cast_shadows,

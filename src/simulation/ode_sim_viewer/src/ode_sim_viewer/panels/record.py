@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from typing import Any, Optional
+from typing import Any
 
 from ode_sim_viewer.movie import RATE, Movie
 from ode_sim_viewer.panels.base import Panel
@@ -28,9 +28,9 @@ class RecordPanel(Panel):
         self._replay.on_click(lambda event: page.attempt(event, lambda: self._toggle(event.client)))
         self._film = self.gui.add_button("Film", hint="MP4 of what this page looks at, drawn when it ends; 2 minutes")
         self._film.on_click(lambda event: page.attempt(event, lambda: self._toggle_film(event.client)))
-        self._recording: Optional[Any] = None
+        self._recording: Any | None = None
         self._last = 0.0
-        self._movie: Optional[Movie] = None
+        self._movie: Movie | None = None
         self._filming: Any = None  # the page that films
         self._next = 0.0  # wall s of the next picture
 

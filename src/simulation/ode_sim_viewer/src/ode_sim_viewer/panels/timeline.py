@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from typing import Any, Tuple
+from typing import Any
 
 from ode_sim_viewer.panels.base import Panel, note
 from ode_sim_viewer.panels.play import clock
@@ -19,7 +19,7 @@ class TimelinePanel(Panel):
 
     def __init__(self, page: Any):
         super().__init__(page)
-        self._moments: Tuple[KeptMoment, ...] = ()
+        self._moments: tuple[KeptMoment, ...] = ()
         self._next = 0.0
         self._record = self.gui.add_checkbox("Record", False, hint="keep moments while the simulation runs")
         self._period = self.gui.add_number(

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import time
-from typing import Any, Callable, Dict, Optional, Tuple
+from collections.abc import Callable
+from typing import Any
 
 from ode_sim.math3 import Pose
 
@@ -16,7 +17,7 @@ from ode_sim_viewer.simulation import Frame, WorldRecord
 
 _MOST_ROWS = 30
 _KEPT = 10.0  # wall s that a row is kept after it was hidden: a click on it may be under way, an undo may bring it back
-Row = Tuple[str, str, str, str]  # label, model, link, light
+Row = tuple[str, str, str, str]  # label, model, link, light
 
 
 class WorldPanel(Panel):
@@ -29,12 +30,12 @@ class WorldPanel(Panel):
         self._history = self.gui.add_button_group("History", ("Undo", "Redo"))
         self._search = self.gui.add_text("Search", "", hint="of models, links and lights whose name has this in it")
         self._list = self.gui.add_folder("Models and lights")
-        self._rows: Dict[Row, Any] = {}
-        self._hidden: Dict[Row, float] = {}  # row -> wall s when it was hidden
-        self._more: Optional[Any] = None
-        self._listed: Optional[Tuple] = None
+        self._rows: dict[Row, Any] = {}
+        self._hidden: dict[Row, float] = {}  # row -> wall s when it was hidden
+        self._more: Any | None = None
+        self._listed: tuple | None = None
         self._folder = self.gui.add_folder("Nothing is picked")
-        self._properties: Optional[Properties] = None
+        self._properties: Properties | None = None
         with self.gui.add_folder("By hand"):
             self._gizmo = self.gui.add_checkbox("Move and rotate by hand", False)
             self._resize = self.gui.add_checkbox("Resize by hand", False, hint="the three knobs of a box, sphere or cylinder")
@@ -94,7 +95,7 @@ class WorldPanel(Panel):
         button.on_click(lambda event: self.page.attempt(event, lambda: self.page.later(lambda: self.page.selection.select(*what))))
         return button
 
-    def _fitting(self) -> Tuple[Row, ...]:
+    def _fitting(self) -> tuple[Row, ...]:
         wanted, picked = self._search.value.lower(), self.page.selection.model
         rows = []
         for model in self.page.world.models:

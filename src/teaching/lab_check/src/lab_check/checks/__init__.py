@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
-from typing import Any, Dict, Tuple
+from typing import Any
 
 from .base import Check, Context
 
@@ -11,7 +11,7 @@ from .base import Check, Context
 class PythonCheck(Check):
     """A function of the teacher: ``f(context, **arguments)`` returns True, False, or (passed, sentence)."""
 
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         path = self.context.spec_folder / self.wanted["file"]
         spec = importlib.util.spec_from_file_location("lab_check_teacher", path)
         module = importlib.util.module_from_spec(spec)

@@ -6,8 +6,9 @@ import pathlib
 import re
 import signal
 import threading
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, Callable, Dict, List, Optional, Set, Tuple
+from typing import Any
 
 from ..examination.simulated_world import Bench, Sample
 
@@ -21,12 +22,12 @@ class Context:
         pathlib.Path
     )  # of the submission; below it, its programs may have put links in the place of anything: see isolation.untrusted_files
     source: pathlib.Path  # its packages
-    packages: Dict[str, pathlib.Path]
+    packages: dict[str, pathlib.Path]
     log: Callable[[], str] = lambda: ""
-    bench: Optional[Bench] = None
+    bench: Bench | None = None
     actor: Any = None
     model: str = ""
-    samples: List[Sample] = field(default_factory=list)
+    samples: list[Sample] = field(default_factory=list)
     simulator_seconds: Callable[[], float] = lambda: 0.0  # processor time of the simulator
 
 
@@ -42,8 +43,8 @@ class Check:
 
     def __init__(self, wanted: Any, context: Context):
         self.wanted, self.context = wanted, context
-        self.series: Dict[str, List[List[float]]] = {}
-        self.doubts: Set[str] = set()  # what makes it doubtful what was measured, a sentence each
+        self.series: dict[str, list[list[float]]] = {}
+        self.doubts: set[str] = set()  # what makes it doubtful what was measured, a sentence each
 
     def start(self) -> None:
         """Before the commands."""
@@ -54,7 +55,7 @@ class Check:
     def sample(self, sample: Sample) -> None:
         """After each quantum."""
 
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         """(passed, sentence, figures)"""
         raise NotImplementedError
 
@@ -62,7 +63,7 @@ class Check:
 _PATIENCE = 5.0  # s that a pattern may be looked for
 
 
-def search(pattern: str, text: str) -> "Optional[re.Match]":
+def search(pattern: str, text: str) -> re.Match | None:
     """``re.search`` that gives up: what a submission wrote may be made so that the teacher's pattern goes through it for ever. None
     then, too."""
     if threading.current_thread() is not threading.main_thread():

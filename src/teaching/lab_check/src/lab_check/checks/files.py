@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
-from typing import Any, Dict, List, Tuple
+from typing import Any
 
 import lenient_xml
 
@@ -17,7 +17,7 @@ _LARGEST = 1_000_000  # bytes of a file in which a pattern is looked for
 class FileCheck(Check):
     """A file of the submission: ``path`` below the packages, ``*`` allowed."""
 
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         path = self.wanted["path"]
         found = self._find(path)
         if self.wanted.get("absent"):
@@ -36,7 +36,7 @@ class FileCheck(Check):
         except OSError:  # something else stands there by now
             return False
 
-    def _find(self, path: str) -> List[str]:
+    def _find(self, path: str) -> list[str]:
         """Below the submission's home."""
         package, _, rest = path.partition("/")
         mine = package in self.context.packages and rest
@@ -48,7 +48,7 @@ class FileCheck(Check):
 class UrdfCheck(Check):
     """The robot description on the parameter server."""
 
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         import rosgraph
 
         name = self.wanted.get("param", "/robot_description")
@@ -64,7 +64,7 @@ class UrdfCheck(Check):
         return not complaints, "; ".join(complaints) or f"the robot description has {_in_words(self.wanted)}", {}
 
 
-def _in_words(wanted: Dict[str, Any]) -> str:
+def _in_words(wanted: dict[str, Any]) -> str:
     words = [f"{wanted['moving']} moving joints"] if "moving" in wanted else []
     for key in ("joints", "links", "plugins", "sensors"):
         words += [f"the {key} {names(wanted[key])}"] if wanted.get(key) else []
@@ -74,7 +74,7 @@ def _in_words(wanted: Dict[str, Any]) -> str:
     return " and ".join(words) or "the parameter that is asked for"
 
 
-def complain(robot: ET.Element, wanted: Dict[str, Any]) -> List[str]:
+def complain(robot: ET.Element, wanted: dict[str, Any]) -> list[str]:
     """What of the description is not as wanted."""
     joints = {joint.get("name"): joint for joint in robot.findall("joint")}
     moving = [joint for joint in joints.values() if joint.get("type") != "fixed"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import fnmatch
 import math
-from typing import Any, Dict, List, Tuple
+from typing import Any
 
 import rosgraph
 import rospy
@@ -20,13 +20,13 @@ def master() -> rosgraph.Master:
     return rosgraph.Master("/lab_check")
 
 
-def _missing(what: str, name: str, there: List[str]) -> str:
+def _missing(what: str, name: str, there: list[str]) -> str:
     near = difflib.get_close_matches(name, there, 1, 0.6)
     return f"there is no {what} {name}" + (f"; did you mean {near[0]}?" if near else f" (there are: {names(there)})")
 
 
 class NodeCheck(Check):
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         there = sorted({node for part in master().getSystemState() for _, nodes in part for node in nodes} - {rospy.get_name()})
         if any(fnmatch.fnmatchcase(node, self.wanted) for node in there):
             return True, f"the node {self.wanted} runs", {}
@@ -38,7 +38,7 @@ class TopicCheck(Check):
 
     def __init__(self, wanted, context):
         super().__init__(wanted, context)
-        self._arrivals: List[float] = []
+        self._arrivals: list[float] = []
         self._latched = None
         self._subscriber = None
         if "rate" in wanted or "latched" in wanted:
@@ -60,7 +60,7 @@ class TopicCheck(Check):
         self._arrivals.append(self.context.bench.now.time)
         self._latched = message._connection_header.get("latching") == "1"
 
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         if self._subscriber is not None:
             self._subscriber.unregister()
         try:
@@ -82,7 +82,7 @@ class TopicCheck(Check):
             return self._rate(name)
         return True, f"{name} is there, {kind}", {}
 
-    def _rate(self, name: str) -> Tuple[bool, str, Dict[str, Any]]:
+    def _rate(self, name: str) -> tuple[bool, str, dict[str, Any]]:
         passed_time = self.context.bench.now.time - self._begin
         rate = len(self._arrivals) / passed_time if passed_time > 0 else 0.0
         low, high = self.wanted["rate"]
@@ -90,7 +90,7 @@ class TopicCheck(Check):
 
 
 class ServiceCheck(Check):
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         from rosservice import ROSServiceException, get_service_type
 
         name = self.wanted["name"]
@@ -107,7 +107,7 @@ class ServiceCheck(Check):
 
 
 class ParamCheck(Check):
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         name = self.wanted["name"]
         try:
             value = master().getParam(name)
@@ -143,7 +143,7 @@ class TfCheck(Check):
         for transform in message.transforms:
             set_it(transform, "lab_check")
 
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         import tf2_ros
 
         for subscriber in self._subscribers:
@@ -162,7 +162,7 @@ class TfCheck(Check):
 
 
 class ControllersCheck(Check):
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         from controller_manager_msgs.srv import ListControllers
 
         services = sorted(s for s, _ in master().getSystemState()[2] if s.endswith("/controller_manager/list_controllers"))
@@ -202,7 +202,7 @@ class ControllersCheck(Check):
                 return False, f"{names(wrong)}, not {kind}", figures
         return True, f"running: {names(running)}", figures
 
-    def _doubt(self, services: List[str]) -> None:
+    def _doubt(self, services: list[str]) -> None:
         """A node of the submission that is a controller manager, of a robot of its own say, tells what it likes."""
         owners = {node for service, nodes in master().getSystemState()[2] if service in services for node in nodes}
         for node in sorted(owners):
@@ -211,7 +211,7 @@ class ControllersCheck(Check):
 
 
 class NoErrorsCheck(Check):
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         ignored = self.wanted.get("ignore", [])
         lines = [line for line in error_lines(self.context.log()) if not any(search(pattern, line) for pattern in ignored)]
         if lines:
@@ -238,7 +238,7 @@ class ExitCheck(Check):
     def sample(self, sample: Sample) -> None:
         del sample
 
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         program = self.context.actor.runs.get(self.wanted["run"])
         if program is None:
             return False, "the program was not started", {}
@@ -281,7 +281,7 @@ class ExitCheck(Check):
 
 
 class AnswerCheck(Check):
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         key = self.wanted["call"]
         answer = self.context.actor.answers.get(key)
         refusal = self.context.actor.refusals.get(key)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any
 
 import image_pixels
 import numpy as np
@@ -34,7 +34,7 @@ class JointCheck(Timed):
     def __init__(self, wanted, context):
         super().__init__(wanted, context)
         self.horizon = wanted.get("within", 10.0) + wanted.get("hold", 0.0)
-        self._inside: Optional[float] = None
+        self._inside: float | None = None
         self._best, self._last, self._reached = math.inf, None, None
         self._begin = math.inf
 
@@ -64,7 +64,7 @@ class JointCheck(Timed):
             self._reached = self._inside - self._begin
             self.settled = True
 
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         name, unit = self.wanted["name"], "rad/s" if self.wanted.get("velocity") else "rad (or m)"
         if self._last is None:
             there = sorted({j for m in self.context.bench.now.models.values() for j in m.get("joints", {})})
@@ -105,8 +105,8 @@ class StillCheck(Timed):
     def __init__(self, wanted, context):
         super().__init__(wanted, context)
         self.horizon = wanted.get("for", 1.0)
-        self._first: Dict[str, float] = {}
-        self._most: Dict[str, float] = {}
+        self._first: dict[str, float] = {}
+        self._most: dict[str, float] = {}
 
     def start(self) -> None:
         for name in self.wanted["joints"]:
@@ -122,7 +122,7 @@ class StillCheck(Timed):
                 self._most[name] = max(self._most.get(name, 0.0), abs(found[0] - first))
                 self.note(name, sample.time, found[0])
 
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         missing = [name for name in self.wanted["joints"] if name not in self._first]
         if missing:
             return False, f"no model in the simulator has a joint '{missing[0]}'", {}
@@ -148,7 +148,7 @@ def _subject(check: Check) -> str:
     return max((n for n in models if not models[n]["static"]), key=lambda n: len(models[n].get("joints", {})), default="")
 
 
-def yaw(pose: List[float]) -> float:
+def yaw(pose: list[float]) -> float:
     x, y, z, w = pose[3:]
     return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 
@@ -160,7 +160,7 @@ class MovedCheck(Timed):
         super().__init__(wanted, context)
         self.horizon = wanted.get("within", 0.0)
         self._turned, self._way = 0.0, 0.0
-        self._old: Optional[List[float]] = None
+        self._old: list[float] | None = None
 
     def start(self) -> None:
         self._name = _subject(self)
@@ -182,7 +182,7 @@ class MovedCheck(Timed):
         to = self.wanted["to"]
         return math.dist(pose[: len(to)], to)
 
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         if self._first is None:
             return False, f"there is no '{self._name}' in the simulator (there are: {names(self.context.bench.now.models)})", {}
         way = math.dist(self._first[:3], self._old[:3])
@@ -221,7 +221,7 @@ class PathCheck(Timed):
             self._next, self._closest = self._next + 1, math.inf
             self.settled = self._next == len(self.wanted["points"])
 
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         points = self.wanted["points"]
         if self.settled:
             return True, f"all {len(points)} points were passed", {}
@@ -250,7 +250,7 @@ class DistanceCheck(Timed):
             self._least, self._most = min(self._least, distance), max(self._most, distance)
             self.note("distance", sample.time, distance)
 
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         if self._most < 0:
             return False, f"{self.wanted['from']} or {self.wanted['to']} is not in the simulator", {}
         figures = {"least": self._least, "most": self._most}
@@ -267,7 +267,7 @@ class _Listening(Timed):
     def start(self) -> None:
         import roslib.message
 
-        self.messages: List[Tuple[float, Any]] = []
+        self.messages: list[tuple[float, Any]] = []
         self.problem, self._subscriber = "", None
         try:
             import rosgraph
@@ -318,7 +318,7 @@ class OdometryCheck(_Listening):
         self._name = _subject(self)
         self._first = self.context.bench.now.place(self._name)
 
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         self.stop()
         last = self.context.bench.now.place(self._name)
         if self.problem or last is None or self._first is None:
@@ -333,7 +333,7 @@ class OdometryCheck(_Listening):
         )
 
 
-def _seen(first: List[float], last: List[float]) -> Tuple[float, float]:
+def _seen(first: list[float], last: list[float]) -> tuple[float, float]:
     """Where ``last`` is in the plane, seen from ``first``."""
     dx, dy, angle = last[0] - first[0], last[1] - first[1], -yaw(first)
     return dx * math.cos(angle) - dy * math.sin(angle), dx * math.sin(angle) + dy * math.cos(angle)
@@ -346,7 +346,7 @@ class EnergyCheck(_Listening):
         super().__init__(wanted, context)
         self.horizon = wanted.get("for", 5.0)
 
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         self.stop()
         if self.problem:
             return False, self.problem, {}
@@ -370,7 +370,7 @@ class ImageCheck(_Listening):
         del sample
         del self.messages[:-20]  # of whom they came is looked at later
 
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         self.stop()
         if self.problem:
             return False, self.problem, {}
@@ -394,7 +394,7 @@ class ImageCheck(_Listening):
         low, high = self.wanted.get("share", _SHARE)
         return low <= part <= high, f"{part:.2%} of the picture has that colour; {low:.2%} to {high:.2%} are asked for", {"share": part}
 
-    def _object(self, name: str) -> Tuple[bool, str, Dict[str, Any]]:
+    def _object(self, name: str) -> tuple[bool, str, dict[str, Any]]:
         if self.context.bench.now.place(name) is None:
             return False, f"there is no '{name}' in the simulator (there are: {names(self.context.bench.now.models)})", {}
         found = self.context.bench.seen(self._topic)
@@ -405,7 +405,7 @@ class ImageCheck(_Listening):
         return low <= part <= high, f"{name} fills {part:.2%} of the picture; {low:.2%} to {high:.2%} are asked for", {"share": part}
 
 
-def to_rgb(message) -> Optional[np.ndarray]:
+def to_rgb(message) -> np.ndarray | None:
     """(rows, columns, 3) uint8, None for an encoding without colours or a message that contradicts itself."""
     try:
         picture = image_pixels.picture_of(message)
@@ -422,7 +422,7 @@ class NoCollisionCheck(Check):
     def __init__(self, wanted, context):
         super().__init__(wanted, context)
         self.horizon = wanted.get("for", 0.0)
-        self._touched: List[str] = []
+        self._touched: list[str] = []
 
     def start(self) -> None:
         self.context.bench.watch_contacts(True)
@@ -436,7 +436,7 @@ class NoCollisionCheck(Check):
                 if len(self._touched) < 5:
                     self._touched.append(text)
 
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         return not self._touched, self._touched[0] if self._touched else f"{self.wanted['model']} touched nothing that it should not", {}
 
 
@@ -448,7 +448,7 @@ class RealTimeFactorCheck(Check):
     def start(self) -> None:
         self._begin = (self.context.bench.now.time, self.context.simulator_seconds())
 
-    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         spent = self.context.simulator_seconds() - self._begin[1]
         factor = (self.context.bench.now.time - self._begin[0]) / max(spent, 1e-3)
         # The figure itself stays out of the result: it differs from run to run.

@@ -7,8 +7,9 @@ import re
 import shutil
 import socket
 import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, Tuple, Union
+from typing import Any
 
 from ..errors import LabError
 from ..outcome import Result
@@ -65,8 +66,8 @@ class Cluster(Engine):
             shutil.rmtree(left, ignore_errors=True)
         self._most = spec.limit("input")
         self._spec_parcel, self._spec_path = packed_files.pack_spec(spec)
-        self.running: Dict[str, Task] = {}
-        self._last: Dict[str, str] = {}  # submission -> node where it was tried last
+        self.running: dict[str, Task] = {}
+        self._last: dict[str, str] = {}  # submission -> node where it was tried last
         self._here = Pool(lambda name: spec.path, out, how, 1)  # for what is too large to be sent: it is refused at once
         try:
             self._nodes = self._fit_nodes(show)
@@ -77,7 +78,7 @@ class Cluster(Engine):
         self._shared = self._ray.put(self._spec_parcel)
         self._remote = self._ray.remote(num_cpus=1, max_retries=0)(cluster_node.examine_parcel)
 
-    def _fit_nodes(self, show: Callable[[str], None]) -> Dict[str, Node]:
+    def _fit_nodes(self, show: Callable[[str], None]) -> dict[str, Node]:
         ray = self._ray
         version, asked = cluster_node.platform_version(), {}
         look, sent = ray.remote(num_cpus=0, max_retries=0)(cluster_node.faults), ray.put(bytes(_SENT))
@@ -86,7 +87,7 @@ class Cluster(Engine):
             if entry["Alive"] and slots:
                 reference = look.options(scheduling_strategy=self._on(entry["NodeID"])).remote(version, self._how.unsafe, sent)
                 asked[reference] = (entry["NodeID"], entry["NodeManagerAddress"], slots)
-        found: Dict[str, Node] = {}
+        found: dict[str, Node] = {}
         for reference, (identity, address, slots) in asked.items():
             try:
                 name, said, _ = ray.get(reference, timeout=_LOOK)
@@ -148,7 +149,7 @@ class Cluster(Engine):
         for identity, n in self._nodes.items():
             n.alive = n.alive and identity in alive
 
-    def _place(self, last: str) -> Tuple[str, int]:
+    def _place(self, last: str) -> tuple[str, int]:
         """A slot on the emptiest node, rather not where the submission's worker died before."""
         free = [identity for identity, n in self._nodes.items() if n.alive and len(n.busy) < n.slots]
         if not free:
@@ -156,13 +157,13 @@ class Cluster(Engine):
         identity = min(free, key=lambda i: (i == last, len(self._nodes[i].busy) / self._nodes[i].slots, self._nodes[i].given))
         return identity, self._nodes[identity].take()
 
-    def ended(self) -> List[str]:
+    def ended(self) -> list[str]:
         self._look()
         references = {task.reference: name for name, task in self.running.items() if task.reference is not None}
         ready, _ = self._ray.wait(list(references), num_returns=len(references), timeout=0) if references else ([], [])
         return [references[reference] for reference in ready] + self._here.ended()
 
-    def take(self, name: str) -> Union[Result, str]:
+    def take(self, name: str) -> Result | str:
         task = self.running.pop(name)
         if task.reference is None:
             return self._here.take(name)

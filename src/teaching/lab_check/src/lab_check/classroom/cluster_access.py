@@ -6,7 +6,6 @@ from __future__ import annotations
 import os
 import pathlib
 import subprocess
-from typing import Dict
 
 from ..isolation import sandbox
 
@@ -42,7 +41,7 @@ def bring_token() -> None:
         os.environ.setdefault(_MODE, "token")
 
 
-def environment() -> Dict[str, str]:
+def environment() -> dict[str, str]:
     """For a process that uses Ray."""
     return {**sandbox.own_environment(), **{name: value for name, value in os.environ.items() if name.startswith("RAY_")}}
 

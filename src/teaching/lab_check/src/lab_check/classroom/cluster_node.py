@@ -10,7 +10,6 @@ import shutil
 import signal
 import socket
 import sys
-from typing import List, Tuple
 
 from ..isolation import sandbox, temporary_folders
 from ..isolation.supervise import descendants
@@ -36,7 +35,7 @@ def platform_version() -> str:
     return f"{digest.hexdigest()[:12]} on Python {sys.version_info[0]}.{sys.version_info[1]}"
 
 
-def faults(version: str, unsafe: bool, sent: bytes = b"") -> Tuple[str, List[str], bytes]:
+def faults(version: str, unsafe: bool, sent: bytes = b"") -> tuple[str, list[str], bytes]:
     """The name of this machine, and what keeps it from examining: a sentence each, with the cure.
 
     :param sent: comes back; what cannot be sent there and back would fail in each examination
@@ -56,7 +55,7 @@ def faults(version: str, unsafe: bool, sent: bytes = b"") -> Tuple[str, List[str
     return socket.gethostname(), said, sent
 
 
-def examine_parcel(name: str, submission: bytes, spec: bytes, spec_path: str, how: How, worker: int) -> Tuple[int, bytes]:
+def examine_parcel(name: str, submission: bytes, spec: bytes, spec_path: str, how: How, worker: int) -> tuple[int, bytes]:
     """One examination in a folder of its own.
 
     :param name: of the submission's file or folder

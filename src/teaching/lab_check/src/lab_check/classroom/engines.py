@@ -8,8 +8,9 @@ import os
 import pathlib
 import signal
 import subprocess
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, Union
+from typing import Any
 
 from ..isolation import sandbox
 from ..isolation.supervise import descendants, die_with_parent
@@ -24,7 +25,7 @@ class How:
     films: bool = True
     port: int = 0
 
-    def words(self, spec: "str | pathlib.Path", submission: "str | pathlib.Path", out: "str | pathlib.Path", worker: int) -> List[str]:
+    def words(self, spec: str | pathlib.Path, submission: str | pathlib.Path, out: str | pathlib.Path, worker: int) -> list[str]:
         """The command that examines one.
 
         :param worker: number of the worker on its machine
@@ -42,7 +43,7 @@ class How:
         return words + ([] if self.films else ["--no-films"])
 
 
-def examine(words: List[str], out: pathlib.Path) -> subprocess.Popen:
+def examine(words: list[str], out: pathlib.Path) -> subprocess.Popen:
     """Starts one examination; what it says goes to ``check.txt``. It ends when this thread does."""
     out.mkdir(parents=True, exist_ok=True)
     (out / "report.json").unlink(missing_ok=True)
@@ -59,7 +60,7 @@ def examine(words: List[str], out: pathlib.Path) -> subprocess.Popen:
         )
 
 
-def outcome(out: pathlib.Path, code: int) -> Union[Result, str]:
+def outcome(out: pathlib.Path, code: int) -> Result | str:
     """The result of an examination that ended with ``code``, or why there is none: one that died leaves no report."""
     try:
         result = Result.from_data(json.loads((out / "report.json").read_text(encoding="utf-8")))
@@ -80,7 +81,7 @@ class NotBegun(str):
 class Engine(abc.ABC):
     """``running``: names of what is under way; ``workers``: how many may be."""
 
-    running: Dict[str, Any]
+    running: dict[str, Any]
     workers: int
 
     @abc.abstractmethod
@@ -88,11 +89,11 @@ class Engine(abc.ABC):
         """Begins the examination of the submission at ``path``."""
 
     @abc.abstractmethod
-    def ended(self) -> List[str]:
+    def ended(self) -> list[str]:
         """Names of ``running`` that can be taken; does not wait."""
 
     @abc.abstractmethod
-    def take(self, name: str) -> Union[Result, str]:
+    def take(self, name: str) -> Result | str:
         """The result of one that ended, or in one line why there is none."""
 
     @abc.abstractmethod
@@ -114,17 +115,17 @@ class Pool(Engine):
 
     def __init__(self, spec_of: Callable[[str], pathlib.Path], out: pathlib.Path, how: How, workers: int):
         self._spec_of, self._out, self._how, self.workers = spec_of, out, how, workers
-        self.running: Dict[str, Running] = {}
+        self.running: dict[str, Running] = {}
 
     def start(self, name: str, path: pathlib.Path) -> None:
         free = min(set(range(len(self.running) + 1)) - {r.worker for r in self.running.values()})
         words = self._how.words(self._spec_of(name), path, self._out / name, free)
         self.running[name] = Running(examine(words, self._out / name), free)
 
-    def ended(self) -> List[str]:
+    def ended(self) -> list[str]:
         return [name for name, running in self.running.items() if running.process.poll() is not None]
 
-    def take(self, name: str) -> Union[Result, str]:
+    def take(self, name: str) -> Result | str:
         return outcome(self._out / name, self.running.pop(name).process.returncode)
 
     def end(self) -> None:

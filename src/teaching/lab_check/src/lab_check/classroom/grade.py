@@ -8,7 +8,7 @@ import pathlib
 import sqlite3
 import sys
 import time
-from typing import Callable, Dict, List, Optional
+from collections.abc import Callable
 
 from ..outcome import Result, name_for
 from ..specs.spec import Spec
@@ -22,10 +22,10 @@ from .store import Store, fingerprint
 TRIES = 2  # for a submission whose worker died
 
 
-def named(paths: List[pathlib.Path]) -> Dict[str, pathlib.Path]:
+def named(paths: list[pathlib.Path]) -> dict[str, pathlib.Path]:
     """Submissions by the last part of their path, as :func:`lab_check.outcome.name_for` has it; where two have the same, the folder
     before it goes in front."""
-    found: Dict[str, pathlib.Path] = {}
+    found: dict[str, pathlib.Path] = {}
     last = [path.name for path in paths]
     for path in paths:
         name = base = name_for(path.name if last.count(path.name) == 1 else f"{path.parent.name}_{path.name}")
@@ -87,7 +87,7 @@ def engine_for(spec: Spec, out: pathlib.Path, options: argparse.Namespace) -> En
     return Pool(lambda name: spec.path, results(out), how, options.workers or max(1, os.cpu_count() or 1))
 
 
-def main(arguments: Optional[List[str]] = None) -> int:
+def main(arguments: list[str] | None = None) -> int:
     from ..cli import allowed, load_spec, parser_for, sandbox_options
 
     parser = parser_for("grade", "Mark a class; run it again to go on after an interruption.")

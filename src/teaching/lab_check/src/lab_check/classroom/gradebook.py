@@ -8,7 +8,6 @@ import os
 import pathlib
 import urllib.parse
 from collections import Counter
-from typing import Dict, List, Optional
 
 from ..outcome import Result
 from ..report.page import STYLE
@@ -22,7 +21,7 @@ _COLOURS = ((0.999, "#d6f0dc"), (0.5, "#fff4cf"), (0.0, "#fbe0e0"))
 
 def write(spec: Spec, store: Store, out: pathlib.Path) -> None:
     rows = store.rows()
-    results: Dict[str, Optional[Result]] = {row["name"]: result_of(row) for row in rows}
+    results: dict[str, Result | None] = {row["name"]: result_of(row) for row in rows}
     tasks = (["Build"] if spec.data["packages"] else []) + [task["name"] for task in spec.data["tasks"]]
     near = pairs({row["name"]: pathlib.Path(os.fsdecode(row["path"])) for row in rows if row["state"] == "done"})
     with open(out / "gradebook.csv", "w", newline="", encoding="utf-8", errors="backslashreplace") as file:
@@ -46,12 +45,12 @@ def _remark(row) -> str:
     return "not examined" + ("" if row["state"] == "failed" else " yet") + (f": {row['why']}" if row["why"] else "")
 
 
-def _marks(result: Optional[Result], tasks: List[str]) -> List:
+def _marks(result: Result | None, tasks: list[str]) -> list:
     found = {task.name: task.points for task in result.tasks} if result else {}
     return [found.get(name, "") for name in tasks]
 
 
-def _page(spec: Spec, rows, results, tasks: List[str], near: List[Pair]) -> str:
+def _page(spec: Spec, rows, results, tasks: list[str], near: list[Pair]) -> str:
     head = "".join(f"<th>{html.escape(name)}" for name in tasks)
     lines = []
     for row in rows:
@@ -82,7 +81,7 @@ def _colour(points: float, of: float) -> str:
     return next(colour for least, colour in _COLOURS if part >= least)
 
 
-def _comparison(spec: Spec, results, tasks: List[str]) -> str:
+def _comparison(spec: Spec, results, tasks: list[str]) -> str:
     parts = []
     known = [result for result in results.values() if result]
     for name in tasks:

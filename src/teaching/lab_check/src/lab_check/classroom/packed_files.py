@@ -6,7 +6,6 @@ import io
 import os
 import pathlib
 import tarfile
-from typing import Tuple
 
 from ..errors import LabError
 from ..specs.spec import Spec
@@ -28,7 +27,7 @@ def pack(path: pathlib.Path, most: float = float("inf")) -> bytes:
         resolved = path
     size = 0
 
-    def counted(entry: tarfile.TarInfo) -> "tarfile.TarInfo | None":
+    def counted(entry: tarfile.TarInfo) -> tarfile.TarInfo | None:
         nonlocal size
         size += entry.size
         if size > most:
@@ -53,7 +52,7 @@ def unpack(parcel: bytes, folder: pathlib.Path) -> None:
         archive.extractall(folder)
 
 
-def pack_spec(spec: Spec) -> Tuple[bytes, str]:
+def pack_spec(spec: Spec) -> tuple[bytes, str]:
     """The spec with what it names beside itself.
 
     :returns: a tar that keeps how the files lie to each other; the spec's path in it

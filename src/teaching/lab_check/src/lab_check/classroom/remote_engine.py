@@ -9,8 +9,9 @@ import signal
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 from multiprocessing.connection import Connection, Pipe
-from typing import Any, Callable, List, Tuple, Union
+from typing import Any
 
 from ..errors import LabError
 from ..isolation import sandbox
@@ -36,7 +37,7 @@ class RemoteEngine(Engine):
     :raises LabError: as ``make`` does
     """
 
-    def __init__(self, make: Callable[..., Engine], arguments: Tuple, what: str, show: Callable[[str], None]):
+    def __init__(self, make: Callable[..., Engine], arguments: tuple, what: str, show: Callable[[str], None]):
         self.running: dict = {}
         self._what, self._show, self._workers, self._asked = what, show, 1, 0
         self._said = tempfile.TemporaryFile()
@@ -68,10 +69,10 @@ class RemoteEngine(Engine):
         self._ask(("start", name, path), _WORK)
         self.running[name] = path
 
-    def ended(self) -> List[str]:
+    def ended(self) -> list[str]:
         return self._ask(("ended",), _ANSWER)
 
-    def take(self, name: str) -> Union[Result, str]:
+    def take(self, name: str) -> Result | str:
         self.running.pop(name)
         return self._ask(("take", name), _WORK)
 
@@ -85,7 +86,7 @@ class RemoteEngine(Engine):
             self._wire.close()
             self.running.clear()
 
-    def _ask(self, question: Tuple, patience: float) -> Any:
+    def _ask(self, question: tuple, patience: float) -> Any:
         """
         :raises Lost: no answer comes
         """

@@ -14,7 +14,6 @@ import zlib
 from collections import Counter
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Dict, List, Optional, Set
 
 from ..isolation.staging import Staged, StagingError, unpack, within_bounds
 from ..isolation.untrusted_files import read_regular, walk
@@ -37,7 +36,7 @@ class Pair:
     share: float
 
 
-def prints(submission: pathlib.Path) -> Set[int]:
+def prints(submission: pathlib.Path) -> set[int]:
     """Winnowed prints of all source files of a folder, or of a zip or tar; empty for what is neither."""
     if submission.is_dir():
         return _of_folder(submission) if submission.resolve() != pathlib.Path("/") else set()
@@ -50,8 +49,8 @@ def prints(submission: pathlib.Path) -> Set[int]:
         return _of_folder(pathlib.Path(place))
 
 
-def _of_folder(folder: pathlib.Path) -> Set[int]:
-    found: Set[int] = set()
+def _of_folder(folder: pathlib.Path) -> set[int]:
+    found: set[int] = set()
     left = _MOST_OF_SOURCE
     for name, _ in walk(folder, left_out=(".git", "build", "devel")):
         if os.path.splitext(name)[1] in _ENDINGS and left > 0:
@@ -65,13 +64,13 @@ def _of_folder(folder: pathlib.Path) -> Set[int]:
     return found
 
 
-def of_text(text: str) -> Set[int]:
+def of_text(text: str) -> set[int]:
     tokens = _TOKEN.findall(_COMMENT.sub(" ", text))
     hashes = [zlib.crc32("\0".join(tokens[i : i + _RUN]).encode()) for i in range(max(len(tokens) - _RUN + 1, 0))]
     return {min(hashes[i : i + _WINDOW]) for i in range(max(len(hashes) - _WINDOW + 1, 1))} if hashes else set()
 
 
-def pairs(submissions: Dict[str, pathlib.Path], near: float = NEAR) -> List[Pair]:
+def pairs(submissions: dict[str, pathlib.Path], near: float = NEAR) -> list[Pair]:
     """Most alike first. What more than half of a class of eight or more shares, the handed-out part, does not count."""
     found = {name: prints(path) for name, path in submissions.items()}
     if len(found) >= 8:
@@ -87,7 +86,7 @@ def pairs(submissions: Dict[str, pathlib.Path], near: float = NEAR) -> List[Pair
     return sorted(alike, key=lambda pair: (-pair.share, pair.first, pair.second))
 
 
-def main(arguments: Optional[List[str]] = None) -> int:
+def main(arguments: list[str] | None = None) -> int:
     from ..cli import Parser
 
     parser = Parser(prog="rosrun lab_check similar", description="Point out near-identical submissions.")

@@ -8,7 +8,7 @@ import os
 import pathlib
 import sqlite3
 import time
-from typing import Collection, Dict, List, Optional
+from collections.abc import Collection
 
 from ..isolation.untrusted_files import walk
 from ..outcome import Result
@@ -35,7 +35,7 @@ class Store:
                 "INSERT OR REPLACE INTO submissions (name, path, fingerprint) VALUES (?, ?, ?)", (name, os.fsencode(path), fingerprint)
             )
 
-    def begin_again(self, names: Optional[Collection[str]] = None) -> None:
+    def begin_again(self, names: Collection[str] | None = None) -> None:
         """After an interruption: what ran then, and what failed, waits.
 
         :param names: what is asked for; others, of an earlier run, no longer wait
@@ -45,7 +45,7 @@ class Store:
             known, wanted = {row["name"] for row in self.rows()}, set(names)
             self._db.executemany("DELETE FROM submissions WHERE name = ?", [(name,) for name in known - wanted])
 
-    def waiting(self) -> List[str]:
+    def waiting(self) -> list[str]:
         return [row["name"] for row in self._db.execute("SELECT name FROM submissions WHERE state = 'waiting' ORDER BY name")]
 
     def _one(self, name: str, column: str):
@@ -73,17 +73,17 @@ class Store:
             (result.points, result.of, result.seconds, json.dumps(result.data()), time.time(), name),
         )
 
-    def rows(self) -> List[sqlite3.Row]:
+    def rows(self) -> list[sqlite3.Row]:
         return list(self._db.execute("SELECT * FROM submissions ORDER BY name"))
 
-    def counts(self) -> Dict[str, int]:
+    def counts(self) -> dict[str, int]:
         return {row[0]: row[1] for row in self._db.execute("SELECT state, COUNT(*) FROM submissions GROUP BY state")}
 
     def close(self) -> None:
         self._db.close()
 
 
-def result_of(row: sqlite3.Row) -> Optional[Result]:
+def result_of(row: sqlite3.Row) -> Result | None:
     return Result.from_data(json.loads(row["result"])) if row["result"] else None
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import time
 from dataclasses import dataclass, field
-from typing import Dict, List
 
 from ..explain import error_lines, excerpt, meaning, timeless
 from ..isolation.supervise import STRETCH, Guard
@@ -16,9 +15,9 @@ from .job import Job, NoRoom
 class Built:
     """``failed`` from package to the reason; ``log`` all that was printed."""
 
-    failed: Dict[str, str] = field(default_factory=dict)
+    failed: dict[str, str] = field(default_factory=dict)
     log: str = ""
-    excerpt: List[str] = field(default_factory=list)
+    excerpt: list[str] = field(default_factory=list)
     seconds: float = 0.0
     spent: float = 0.0  # s as on a machine of its own
     code: int = 0  # with which the last of make ended
@@ -41,7 +40,7 @@ def build(job: Job) -> Built:
     return built
 
 
-def _make(job: Job, built: Built, timeout: float, only: List[str]) -> bool:
+def _make(job: Job, built: Built, timeout: float, only: list[str]) -> bool:
     """:param only: these packages, from the beginning; otherwise all"""
     chosen = f"-DCATKIN_WHITELIST_PACKAGES='{';'.join(only)}'" if only else ""
     # The folder is the submission's: it may lead anywhere by now, and is removed from where it leads nowhere.
@@ -69,9 +68,9 @@ def _make(job: Job, built: Built, timeout: float, only: List[str]) -> bool:
     return program.code == 0
 
 
-def _one_by_one(job: Job, built: Built, timeout: float, order: List[str]) -> None:
+def _one_by_one(job: Job, built: Built, timeout: float, order: list[str]) -> None:
     """Each package with those before it that built; dependencies come first."""
-    good: List[str] = []
+    good: list[str] = []
     end = built.spent + timeout
     for name in order:
         before = len(built.log)
@@ -94,7 +93,7 @@ def _ended(code: int) -> str:
     return f"its build was killed by signal {number}" if 0 < number < 65 else f"its build ended with code {code}"
 
 
-def _order(job: Job) -> List[str]:
+def _order(job: Job) -> list[str]:
     """Of the manifests as they were handed in: before any program of the submission has run."""
     import xml.etree.ElementTree as ET
 
@@ -105,7 +104,7 @@ def _order(job: Job) -> List[str]:
         except (ET.ParseError, OSError):
             root = ET.Element("package")
         needs[name] = {e.text.strip() for e in root if "depend" in e.tag and e.text} & set(job.packages)
-    order: List[str] = []
+    order: list[str] = []
     while len(order) < len(needs):
         ready = [name for name in needs if name not in order and needs[name] <= {*order, name}]
         order += sorted(ready) or [sorted(set(needs) - set(order))[0]]

@@ -12,12 +12,11 @@ import os
 import pickle
 import sys
 from collections import Counter
-from typing import Dict
 
 import numpy as np
 
 
-def shares(camera, scene, poses) -> Dict[str, float]:
+def shares(camera, scene, poses) -> dict[str, float]:
     """``model::link::visual`` -> its part of the picture, of those that can be seen."""
     from ode_sim_rendering.renderer import Renderer
 
@@ -31,7 +30,7 @@ def shares(camera, scene, poses) -> Dict[str, float]:
     return {name: pixels / picture.size for name, pixels in sorted(found.items())}
 
 
-def share_of(name: str, found: Dict[str, float]) -> float:
+def share_of(name: str, found: dict[str, float]) -> float:
     """Of a model, or of ``model::link``."""
     return sum(part for visual, part in found.items() if visual.startswith(f"{name}::"))
 

@@ -8,7 +8,8 @@ import struct
 import threading
 import time
 from collections import Counter
-from typing import Any, Callable, Dict, List
+from collections.abc import Callable
+from typing import Any
 
 import genpy
 import roslib.message
@@ -35,19 +36,19 @@ class Actor:
 
     def __init__(self, bench: Bench, start: Callable[[str, bool], Program]):
         self._bench, self._start = bench, start
-        self.runs: Dict[str, Program] = {}
-        self.answers: Dict[str, Any] = {}  # name -> dict of the response, or a refusal's text
-        self.refusals: Dict[str, str] = {}
-        self.by_hand: List[str] = []
+        self.runs: dict[str, Program] = {}
+        self.answers: dict[str, Any] = {}  # name -> dict of the response, or a refusal's text
+        self.refusals: dict[str, str] = {}
+        self.by_hand: list[str] = []
         self.called: Counter = Counter()  # last part of a name -> how often
-        self._typed: Dict[str, str] = {}  # name of a run -> what started it
-        self._publishers: List[rospy.Publisher] = []
+        self._typed: dict[str, str] = {}  # name of a run -> what started it
+        self._publishers: list[rospy.Publisher] = []
 
     def calls(self, service: str) -> int:
         """How often the task's own commands have called a service of this name, or published to such a topic, since it was last asked."""
         return self.called.pop(service, 0)
 
-    def give(self, command: Dict[str, Any]) -> None:
+    def give(self, command: dict[str, Any]) -> None:
         """
         :raises CommandError: nobody is there to take it
         """
@@ -66,7 +67,7 @@ class Actor:
         self.by_hand.append(f"sleep {seconds:g}")
         self._bench.pass_time(seconds)
 
-    def _publish(self, wanted: Dict[str, Any]) -> None:
+    def _publish(self, wanted: dict[str, Any]) -> None:
         name = find_topic(wanted["topic"])
         kind = roslib.message.get_message_class(wanted["type"])
         if kind is None:
@@ -96,7 +97,7 @@ class Actor:
         else:
             self._bench.settle(0.02)
 
-    def _call(self, wanted: Dict[str, Any]) -> None:
+    def _call(self, wanted: dict[str, Any]) -> None:
         name = wanted["service"]
         self.by_hand.append(f"rosservice call {name} {shlex.quote(json.dumps(wanted.get('request', {})))}")
         key = wanted.get("name", "it")
@@ -124,7 +125,7 @@ class Actor:
         if not self._bench.until(done.is_set, 10.0):
             raise CommandError(f"service {name} gave no answer within 10 s")
 
-    def _action(self, wanted: Dict[str, Any]) -> None:
+    def _action(self, wanted: dict[str, Any]) -> None:
         import actionlib
 
         kind = roslib.message.get_message_class(wanted["type"])
@@ -151,7 +152,7 @@ class Actor:
         if state in ("aborted", "rejected"):
             self.refusals[key] = client.get_goal_status_text() or state
 
-    def _run(self, wanted: Dict[str, Any]) -> None:
+    def _run(self, wanted: dict[str, Any]) -> None:
         key = wanted.get("name", "it")
         self._typed[key] = f"rosrun {wanted['command']}"
         self.by_hand.append(self._typed[key] + (f"   # then type {json.dumps(wanted['keys'])}" if "keys" in wanted else ""))

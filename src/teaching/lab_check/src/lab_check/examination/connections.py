@@ -6,7 +6,6 @@ import http.client
 import os
 import xmlrpc.client
 from collections import Counter
-from typing import Dict, List, Set
 from xml.parsers.expat import ExpatError
 
 import rosgraph
@@ -19,19 +18,19 @@ class _Transport(xmlrpc.client.Transport):
         return connection
 
 
-def nodes() -> Set[str]:
+def nodes() -> set[str]:
     """Names of all nodes that the master knows."""
     return {node for part in rosgraph.Master("/lab_check").getSystemState() for _, found in part for node in found}
 
 
-def complete(master: rosgraph.Master, deaf: Set[str]) -> bool:
+def complete(master: rosgraph.Master, deaf: set[str]) -> bool:
     """Each subscriber has a connection from each publisher of its topic.
 
     :param deaf: nodes that did not answer, which are asked no more; filled here
     """
     published, subscribed, _ = master.getSystemState()
     publishers = {topic: set(found) - deaf for topic, found in published}
-    wanted: Dict[str, Dict[str, int]] = {}
+    wanted: dict[str, dict[str, int]] = {}
     for topic, found in subscribed:
         for node in set(found) - deaf:
             if publishers.get(topic):
@@ -79,7 +78,7 @@ def simulator_is(master: rosgraph.Master, name: str, uri: str, pid: int) -> None
     master.handle.simulatorIs("/lab_check", _word(), name, uri, pid)
 
 
-def told(master: rosgraph.Master) -> List[str]:
+def told(master: rosgraph.Master) -> list[str]:
     """What the master noted, a sentence each."""
     return list(master.handle.told("/lab_check", _word())[2])
 

@@ -9,7 +9,6 @@ import pathlib
 import subprocess
 import sys
 import time
-from typing import List, Set
 
 from ..checks import make
 from ..checks.base import Context
@@ -87,11 +86,11 @@ class Examiner:
         self.result.seconds = time.monotonic() - start
         return self.result
 
-    def _forged(self) -> Set[str]:
+    def _forged(self) -> set[str]:
         """Files of the submission's home that are named as the examiner's are."""
         return {path for path, _ in walk(self.job.home) if path.rpartition("/")[2] in _REPORTS}
 
-    def _teachers(self) -> List[str]:
+    def _teachers(self) -> list[str]:
         """Folders of the spec and of the submissions, as nobody in the sandbox knows them who does not look for them."""
         folders = {os.path.abspath(self.job.spec_folder), os.path.dirname(os.path.abspath(self.job.submission))}
         return [f"{folder}/" for folder in sorted(folders) if folder.count("/") > 1 and folder != os.path.expanduser("~")]

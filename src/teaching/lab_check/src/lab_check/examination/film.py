@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from typing import List
 
 _PERIOD, _RATE, _MOST = 0.5, 4, 24  # s of simulation between frames, frames/s of the film, frames
 
@@ -11,7 +10,7 @@ _PERIOD, _RATE, _MOST = 0.5, 4, 24  # s of simulation between frames, frames/s o
 class Film:
     def __init__(self, bench, model: str):
         self._bench, self._model = bench, model
-        self._frames: List[bytes] = []
+        self._frames: list[bytes] = []
         self._due = -1.0
 
     def sample(self, sample) -> None:
@@ -35,7 +34,7 @@ class Film:
         return path if os.path.exists(path) else ""
 
 
-def picture(bench, model: str, stem: str) -> List[str]:
+def picture(bench, model: str, stem: str) -> list[str]:
     """Paths of the picture at a task's end."""
     png = bench.picture(model)
     if not png:

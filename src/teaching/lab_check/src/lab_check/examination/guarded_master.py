@@ -16,7 +16,8 @@ import os
 import pathlib
 import sys
 import threading
-from typing import Any, Callable, Dict, List, Set, Tuple
+from collections.abc import Callable
+from typing import Any
 
 from rosgraph.xmlrpc import SilenceableXMLRPCRequestHandler
 from rosmaster.main import rosmaster_main
@@ -24,7 +25,7 @@ from rosmaster.master_api import ROSMasterHandler
 
 from lab_check.isolation.supervise import bound, descendants
 
-_held: List[Tuple[ROSMasterHandler, str, List[str], List[str]]] = []
+_held: list[tuple[ROSMasterHandler, str, list[str], list[str]]] = []
 _lock = threading.Lock()
 _notify = ROSMasterHandler._notify_topic_subscribers
 _WORD = os.environ.get("LAB_CHECK_WORD", "")
@@ -37,17 +38,17 @@ class _Simulator:
     """Whose names are watched."""
 
     name, uri, pid = "", "", 0
-    services: Dict[str, str] = {}  # its services, with the name of the node as it gave it
-    told: Set[str] = set()
+    services: dict[str, str] = {}  # its services, with the name of the node as it gave it
+    told: set[str] = set()
 
 
-def _hold(self, topic: str, publishers: List[str], subscribers: List[str]) -> None:
+def _hold(self, topic: str, publishers: list[str], subscribers: list[str]) -> None:
     if subscribers:
         with _lock:
             _held.append((self, topic, publishers, list(subscribers)))
 
 
-def _release(self, caller_id: str, word: str = "") -> Tuple[int, str, int]:
+def _release(self, caller_id: str, word: str = "") -> tuple[int, str, int]:
     """Sends what was held, in its order; answers as the master's own calls do, with the number of news."""
     if word != _WORD:
         return _REFUSED
@@ -58,7 +59,7 @@ def _release(self, caller_id: str, word: str = "") -> Tuple[int, str, int]:
     return 1, "released", len(news)
 
 
-def _simulator_is(self, caller_id: str, word: str, name: str, uri: str, pid: int) -> Tuple[int, str, int]:
+def _simulator_is(self, caller_id: str, word: str, name: str, uri: str, pid: int) -> tuple[int, str, int]:
     if word != _WORD:
         return _REFUSED
     _Simulator.name, _Simulator.uri, _Simulator.pid = name, uri, pid
@@ -71,16 +72,16 @@ def _simulator_is(self, caller_id: str, word: str, name: str, uri: str, pid: int
     return 1, "noted", 0
 
 
-def _told(self, caller_id: str, word: str) -> Tuple[int, str, Any]:
+def _told(self, caller_id: str, word: str) -> tuple[int, str, Any]:
     return (1, "", sorted(_Simulator.told)) if word == _WORD else _REFUSED
 
 
-def _refuse_shutdown(self, caller_id: str, msg: str = "") -> Tuple[int, str, int]:
+def _refuse_shutdown(self, caller_id: str, msg: str = "") -> tuple[int, str, int]:
     _note(f"{_shown(caller_id)} asked the ROS master to end; it went on")
     return _REFUSED
 
 
-_offered: Dict[str, List[Tuple[str, str]]] = {}  # service -> who offered it, one after the other: node, its URI
+_offered: dict[str, list[tuple[str, str]]] = {}  # service -> who offered it, one after the other: node, its URI
 
 
 def _its_own(service: str) -> bool:

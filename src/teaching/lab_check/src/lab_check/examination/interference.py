@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Dict, List, Set, Tuple
-
 
 class Interference:
     """``names``, ``twice``: sentences about names of the simulator, and about joints that several models have."""
 
     def __init__(self) -> None:
-        self.names: Set[str] = set()
-        self.twice: Set[str] = set()
-        self._changes: Dict[Tuple[str, str], Tuple[int, float]] = {}
+        self.names: set[str] = set()
+        self.twice: set[str] = set()
+        self._changes: dict[tuple[str, str], tuple[int, float]] = {}
 
     def changed(self, what: str, who: str, count: int, first: float) -> None:
         """A node called a service of the simulator that changes the world, or published what does."""
@@ -21,7 +19,7 @@ class Interference:
     def found(self) -> bool:
         return bool(self.names or self.twice or self._changes)
 
-    def notes(self) -> List[str]:
+    def notes(self) -> list[str]:
         """A sentence each."""
         changes = [
             f"{'the node ' if who.startswith('/') else ''}{who} used /gazebo/{what} {count} times, for the first time at "

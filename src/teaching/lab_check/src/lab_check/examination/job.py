@@ -7,8 +7,9 @@ import os
 import pathlib
 import shlex
 import uuid
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
-from typing import Any, Dict, List, Optional, Sequence
+from typing import Any
 
 from ..errors import LabError
 from ..isolation import sandbox
@@ -23,23 +24,23 @@ class NoRoom(LabError, RuntimeError):
 class Job:
     """``spec`` is the data of the spec; ``scratch`` holds ``home``, which is the submission's own; ``out`` is the teacher's."""
 
-    spec: Dict[str, Any]
+    spec: dict[str, Any]
     spec_folder: str
     submission: str
     scratch: str
     out: str
     unsafe: bool
     port: int
-    limits: Dict[str, float]
-    platform: Dict[str, List[str]]
+    limits: dict[str, float]
+    platform: dict[str, list[str]]
     mark: str
-    packages: Dict[str, str] = field(default_factory=dict)  # name -> folder below home
+    packages: dict[str, str] = field(default_factory=dict)  # name -> folder below home
     films: bool = True
     group: str = ""  # the control group of all that the submission starts, see lab_check.isolation.control_group
     user: int = 0  # of the submission's programs, inside the outer wall
     handed_in: int = 0  # bytes that lie on the submission's disk from the beginning
 
-    def save(self, path: "str | os.PathLike") -> None:
+    def save(self, path: str | os.PathLike) -> None:
         pathlib.Path(path).write_text(json.dumps(asdict(self)), encoding="utf-8")
 
     @classmethod
@@ -65,7 +66,7 @@ class Job:
     def workspace(self) -> str:
         return f"{self.inner_home}/catkin_ws"
 
-    def start(self, line: str, keys: bool = False, more: Optional[Dict[str, str]] = None, built: bool = True) -> Program:
+    def start(self, line: str, keys: bool = False, more: dict[str, str] | None = None, built: bool = True) -> Program:
         """A shell line in the submission's world.
 
         :param keys: on a terminal, whose keys are what is written to the program
@@ -80,7 +81,7 @@ class Job:
         return self.program(words, {**sandbox.environment(self.port, self.inner_home), **(more or {})})
 
     def program(
-        self, words: List[str], environment: Dict[str, str], streams: Optional[Streams] = None, pass_fds: Sequence[int] = ()
+        self, words: list[str], environment: dict[str, str], streams: Streams | None = None, pass_fds: Sequence[int] = ()
     ) -> Program:
         """One of the submission's programs, inside the inner wall.
 
@@ -130,6 +131,6 @@ class Job:
         return max(float(disk.f_blocks - disk.f_bfree) * disk.f_frsize - self.handed_in, 0.0)
 
 
-def most_tasks(limits: Dict[str, float]) -> int:
+def most_tasks(limits: dict[str, float]) -> int:
     """The bound that the kernel keeps, on processes and threads; the Guard counts processes."""
     return int(limits["processes"]) * 8

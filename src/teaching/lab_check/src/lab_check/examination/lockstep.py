@@ -11,7 +11,7 @@ import os
 import signal
 import time
 from collections import Counter, deque
-from typing import Deque, Dict, Iterable, List, Optional, Set, Tuple
+from collections.abc import Iterable
 
 from ..isolation.supervise import STRETCH, descendants, processor_time
 
@@ -33,16 +33,16 @@ class Nodes:
     :param own: processes of the checker, which are waited for but never stopped
     """
 
-    def __init__(self, mark: Optional[str], own: Iterable[int]):
+    def __init__(self, mark: str | None, own: Iterable[int]):
         self._mark = mark.encode() if mark else None
         self._own = set(own)
-        self._known: Dict[int, bool] = {}
-        self._restless: Set[int] = set()
-        self._threads: Dict[Tuple[int, int], int] = {}  # -> descriptor of its state
-        self._simulator: Optional[int] = None
-        self._simulators: Set[int] = set()  # and what it started, such as encoders of images
-        self.restless_names: List[str] = []
-        self.pids: List[int] = []
+        self._known: dict[int, bool] = {}
+        self._restless: set[int] = set()
+        self._threads: dict[tuple[int, int], int] = {}  # -> descriptor of its state
+        self._simulator: int | None = None
+        self._simulators: set[int] = set()  # and what it started, such as encoders of images
+        self.restless_names: list[str] = []
+        self.pids: list[int] = []
         self.find()
 
     def find(self) -> None:
@@ -69,11 +69,11 @@ class Nodes:
                 return False
         return self._known[pid]
 
-    def strangers(self) -> List[int]:
+    def strangers(self) -> list[int]:
         """All but the checker's and the simulator's."""
         return [pid for pid in self.pids if pid not in self._own and pid not in self._simulators]
 
-    def simulator_is(self, pid: Optional[int]) -> None:
+    def simulator_is(self, pid: int | None) -> None:
         self._simulator = pid
         self._simulators = set() if pid is None else set(descendants(pid))
 
@@ -88,7 +88,7 @@ class Nodes:
         for pid in self.strangers():
             _signal(pid, signal.SIGCONT)
 
-    def busy(self) -> Set[Tuple[int, int]]:
+    def busy(self) -> set[tuple[int, int]]:
         """(process, thread) of all that run, or wait for the disk, now."""
         found = set()
         for key, file in list(self._threads.items()):
@@ -133,10 +133,10 @@ class Nodes:
         start = time.monotonic()
         pause = _STEP if rest < 0.05 else _LONG_STEP
         needed = max(_LOOKS, int(rest / pause))
-        looks: Deque[Set[Tuple[int, int]]] = deque(maxlen=max(2 * _LOOKS, needed))
+        looks: deque[set[tuple[int, int]]] = deque(maxlen=max(2 * _LOOKS, needed))
         enough = max(_LOOKS, int(_PART * rest / pause))
         quiet_since, dry_since, quiet_looks = None, None, 0
-        worked: Dict[int, float] = {}  # process -> s of processor time, when it was first seen to be long at work
+        worked: dict[int, float] = {}  # process -> s of processor time, when it was first seen to be long at work
         self._look_for_threads()
         while True:
             time.sleep(pause)
@@ -164,7 +164,7 @@ class Nodes:
                     self._give_up(tireless or {pid for pid, _ in busy})
                     return False
 
-    def _give_up(self, busy: Set[int]) -> None:
+    def _give_up(self, busy: set[int]) -> None:
         for pid in busy:
             if pid in self._own or pid in self._simulators:
                 continue

@@ -15,8 +15,9 @@ import pickle
 import subprocess
 import sys
 import threading
+from collections.abc import Callable
 from multiprocessing.connection import Connection
-from typing import Any, Callable, Dict, List, Optional, Set, Tuple
+from typing import Any
 
 import numpy as np
 import rospy
@@ -41,7 +42,7 @@ class Probe:
     def __init__(self, server: Server, wire: Connection, changes: Changes):
         self._server, self._wire, self._changes = server, wire, changes
         self._connection = None
-        self._pairs: Set[Tuple[str, str]] = set()
+        self._pairs: set[tuple[str, str]] = set()
         self._painter: Any = None
         changes.now = lambda: server.now().to_sec()
         self._say({"name": rospy.get_name(), "uri": rospy.get_node_uri()})
@@ -62,14 +63,14 @@ class Probe:
                 answer = [False, f"{type(error).__name__}: {error}"]
             self._say(answer)
 
-    def _state(self) -> Dict[str, Any]:
+    def _state(self) -> dict[str, Any]:
         return self._server.call(self._read)
 
-    def _read(self) -> Dict[str, Any]:
+    def _read(self) -> dict[str, Any]:
         world = self._server.world
         models = {}
         for name, model in world.models.items():
-            entry: Dict[str, Any] = {"static": bool(model.static), "pose": _numbers(model.pose)}
+            entry: dict[str, Any] = {"static": bool(model.static), "pose": _numbers(model.pose)}
             if not model.static:
                 entry["joints"] = {
                     joint.name: [float(joint.position()), float(joint.velocity()), float(joint.effort())]
@@ -110,7 +111,7 @@ class Probe:
             if all(touching):
                 self._pairs.add(tuple(sorted(c.link.scoped_name for c in touching)))
 
-    def _seen(self, topic: str) -> Dict[str, float]:
+    def _seen(self, topic: str) -> dict[str, float]:
         """What the camera of an image topic sees, see :mod:`lab_check.examination.camera_visibility`."""
         camera = _camera_of(topic)
         if camera is None:
@@ -141,7 +142,7 @@ class Probe:
         png, _ = self._painter.take(Portrait(scene, poses, model, "iso", width, height))
         return base64.b64encode(png).decode()
 
-    def _changed(self) -> List[List[Any]]:
+    def _changed(self) -> list[list[Any]]:
         """[service or topic, who, how often, s of simulation of the first time], since the beginning."""
         return self._changes.told()
 
@@ -150,7 +151,7 @@ class Changes:
     """Who has called services of the simulator that change what is measured, or published what does."""
 
     def __init__(self):
-        self._found: Dict[Tuple[str, str], List[float]] = {}
+        self._found: dict[tuple[str, str], list[float]] = {}
         self._lock = threading.Lock()
         self.now = lambda: 0.0
 
@@ -176,7 +177,7 @@ class Changes:
         self._watch_transport("_order", _ORDERS.get)
         self._watch_transport("_parameter", lambda name: "set_physics_properties")
 
-    def _watch_transport(self, method: str, service: Callable[[str], Optional[str]]) -> None:
+    def _watch_transport(self, method: str, service: Callable[[str], str | None]) -> None:
         """What clients of Gazebo's own topics, and compiled plugins, have the server do.
 
         :param service: that does the same, None for what changes nothing
@@ -205,7 +206,7 @@ class Changes:
                 who = "others"
             self._found.setdefault((what, who), [0, self.now()])[0] += 1
 
-    def told(self) -> List[List[Any]]:
+    def told(self) -> list[list[Any]]:
         with self._lock:
             return [[what, who, count, first] for (what, who), (count, first) in sorted(self._found.items())]
 
@@ -232,7 +233,7 @@ class QuantumClock(ClockPublisher):
             super()._on_step()
 
 
-def main(arguments: Optional[List[str]] = None) -> None:
+def main(arguments: list[str] | None = None) -> None:
     """gzserver's own, with a probe in it."""
     number, pipe, home, *options = sys.argv[1:] if arguments is None else arguments
     os.set_inheritable(int(number), False)

@@ -16,9 +16,10 @@ import time
 import traceback
 import uuid
 import xmlrpc.client
+from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from itertools import zip_longest
-from typing import Any, Callable, Dict, List, Optional, Sequence
+from typing import Any
 from xml.parsers.expat import ExpatError
 
 import genpy
@@ -65,20 +66,20 @@ _READY_STEP = 0.1  # s of simulated time between two looks at what has come
 
 
 class Session:
-    def __init__(self, job: Job, tasks: List[Dict[str, Any]], number: int):
+    def __init__(self, job: Job, tasks: list[dict[str, Any]], number: int):
         self.job, self.tasks, self.number = job, tasks, number
-        self.programs: List[Program] = []
-        self.notes: List[str] = []
-        self.bench: Optional[Bench] = None
-        self.launches: List[Program] = []
+        self.programs: list[Program] = []
+        self.notes: list[str] = []
+        self.bench: Bench | None = None
+        self.launches: list[Program] = []
         self.guard = Guard(lambda: self.programs, job.limits, job.group, job.written, not job.unsafe)
-        self.starter: Optional[Starter] = None
-        self.core: Optional[subprocess.Popen] = None
+        self.starter: Starter | None = None
+        self.core: subprocess.Popen | None = None
         self.interference = Interference()
-        self.asked: Dict[str, int] = {}  # service of the simulator -> how often the spec itself had it called
+        self.asked: dict[str, int] = {}  # service of the simulator -> how often the spec itself had it called
         self._begin = time.monotonic()
 
-    def run(self) -> List[TaskResult]:
+    def run(self) -> list[TaskResult]:
         core = self.core = subprocess.Popen(
             [*sandbox.isolated(), "-m", "lab_check.examination.guarded_master", str(self.job.port), str(int(self.job.limits["memory"]))],
             stdin=subprocess.DEVNULL,
@@ -106,7 +107,7 @@ class Session:
                 raise RuntimeError("the ROS master of this examination did not start")
             time.sleep(0.02)
 
-    def _examine(self) -> List[TaskResult]:
+    def _examine(self) -> list[TaskResult]:
         launch = self.tasks[0]["launch"]
         # What roscore's launcher does: roslaunch would otherwise make one of its own, and a second would not fit.
         rosgraph.Master("/lab_check").setParam("/run_id", str(uuid.uuid4()))
@@ -177,7 +178,7 @@ class Session:
         """What all programs said, each after as many bytes of it as ``since`` says; :meth:`_said` makes such a mark."""
         return "".join(program.output.text(mark) for program, mark in zip_longest(self.programs, since, fillvalue=0))
 
-    def _said(self) -> List[int]:
+    def _said(self) -> list[int]:
         return [program.output.total for program in self.programs]
 
     def _alive(self) -> None:
@@ -204,7 +205,7 @@ class Session:
 
     # ------------------------------------------------------------------------------------------ readiness
 
-    def _get_ready(self, ready: Dict[str, Any]) -> None:
+    def _get_ready(self, ready: dict[str, Any]) -> None:
         def left() -> float:
             return max(ready["timeout"] - self.guard.spent, 0.0)
 
@@ -228,7 +229,7 @@ class Session:
             begin += 1.0
         self.bench.pass_time(begin - self.bench.now.time)
 
-    def _simulator(self, timeout: float, left: Callable[[], float]) -> Dict[str, str]:
+    def _simulator(self, timeout: float, left: Callable[[], float]) -> dict[str, str]:
         """Waits until it is up.
 
         :returns: name and URI of its node
@@ -245,7 +246,7 @@ class Session:
             raise Gone(str(error)) from error
         raise Gone(f"no simulator came up within {timeout:g} s: does the launch file include gazebo_ros's empty_world.launch?")
 
-    def _make_bench(self, simulator: Dict[str, str]) -> None:
+    def _make_bench(self, simulator: dict[str, str]) -> None:
         self.nodes.find()
         pid = self.starter.program.process.pid
         self.nodes.simulator_is(pid)
@@ -254,10 +255,10 @@ class Session:
         self.bench = Bench(self.nodes, self.starter.wire, self.job.spec["quantum"], self._alive)
         self.bench.simulator = simulator["uri"]
 
-    def _own_code(self) -> List[str]:
+    def _own_code(self) -> list[str]:
         return [] if self.starter.loaded is None else submission_code.told(self.starter.loaded)
 
-    def _look_who_interferes(self, actor: Optional[Actor] = None) -> None:
+    def _look_who_interferes(self, actor: Actor | None = None) -> None:
         """What was done since the launch to the world, and to the simulator's own names."""
         mine = rospy.get_name()
         for what, who, count, first in self.bench.changes():
@@ -268,7 +269,7 @@ class Session:
         for line in connections.told(rosgraph.Master("/lab_check")):
             self.interference.names.add(line)
 
-    def _missing(self, ready: Dict[str, Any]) -> List[str]:
+    def _missing(self, ready: dict[str, Any]) -> list[str]:
         import fnmatch
 
         published, subscribed, services = rosgraph.Master("/lab_check").getSystemState()
@@ -289,7 +290,7 @@ class Session:
 
     # ------------------------------------------------------------------------------------------ tasks
 
-    def _task(self, task: Dict[str, Any]) -> TaskResult:
+    def _task(self, task: dict[str, Any]) -> TaskResult:
         mark = self._said()
         job, bench = self.job, self.bench
         actor = Actor(bench, self.start)
@@ -353,7 +354,7 @@ class Session:
             self.bench.tick()
 
     @staticmethod
-    def _verdict(monitor, expectation: Dict[str, Any], trouble: str):
+    def _verdict(monitor, expectation: dict[str, Any], trouble: str):
         kind = kind_of(expectation)
         if trouble:
             return Verdict(kind, False, trouble)
@@ -374,7 +375,7 @@ class Session:
         return result
 
 
-def _typed(launch: str) -> List[str]:
+def _typed(launch: str) -> list[str]:
     return [f"roslaunch {part}" for part in launch.split(" + ")]
 
 

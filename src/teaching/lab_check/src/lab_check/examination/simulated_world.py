@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import time
 import xmlrpc.client
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, Optional, Set, Tuple
+from typing import Any
 from xml.parsers.expat import ExpatError
 
 import rosgraph
@@ -32,20 +33,20 @@ class Sample:
     """``time`` s of simulation; the rest as :class:`lab_check.examination.probe.Probe` writes it."""
 
     time: float
-    models: Dict[str, Any]
-    contacts: List[List[str]]
+    models: dict[str, Any]
+    contacts: list[list[str]]
 
-    def joint(self, name: str, model: str = "") -> Optional[List[float]]:
+    def joint(self, name: str, model: str = "") -> list[float] | None:
         """[position, velocity, effort] of the first movable model's joint of that name."""
         for key, entry in self.models.items():
             if (not model or key == model) and name in entry.get("joints", {}):
                 return entry["joints"][name]
         return None
 
-    def models_with(self, joint: str) -> List[str]:
+    def models_with(self, joint: str) -> list[str]:
         return [name for name, entry in self.models.items() if joint in entry.get("joints", {})]
 
-    def place(self, name: str) -> Optional[List[float]]:
+    def place(self, name: str) -> list[float] | None:
         """Pose of ``model`` or ``model::link``: x, y, z, qx, qy, qz, qw."""
         model, _, link = name.partition("::")
         entry = self.models.get(model)
@@ -65,7 +66,7 @@ class Bench:
         self.nodes, self.alive = nodes, alive
         self._wire = wire
         self._master = rosgraph.Master("/lab_check")
-        self.on_sample: List[Callable[[Sample], None]] = []
+        self.on_sample: list[Callable[[Sample], None]] = []
         self.now = self._read()
         self.dt = self._dt
         self.count = max(1, round(quantum / self.dt))
@@ -112,7 +113,7 @@ class Bench:
     def connect(self) -> None:
         """As :meth:`settle`, and every subscriber is connected to every publisher."""
         self.settle(0.05)
-        deaf: Set[str] = set()
+        deaf: set[str] = set()
         for _ in range(_LOOKS):
             if connections.complete(self._master, deaf):
                 break
@@ -162,7 +163,7 @@ class Bench:
     def watch_contacts(self, on: bool) -> None:
         self._ask("contacts", on)
 
-    def seen(self, topic: str) -> "Dict[str, float] | str":
+    def seen(self, topic: str) -> dict[str, float] | str:
         """``model::link::visual`` -> its share of the picture that the camera of this topic would take now; or a sentence."""
         try:
             found = self._wire.ask("seen", topic)
@@ -180,7 +181,7 @@ class Bench:
         except (Refused, Lost, Gone):
             return b""
 
-    def changes(self) -> "List[Tuple[str, str, int, float]]":
+    def changes(self) -> list[tuple[str, str, int, float]]:
         """Who changed the world by the simulator's services or topics: (which, node, how often, s of simulation of the first time)."""
         try:
             return [(str(what), str(who), int(count), float(first)) for what, who, count, first in self._ask("changed")]

@@ -14,8 +14,9 @@ import sysconfig
 import threading
 import time
 import uuid
+from collections.abc import Callable
 from multiprocessing.connection import Connection
-from typing import Any, Callable, Dict, List, Optional
+from typing import Any
 
 from ..errors import LabError
 from ..isolation import sandbox
@@ -63,7 +64,7 @@ class Wire:
             raise Refused(str(answer[1])[:300])
         return answer[1]
 
-    def hello(self) -> Optional[Dict[str, str]]:
+    def hello(self) -> dict[str, str] | None:
         """Name and URI of its node, as soon as it is up; None before."""
         if not self._connection.poll(0):
             return None
@@ -91,7 +92,7 @@ class Refused(LabError, RuntimeError):
     """The simulator cannot do what was asked; its own sentence."""
 
 
-def checked_state(data: Any) -> Dict[str, Any]:
+def checked_state(data: Any) -> dict[str, Any]:
     """What :class:`lab_check.examination.probe.Probe` tells of the world.
 
     :raises Lost: it is not that
@@ -123,9 +124,9 @@ class Starter:
 
     def __init__(self, job: Job, seed: int, started: Callable[[Program], None], alive: Callable[[], None]):
         self.address = f"lab_check.{uuid.uuid4().hex}"  # without a file: of this network alone
-        self.program: Optional[Program] = None
-        self.wire: Optional[Wire] = None
-        self.loaded: Optional[int] = None  # a pipe, see lab_check.examination.submission_code
+        self.program: Program | None = None
+        self.wire: Wire | None = None
+        self.loaded: int | None = None  # a pipe, see lab_check.examination.submission_code
         self._job, self._seed, self._started, self._alive = job, seed, started, alive
         self._listens = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self._listens.bind(f"\0{self.address}")
@@ -150,7 +151,7 @@ class Starter:
                 wish.close()
 
     def _answer(self, wish: socket.socket) -> None:
-        files: List[int] = []
+        files: list[int] = []
         try:
             wish.settimeout(10.0)
             data, files, _, _ = socket.recv_fds(wish, _LONGEST_WISH, 3)
@@ -164,7 +165,7 @@ class Starter:
             wish.close()
             self._room.release()
 
-    def _fulfil(self, wished: Dict[str, Any], files: List[int], wish: socket.socket) -> int:
+    def _fulfil(self, wished: dict[str, Any], files: list[int], wish: socket.socket) -> int:
         if self.program is not None and self.program.running:
             os.write(files[2], b"gzserver: a simulator runs already and goes on; models are spawned into that world\n")
             return _TAKEN
@@ -198,7 +199,7 @@ class Starter:
                     break
         return program.code or 0
 
-    def _environment(self, wished: Dict[str, str]) -> Dict[str, str]:
+    def _environment(self, wished: dict[str, str]) -> dict[str, str]:
         """For the simulator: no library or module of the submission comes before one of the platform or of Debian."""
         mine = sandbox.own_environment()
         places = ("ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_IP")
@@ -222,7 +223,7 @@ class Starter:
         }
 
 
-def _without_seed(words: List[str]) -> List[str]:
+def _without_seed(words: list[str]) -> list[str]:
     """The examination has a seed of its own."""
     kept, skip = [], False
     for word in words:

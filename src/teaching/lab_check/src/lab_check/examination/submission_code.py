@@ -6,7 +6,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import sys
-from typing import Any, List, Set
+from typing import Any
 
 _ENDINGS = (".py", ".pyc", ".so", ".egg", ".zip")
 _MOST, _LONGEST = 100, 500  # files; bytes of a path, so that one is written as a whole or not at all
@@ -15,7 +15,7 @@ _MOST, _LONGEST = 100, 500  # files; bytes of a path, so that one is written as 
 def tell(pipe: int, home: str) -> None:
     """From here on each file below ``home`` that this process opens as code, or loads as a plugin, goes through the pipe once."""
     os.set_inheritable(pipe, False)
-    known: Set[str] = set()
+    known: set[str] = set()
 
     def load(path: Any) -> None:
         whole = os.path.abspath(os.fsdecode(path))
@@ -34,7 +34,7 @@ def tell(pipe: int, home: str) -> None:
     _watch_libraries(load)
 
 
-def _is_code(path: "str | bytes") -> bool:
+def _is_code(path: str | bytes) -> bool:
     name = os.path.basename(os.fsdecode(path))
     return name.endswith(_ENDINGS) or ".so." in name
 
@@ -51,7 +51,7 @@ def _watch_libraries(load) -> None:
     compiled.resolve = told_first
 
 
-def told(pipe: int) -> List[str]:
+def told(pipe: int) -> list[str]:
     """What has come through the pipe, whose end is not blocking; of a compiled module of Python its source."""
     data = b""
     try:

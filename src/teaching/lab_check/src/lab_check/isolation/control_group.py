@@ -12,7 +12,7 @@ import os
 import pathlib
 import time
 import uuid
-from typing import Dict, Iterator, List, Optional, Tuple
+from collections.abc import Iterator
 
 # Version 1 of control groups has a hierarchy for each resource, version 2 one for all.
 HIERARCHIES = ("/sys/fs/cgroup/pids", "/sys/fs/cgroup/memory", "/sys/fs/cgroup")
@@ -58,7 +58,7 @@ def counts_memory(place: str) -> bool:
     )
 
 
-def memory(place: str) -> Optional[float]:
+def memory(place: str) -> float | None:
     """Bytes that only the group's processes hold, in whatever way; None where no group counts them."""
     for folder in filter(None, place.split(os.pathsep)):
         try:
@@ -84,9 +84,9 @@ def ended_for_memory(place: str) -> int:
     return 0
 
 
-def _make(bounds: Dict[str, str]) -> Dict[str, int]:
+def _make(bounds: dict[str, str]) -> dict[str, int]:
     """Folders that together keep the bounds, as far as this machine lets us make them, each with the descriptor of its lock."""
-    places: Dict[str, int] = {}
+    places: dict[str, int] = {}
     kept: set = set()
     for hierarchy in HIERARCHIES:
         _sweep(hierarchy)
@@ -104,7 +104,7 @@ def _make(bounds: Dict[str, str]) -> Dict[str, int]:
     return places
 
 
-def _new(hierarchy: str) -> Tuple[str, int]:
+def _new(hierarchy: str) -> tuple[str, int]:
     """A group, and the descriptor of its lock, which whoever makes a group holds as long as it lives.
 
     :raises OSError: none can be made there
@@ -119,7 +119,7 @@ def _new(hierarchy: str) -> Tuple[str, int]:
             os.close(lock)
 
 
-def _lock(place: str) -> Optional[int]:
+def _lock(place: str) -> int | None:
     """None where somebody holds it, or it is not there any more."""
     try:
         number = os.open(place, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
@@ -150,7 +150,7 @@ def _sweep(hierarchy: str) -> None:
                 os.close(lock)
 
 
-def _write(place: str, values: Dict[str, str]) -> List[str]:
+def _write(place: str, values: dict[str, str]) -> list[str]:
     """The names of those bounds that are kept in this group."""
     written = []
     for name, value in values.items():

@@ -24,7 +24,6 @@ import subprocess
 import sys
 import time
 from dataclasses import dataclass
-from typing import Dict, List
 
 from ..errors import LabError
 from . import control_group, syscalls
@@ -51,9 +50,9 @@ class SandboxError(LabError, RuntimeError):
 class Platform:
     """``prefixes`` are what CMAKE_PREFIX_PATH names, ``roots`` the folders that hold them and their sources."""
 
-    prefixes: List[str]
-    roots: List[str]
-    hidden: List[str]
+    prefixes: list[str]
+    roots: list[str]
+    hidden: list[str]
 
     @classmethod
     def here(cls) -> Platform:
@@ -79,14 +78,14 @@ class Platform:
         return cls(prefixes, roots, [place for place in dict.fromkeys(hidden) if os.path.isdir(place) and not os.path.islink(place)])
 
 
-def outer_words() -> List[str]:
+def outer_words() -> list[str]:
     """Before the examiner: everything in it ends with it. It waits for a line on its standard input, see :func:`shut_in`."""
     # Whoever becomes root by a mapping loses the wish to end with its parent: setpriv renews it.
     inside = ["setpriv", "--pdeathsig", "KILL", "unshare", "--net", "--mount", "--pid", "--fork", "--mount-proc", "--kill-child"]
     return ["unshare", "--user", "sh", "-c", 'read -r mapped && exec "$@" < /dev/null', "sh", *inside]
 
 
-def shut_in(words: List[str], **streams) -> subprocess.Popen:
+def shut_in(words: list[str], **streams) -> subprocess.Popen:
     """Starts ``words`` behind the outer wall, as its root.
 
     :param streams: for ``subprocess.Popen``, without stdin
@@ -170,7 +169,7 @@ _OF_ETC = (
 )
 
 
-def inner_words(platform: Platform, world: str, place: str, environment: Dict[str, str], filter_fd: int) -> List[str]:
+def inner_words(platform: Platform, world: str, place: str, environment: dict[str, str], filter_fd: int) -> list[str]:
     """Before a program of the submission.
 
     :param world: the folder of :func:`.examination.job.Job.scratch`: home, the platform's roots where the program's user can reach them
@@ -254,12 +253,12 @@ def make_world(platform: Platform, world: str, size: int, user: int) -> None:
     own_folder(pathlib.Path(world, "home"), user)
 
 
-def checkers_own(world: "str | os.PathLike") -> pathlib.Path:
+def checkers_own(world: str | os.PathLike) -> pathlib.Path:
     """For what the checker writes down meanwhile: the submission's disk may be full."""
     return pathlib.Path(world, "checker")
 
 
-def filter_file(world: "str | os.PathLike") -> pathlib.Path:
+def filter_file(world: str | os.PathLike) -> pathlib.Path:
     return pathlib.Path(world, "system_calls")
 
 
@@ -269,7 +268,7 @@ def own_folder(path: pathlib.Path, user: int) -> None:
     os.chown(path, user, user)
 
 
-def environment(port: int, home: str = HOME) -> Dict[str, str]:
+def environment(port: int, home: str = HOME) -> dict[str, str]:
     """What a program of the submission finds in its environment; nothing of the teacher's."""
     return {
         "HOME": home,
@@ -293,12 +292,12 @@ def environment(port: int, home: str = HOME) -> Dict[str, str]:
     }
 
 
-def isolated() -> List[str]:
+def isolated() -> list[str]:
     """Python for a process of the checker: modules are the platform's and Debian's, wherever it was started and whoever's home it has."""
     return [sys.executable, "-P", "-s"]
 
 
-def own_environment() -> Dict[str, str]:
+def own_environment() -> dict[str, str]:
     """For processes of the checker, made from nothing: of who started it come the platform's folders, as whole paths, and what names its
     temporary files and its language. What is relative would be looked for in the current folder, which may be the submission's."""
     kept = {name: value for name, value in os.environ.items() if name in _KEPT or name.startswith(("ROS", "LC_", "LAB_CHECK_"))}

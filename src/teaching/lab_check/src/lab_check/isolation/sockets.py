@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import socket
 import struct
-from typing import Iterator, Tuple
+from collections.abc import Iterator
 
 _NETLINK_SOCK_DIAG, _BY_FAMILY, _DUMP, _DONE, _ERROR = 4, 20, 0x301, 3, 2
 _UNIX_MEMORY, _INET_MEMORY = 5, 7  # kinds of attributes
@@ -34,7 +34,7 @@ def queued() -> float:
         return 0.0
 
 
-def _answers(asks: socket.socket, request: bytes, skip: int, wanted: int) -> Iterator[Tuple[int, int, int]]:
+def _answers(asks: socket.socket, request: bytes, skip: int, wanted: int) -> Iterator[tuple[int, int, int]]:
     asks.send(_HEADER.pack(_HEADER.size + len(request), _BY_FAMILY, _DUMP, 1, 0) + request)
     while True:
         data, place = asks.recv(1 << 16), 0

@@ -15,8 +15,8 @@ import stat
 import tarfile
 import xml.etree.ElementTree as ET
 import zipfile
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Dict, Iterator, List, Optional, Tuple
 
 from ..errors import LabError
 from .untrusted_files import open_regular
@@ -39,8 +39,8 @@ class StagingError(LabError, ValueError):
 class Staged:
     """``packages`` from name to folder below the source folder; ``notes`` what was left out, and why."""
 
-    packages: Dict[str, pathlib.Path] = field(default_factory=dict)
-    notes: List[str] = field(default_factory=list)
+    packages: dict[str, pathlib.Path] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
     files: int = 0
     size: int = 0
 
@@ -128,7 +128,7 @@ def _safe(name: str) -> str:
     return "".join(c if c.isascii() and (c.isalnum() or c in "._-+") else "_" for c in name) or "submission"
 
 
-def _walk(folder: pathlib.Path, notes: List[str], depth: int = 0) -> Iterator[Tuple[pathlib.Path, os.DirEntry]]:
+def _walk(folder: pathlib.Path, notes: list[str], depth: int = 0) -> Iterator[tuple[pathlib.Path, os.DirEntry]]:
     if depth > _DEEP:
         notes.append(f"folders more than {_DEEP} deep were left out")
         return
@@ -185,7 +185,7 @@ def _write(stream, place: pathlib.Path, size: int, mode: int, name: str) -> None
     place.chmod(0o644 | (mode & stat.S_IXUSR and 0o111))
 
 
-def _inside(source: pathlib.Path, name: str, notes: List[str]) -> "pathlib.Path | None":
+def _inside(source: pathlib.Path, name: str, notes: list[str]) -> pathlib.Path | None:
     parts = pathlib.PurePosixPath(name.replace("\\", "/")).parts
     if not parts or ".." in parts or parts[0] == "/" or "\0" in name or len(parts) > _DEEP:
         notes.append(f"{_show(name)[:200]} would be written outside; left out")
@@ -282,8 +282,8 @@ def _pour(stream, out, size: int, name: str) -> None:
         out.write(chunk)
 
 
-def _packages(source: pathlib.Path, notes: List[str]) -> Dict[str, pathlib.Path]:
-    found: Dict[str, pathlib.Path] = {}
+def _packages(source: pathlib.Path, notes: list[str]) -> dict[str, pathlib.Path]:
+    found: dict[str, pathlib.Path] = {}
     for manifest in sorted(source.rglob("package.xml")):
         shown = _show(str(manifest.relative_to(source)))
         name, problem = _name_of(manifest)
@@ -300,7 +300,7 @@ def _packages(source: pathlib.Path, notes: List[str]) -> Dict[str, pathlib.Path]
     return found
 
 
-def _name_of(manifest: pathlib.Path) -> Tuple[Optional[str], str]:
+def _name_of(manifest: pathlib.Path) -> tuple[str | None, str]:
     """The package's name, or None and why there is none."""
     if not manifest.is_file():
         return None, "is no file"

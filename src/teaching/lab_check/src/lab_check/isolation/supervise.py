@@ -9,14 +9,14 @@ import signal
 import subprocess
 import threading
 import time
-from typing import Callable, Dict, List, Optional, Sequence, Tuple
+from collections.abc import Callable, Sequence
 
 from . import control_group, sockets
 
 _HEAD, _TAIL = 400_000, 200_000  # bytes of output that are kept
 _MOST_FILES = 4096  # that are open, of one process
 _LOOK = 0.1  # s between two looks at memory and processes
-Streams = Tuple[int, int, int]  # descriptors of standard input, output and error
+Streams = tuple[int, int, int]  # descriptors of standard input, output and error
 STRETCH = 10.0  # wall time, in limits of time, after which a submission is ended even on the busiest machine
 
 
@@ -57,13 +57,13 @@ class Program:
 
     def __init__(
         self,
-        words: List[str],
-        limits: Dict[str, float],
-        environment: Optional[Dict[str, str]] = None,
-        cwd: Optional[str] = None,
+        words: list[str],
+        limits: dict[str, float],
+        environment: dict[str, str] | None = None,
+        cwd: str | None = None,
         place: str = "",
         user: int = 0,
-        streams: Optional[Streams] = None,
+        streams: Streams | None = None,
         pass_fds: Sequence[int] = (),
     ):
         self.output = Output()
@@ -124,7 +124,7 @@ class Program:
         return self.process.poll() is None
 
     @property
-    def code(self) -> Optional[int]:
+    def code(self) -> int | None:
         return self.process.poll()
 
     def write(self, text: str) -> None:
@@ -189,7 +189,7 @@ def bound(memory: float) -> None:
         resource.setrlimit(what, (most if soft == resource.RLIM_INFINITY else min(most, soft), hard))
 
 
-def _parents() -> Dict[int, int]:
+def _parents() -> dict[int, int]:
     found = {}
     for name in os.listdir("/proc"):
         if name.isdigit():
@@ -201,9 +201,9 @@ def _parents() -> Dict[int, int]:
     return found
 
 
-def descendants(*pids: int) -> List[int]:
+def descendants(*pids: int) -> list[int]:
     """``pids`` and all that they started and that still has a parent there."""
-    children: Dict[int, List[int]] = {}
+    children: dict[int, list[int]] = {}
     for child, parent in _parents().items():
         children.setdefault(parent, []).append(child)
     found, waiting = [], list(pids)
@@ -226,8 +226,8 @@ class Guard(threading.Thread):
 
     def __init__(
         self,
-        programs: Callable[[], List[Program]],
-        limits: Dict[str, float],
+        programs: Callable[[], list[Program]],
+        limits: dict[str, float],
         place: str = "",
         written: Callable[[], float] = lambda: 0.0,
         own_network: bool = False,
@@ -240,7 +240,7 @@ class Guard(threading.Thread):
         self.peak_memory = 0.0
         self.peak_processes = 0
         self.spent = 0.0  # s as on a machine of its own
-        self._used: Dict[int, float] = {}
+        self._used: dict[int, float] = {}
 
     def run(self) -> None:
         begin = last = time.monotonic()
@@ -259,7 +259,7 @@ class Guard(threading.Thread):
                 for program in programs:
                     program.breaks(broke)
 
-    def _memory(self, pids: List[int]) -> float:
+    def _memory(self, pids: list[int]) -> float:
         counted = control_group.memory(self._place) if self._place else None
         return self._held.bytes(pids) if counted is None else max(counted - self._written(), 0.0)
 
@@ -270,7 +270,7 @@ class Guard(threading.Thread):
             return f"it took more than {self._limits['memory'] / 1e9:g} GB of memory"
         return f"it was not done after {self._limits['time']:g} s" if self.spent > self._limits["time"] else ""
 
-    def _worth(self, pids: List[int], wall: float) -> float:
+    def _worth(self, pids: list[int], wall: float) -> float:
         """What ``wall`` s would have been on a machine of their own: processor time, where they wanted a processor."""
         uses = {pid: processor_time(pid) for pid in pids}
         took = sum(max(seconds - self._used.get(pid, 0.0), 0.0) for pid, (seconds, _) in uses.items())
@@ -283,7 +283,7 @@ class Guard(threading.Thread):
             self.join(5.0)
 
 
-def processor_time(pid: int) -> Tuple[float, bool]:
+def processor_time(pid: int) -> tuple[float, bool]:
     """(s of processor time so far, whether it wants a processor now)."""
     try:
         with open(f"/proc/{pid}/stat", "rb") as file:
@@ -303,7 +303,7 @@ class Held:
         self._own_network = own_network
         self._due, self._known, self._machine = 0.0, 0.0, 0.0
 
-    def bytes(self, pids: List[int]) -> float:
+    def bytes(self, pids: list[int]) -> float:
         now, machine = time.monotonic(), _shared_of_machine()
         if now >= self._due or machine - self._machine > self._GROWN:
             self._known = _shared(pids) + (sockets.queued() if self._own_network else 0.0)
@@ -319,12 +319,12 @@ def _shared_of_machine() -> float:
         return 0.0
 
 
-def _shared(pids: List[int]) -> float:
+def _shared(pids: list[int]) -> float:
     """Bytes of shared memory: what is mapped, and files that are in memory alone, mapped or not."""
-    files: Dict[Tuple[int, int], float] = {}
+    files: dict[tuple[int, int], float] = {}
     mapped = 0.0
     for pid in pids:
-        mine: Dict[Tuple[int, int], float] = {}
+        mine: dict[tuple[int, int], float] = {}
         try:
             with open(f"/proc/{pid}/status", "rb") as status:
                 rss = next((float(line.split()[1]) * 1024 for line in status if line.startswith(b"RssShmem:")), 0.0)

@@ -10,7 +10,7 @@ import stat
 import subprocess
 import tempfile
 import time
-from typing import Iterator
+from collections.abc import Iterator
 
 _YOUNG = 60.0  # s in which one may be made, but not locked yet
 

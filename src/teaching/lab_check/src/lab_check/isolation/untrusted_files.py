@@ -7,14 +7,15 @@ import os
 import pathlib
 import re
 import stat
+from collections.abc import Iterator, Sequence
 from fnmatch import translate
-from typing import BinaryIO, Iterator, List, Sequence, Tuple
+from typing import BinaryIO
 
 _MOST_FILES = 50_000  # that are looked at for one pattern
 _DEEP = 60  # folders in each other that are looked into: whoever goes down by recursion, or by whole paths, ends at some hundred
 
 
-def open_regular(folder: "str | os.PathLike", name: "str | os.PathLike") -> BinaryIO:
+def open_regular(folder: str | os.PathLike, name: str | os.PathLike) -> BinaryIO:
     """
     :param folder: one that the submission cannot put something else in the place of
     :param name: below ``folder``; no part of it may be a link
@@ -34,7 +35,7 @@ def open_regular(folder: "str | os.PathLike", name: "str | os.PathLike") -> Bina
     return os.fdopen(number, "rb")
 
 
-def _open_folder(folder: "str | os.PathLike", parts: Sequence[str]) -> int:
+def _open_folder(folder: str | os.PathLike, parts: Sequence[str]) -> int:
     """Descriptor of a folder below another one.
 
     :raises OSError: one of ``parts`` is a link, or no folder
@@ -51,7 +52,7 @@ def _open_folder(folder: "str | os.PathLike", parts: Sequence[str]) -> int:
     return here
 
 
-def read_regular(folder: "str | os.PathLike", name: "str | os.PathLike", most: int) -> bytes:
+def read_regular(folder: str | os.PathLike, name: str | os.PathLike, most: int) -> bytes:
     """The first ``most`` bytes.
 
     :raises OSError: as :func:`open_regular`
@@ -60,9 +61,7 @@ def read_regular(folder: "str | os.PathLike", name: "str | os.PathLike", most: i
         return file.read(most)
 
 
-def walk(
-    folder: "str | os.PathLike", below: "str | os.PathLike" = "", left_out: Sequence[str] = ()
-) -> Iterator[Tuple[str, os.stat_result]]:
+def walk(folder: str | os.PathLike, below: str | os.PathLike = "", left_out: Sequence[str] = ()) -> Iterator[tuple[str, os.stat_result]]:
     """(path below ``folder``, what it is) of all that is no folder; no link is followed, and none is gone through. What goes meanwhile, or
     cannot be read, or lies behind more than ``_DEEP`` folders, is left out.
 
@@ -95,7 +94,7 @@ def walk(
         waiting += reversed(folders)
 
 
-def matching(folder: pathlib.Path, pattern: str, anywhere: bool = False, below: "str | os.PathLike" = "") -> List[str]:
+def matching(folder: pathlib.Path, pattern: str, anywhere: bool = False, below: str | os.PathLike = "") -> list[str]:
     """Paths below ``folder / below`` of regular files that fit a pattern of a shell: ``*`` for a part of a path, ``**`` for any number of
     folders.
 
@@ -114,7 +113,7 @@ def matching(folder: pathlib.Path, pattern: str, anywhere: bool = False, below: 
     return sorted(found)
 
 
-def _fits(names: Tuple[str, ...], wanted: list) -> bool:
+def _fits(names: tuple[str, ...], wanted: list) -> bool:
     """Whether the parts of a path fit; in time proportional to both, whatever the pattern."""
     reached = {0}
     for name in (*names, None):

@@ -7,7 +7,6 @@ import html
 import io
 import os
 import pathlib
-from typing import Dict, List
 
 from ..outcome import Result, TaskResult, readable
 from ..specs.spec import Spec
@@ -83,7 +82,7 @@ def _task(number: int, task: TaskResult, result: Result, out: pathlib.Path) -> s
     return "\n".join(parts + figures)
 
 
-def drawn(series: Dict[str, List[List[float]]]) -> str:
+def drawn(series: dict[str, list[list[float]]]) -> str:
     """The curves over simulated time as an SVG in base64; '' when there is nothing to draw."""
     series = {name: points for name, points in series.items() if len(points) > 1}
     if not series:

@@ -11,7 +11,6 @@ import shlex
 import sys
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field
-from typing import Dict, List, Optional
 
 import lenient_xml
 
@@ -40,18 +39,18 @@ class Found:
     package: str
     launch: str
     model: str = ""
-    joints: List[Joint] = field(default_factory=list)
+    joints: list[Joint] = field(default_factory=list)
     transmissions: int = 0
     description: str = ""  # the parameter
-    controllers: Dict[str, str] = field(default_factory=dict)  # name with its namespace -> type
-    joint_of: Dict[str, str] = field(default_factory=dict)  # controller -> its joint
-    joints_of: Dict[str, List[str]] = field(default_factory=dict)  # controller -> its joints
+    controllers: dict[str, str] = field(default_factory=dict)  # name with its namespace -> type
+    joint_of: dict[str, str] = field(default_factory=dict)  # controller -> its joint
+    joints_of: dict[str, list[str]] = field(default_factory=dict)  # controller -> its joints
     driven_by: str = ""  # topic of a plugin that drives a base
-    nodes: List[str] = field(default_factory=list)  # names of those that are no spawner and not the simulator
-    packages: List[str] = field(default_factory=list)
+    nodes: list[str] = field(default_factory=list)  # names of those that are no spawner and not the simulator
+    packages: list[str] = field(default_factory=list)
 
 
-def look(package: str, file: str, arguments: List[str]) -> Found:
+def look(package: str, file: str, arguments: list[str]) -> Found:
     """
     :raises NewError: roslaunch cannot read it
     """
@@ -69,7 +68,7 @@ def look(package: str, file: str, arguments: List[str]) -> Found:
     for name, value in sorted(parameters.items()):
         if name.endswith("robot_description") and isinstance(value, str) and not found.joints:
             _describe(found, name, value)
-    spawned: List[str] = []
+    spawned: list[str] = []
     for node in config.nodes:
         words = shlex.split(node.args or "")
         if node.type == "spawn_model":
@@ -90,7 +89,7 @@ def _joined(namespace: str, name: str) -> str:
     return name if name.startswith("/") else f"{namespace.rstrip('/')}/{name}"
 
 
-def _own_packages(package: str, named: List[str]) -> List[str]:
+def _own_packages(package: str, named: list[str]) -> list[str]:
     """Those of the launch file that lie in the folder of its own package's, as packages of one submission do."""
     import rospkg
 
@@ -151,13 +150,13 @@ def text(found: Found) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _ready(found: Found) -> List[str]:
+def _ready(found: Found) -> list[str]:
     parts = [f"models: [{_quoted(found.model)}]"] if found.model else []
     parts.append("at: 2")
     return [f"ready: {{{', '.join(parts)}}}   # what must be there before the first task, and at which second of simulated time it begins"]
 
 
-def _description(found: Found) -> List[str]:
+def _description(found: Found) -> list[str]:
     if not found.joints:
         return []
     names = ", ".join(_quoted(joint.name) for joint in found.joints)
@@ -171,7 +170,7 @@ def _description(found: Found) -> List[str]:
     ] + ([f"      - urdf: {{transmissions: {found.transmissions}}}   # at least"] if found.transmissions else [])
 
 
-def _controllers(found: Found) -> List[str]:
+def _controllers(found: Found) -> list[str]:
     if not found.controllers:
         return []
     lines = [
@@ -187,18 +186,18 @@ def _controllers(found: Found) -> List[str]:
     return lines
 
 
-def _movement(found: Found) -> List[str]:
+def _movement(found: Found) -> list[str]:
     followers = [name for name, kind in sorted(found.controllers.items()) if kind.endswith("/JointTrajectoryController")]
     return _single_joints(found) + [line for name in followers for line in _trajectory(found, name)] + _drive(found)
 
 
-def _expected(joints: List[Joint]) -> List[str]:
+def _expected(joints: list[Joint]) -> list[str]:
     return [
         f"      - joint: {{name: {_quoted(joint.name)}, value: {joint.goal:g}, tolerance: 0.05, within: 10, hold: 0.2}}" for joint in joints
     ]
 
 
-def _single_joints(found: Found) -> List[str]:
+def _single_joints(found: Found) -> list[str]:
     single = {found.joint_of[name] for name, kind in found.controllers.items() if kind.endswith("/JointPositionController")}
     joints = [joint for joint in found.joints if joint.name in single]
     if not joints:
@@ -217,7 +216,7 @@ def _single_joints(found: Found) -> List[str]:
     return [*lines, "    expect:", *_expected(joints)]
 
 
-def _trajectory(found: Found, controller: str) -> List[str]:
+def _trajectory(found: Found, controller: str) -> list[str]:
     joints = [joint for name in found.joints_of[controller] for joint in found.joints if joint.name == name]
     if not joints:
         return []
@@ -235,7 +234,7 @@ def _trajectory(found: Found, controller: str) -> List[str]:
     ]
 
 
-def _drive(found: Found) -> List[str]:
+def _drive(found: Found) -> list[str]:
     topics = [f"{name}/cmd_vel" for name, kind in sorted(found.controllers.items()) if kind.endswith("/DiffDriveController")]
     topic = next(iter(topics), found.driven_by)
     if not topic:
@@ -251,7 +250,7 @@ def _drive(found: Found) -> List[str]:
     ]
 
 
-def _nodes(found: Found) -> List[str]:
+def _nodes(found: Found) -> list[str]:
     if not found.nodes:
         return []
     return ["  - name: The nodes run", "    points: 5", "    expect:", *(f"      - node: {name}" for name in sorted(set(found.nodes)))]
@@ -266,7 +265,7 @@ def _quoted(word: str) -> str:
 _NO_TEXT = ("true", "false", "yes", "no", "on", "off", "null", "y", "n")  # to a reader of YAML
 
 
-def main(arguments: Optional[List[str]] = None) -> int:
+def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="rosrun lab_check new", description="Write a first spec for a launch file, with comments.")
     parser.add_argument("package")
     parser.add_argument("launch", help="the launch file's name, or its path")

@@ -6,7 +6,7 @@ import difflib
 import json
 import pathlib
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Tuple
+from typing import Any
 
 import jsonschema
 import yaml
@@ -24,7 +24,7 @@ UNNAMED = "it"
 class SpecError(LabError, ValueError):
     """The spec cannot be used; ``problems`` has one line each: file:line: what is wrong and what to do."""
 
-    def __init__(self, problems: List[str]):
+    def __init__(self, problems: list[str]):
         super().__init__("\n".join(problems))
         self.problems = problems
 
@@ -34,8 +34,8 @@ class Spec:
     """``data`` as the file has it, with defaults filled in; ``lines`` from a path of keys to a line number."""
 
     path: pathlib.Path
-    data: Dict[str, Any]
-    lines: Dict[Tuple, int] = field(default_factory=dict)
+    data: dict[str, Any]
+    lines: dict[tuple, int] = field(default_factory=dict)
 
     def limit(self, name: str) -> float:
         """Bytes, processes or seconds."""
@@ -52,11 +52,11 @@ def size(text: str) -> float:
     return float(text[:-2]) * _UNITS[text[-2:]]
 
 
-def kind_of(expectation: Dict[str, Any]) -> str:
+def kind_of(expectation: dict[str, Any]) -> str:
     return next(key for key in expectation if key not in EXTRAS)
 
 
-def load(path: "str | pathlib.Path") -> Spec:
+def load(path: str | pathlib.Path) -> Spec:
     """
     :raises SpecError: the file is not there, no YAML, or not what the schema allows
     """
@@ -69,7 +69,7 @@ def load(path: "str | pathlib.Path") -> Spec:
     return Spec(path.resolve(), data, lines)
 
 
-def read(path: pathlib.Path, schema: Dict[str, Any]) -> Tuple[Dict[str, Any], Dict[Tuple, int]]:
+def read(path: pathlib.Path, schema: dict[str, Any]) -> tuple[dict[str, Any], dict[tuple, int]]:
     """YAML that the schema allows, and the line of each of its values by the path of keys to it.
 
     :raises SpecError: as :func:`load`
@@ -80,8 +80,8 @@ def read(path: pathlib.Path, schema: Dict[str, Any]) -> Tuple[Dict[str, Any], Di
         raise SpecError([f"{path}: cannot be read: {error}"]) from error
     try:
         node = yaml.compose(text, Loader=yaml.SafeLoader)
-        lines: Dict[Tuple, int] = {}
-        problems: List[str] = []
+        lines: dict[tuple, int] = {}
+        problems: list[str] = []
         data = _plain(node, (), lines, problems, path) if node else None
     except (yaml.YAMLError, RecursionError) as error:
         mark = getattr(error, "problem_mark", None)
@@ -93,7 +93,7 @@ def read(path: pathlib.Path, schema: Dict[str, Any]) -> Tuple[Dict[str, Any], Di
     return data, lines
 
 
-def _plain(node, where: Tuple, lines: Dict[Tuple, int], problems: List[str], path, depth: int = 0) -> Any:
+def _plain(node, where: tuple, lines: dict[tuple, int], problems: list[str], path, depth: int = 0) -> Any:
     """A YAML node as Python data; where each value stands goes to ``lines``, keys given twice to ``problems``."""
     lines[where] = node.start_mark.line + 1
     if depth > 40:
@@ -113,7 +113,7 @@ def _plain(node, where: Tuple, lines: Dict[Tuple, int], problems: List[str], pat
     return constructor.construct_object(node, deep=True)
 
 
-def _schema_problems(path, data, lines, schema) -> List[str]:
+def _schema_problems(path, data, lines, schema) -> list[str]:
     validator = jsonschema.Draft7Validator(schema)
     problems = []
     for error in sorted(validator.iter_errors(data), key=lambda e: lines.get(tuple(e.absolute_path), 0)):
@@ -123,7 +123,7 @@ def _schema_problems(path, data, lines, schema) -> List[str]:
     return problems
 
 
-def example(schema: Dict[str, Any], where: Tuple) -> str:
+def example(schema: dict[str, Any], where: tuple) -> str:
     """How the command or the expectation at this path of keys is written, to be put behind a complaint; '' elsewhere."""
     definitions = schema.get("definitions", {})
     kinds = [definitions.get(part, {}).get("properties", {}) for part in ("command", "expectation")]
@@ -131,14 +131,14 @@ def example(schema: Dict[str, Any], where: Tuple) -> str:
     return f"; the right form: {written[0]}" if written else ""
 
 
-def line_of(lines: Dict[Tuple, int], where: Tuple) -> int:
+def line_of(lines: dict[tuple, int], where: tuple) -> int:
     """Of the value at this path of keys, or of the nearest that holds it."""
     while where and where not in lines:
         where = where[:-1]
     return lines.get(where, 1)
 
 
-def _words(error, where: Tuple) -> List[Tuple[Tuple, str]]:
+def _words(error, where: tuple) -> list[tuple[tuple, str]]:
     """What jsonschema found, in a teacher's words, with the rest of the path to the place."""
     place = ".".join(str(part + 1) if isinstance(part, int) else part for part in where) or "the file"
     value = json.dumps(error.instance, default=str)
@@ -181,7 +181,7 @@ def _form(pattern: str) -> str:
     }.get(pattern, "package/Type")
 
 
-def _fill(data: Dict[str, Any]) -> None:
+def _fill(data: dict[str, Any]) -> None:
     data.setdefault("packages", [])
     data.setdefault("also", [])
     data["build"] = {"points": 0, "timeout": 240.0, **data.get("build", {})}
@@ -202,7 +202,7 @@ def _fill(data: Dict[str, Any]) -> None:
         task.setdefault("interference", data["interference"])
 
 
-def _further(path, data, lines) -> List[str]:
+def _further(path, data, lines) -> list[str]:
     """What a schema cannot say."""
     problems = []
     names = {}
@@ -230,7 +230,7 @@ def _further(path, data, lines) -> List[str]:
     return problems
 
 
-def _references(kind: str, wanted, runs, calls, path) -> List[str]:
+def _references(kind: str, wanted, runs, calls, path) -> list[str]:
     if kind == "exit" and wanted["run"] not in runs:
         return [f"no 'run' of this task is named '{wanted['run']}'; there are: {', '.join(sorted(runs)) or 'none'}"]
     if kind == "answer" and wanted["call"] not in calls:

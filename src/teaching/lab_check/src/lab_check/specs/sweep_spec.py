@@ -10,7 +10,7 @@ import pathlib
 import re
 import shutil
 from dataclasses import dataclass
-from typing import Any, Dict, List
+from typing import Any
 
 import numpy as np
 import yaml
@@ -32,16 +32,16 @@ class Sweep:
     """``cases``: for each its parameters' values, in the file's order."""
 
     path: pathlib.Path
-    data: Dict[str, Any]
+    data: dict[str, Any]
     spec: pathlib.Path
     submission: pathlib.Path
-    cases: List[Dict[str, Any]]
+    cases: list[dict[str, Any]]
 
     @property
     def touches_files(self) -> bool:
         return any("yaml" in place or "file" in place for place in self.data["set"])
 
-    def write_case(self, values: Dict[str, Any], folder: pathlib.Path) -> pathlib.Path:
+    def write_case(self, values: dict[str, Any], folder: pathlib.Path) -> pathlib.Path:
         """Spec and, where values go into files, a copy of the submission.
 
         :returns: the submission to examine
@@ -61,7 +61,7 @@ class Sweep:
         return submission
 
 
-def load_sweep(path: "str | pathlib.Path") -> Sweep:
+def load_sweep(path: str | pathlib.Path) -> Sweep:
     """
     :raises SpecError: a line for each mistake: file, line, what is wrong
     """
@@ -85,7 +85,7 @@ def load_sweep(path: "str | pathlib.Path") -> Sweep:
     return sweep
 
 
-def _ranges(path, data, lines) -> List[str]:
+def _ranges(path, data, lines) -> list[str]:
     problems, number = [], data["draws"]
     for name, given in data["parameters"].items():
         at = f"{path}:{line_of(lines, ('parameters', name))}: parameters.{name}"
@@ -108,7 +108,7 @@ def _ranges(path, data, lines) -> List[str]:
     return problems
 
 
-def _places(path, data, lines) -> List[str]:
+def _places(path, data, lines) -> list[str]:
     problems = []
     for index, place in enumerate(data["set"]):
         at = f"{path}:{line_of(lines, ('set', index))}: set.{index + 1}"
@@ -135,7 +135,7 @@ def _places(path, data, lines) -> List[str]:
     return problems
 
 
-def _try_places(path, sweep: Sweep, lines) -> List[str]:
+def _try_places(path, sweep: Sweep, lines) -> list[str]:
     """Each place is tried with the first case's value, on the texts alone."""
     problems = []
     for index, place in enumerate(sweep.data["set"]):
@@ -147,9 +147,9 @@ def _try_places(path, sweep: Sweep, lines) -> List[str]:
     return problems
 
 
-def cases(data: Dict[str, Any]) -> List[Dict[str, Any]]:
+def cases(data: dict[str, Any]) -> list[dict[str, Any]]:
     """The grid, each of its points ``draws`` times. A parameter's draws depend on the seed and its name alone."""
-    listed: Dict[str, List[Any]] = {}
+    listed: dict[str, list[Any]] = {}
     drawn = {}
     for name, given in data["parameters"].items():
         if "values" in given:
@@ -174,7 +174,7 @@ def cases(data: Dict[str, Any]) -> List[Dict[str, Any]]:
 # ---------------------------------------------------------------------------------------------- places
 
 
-def put(place: Dict[str, Any], value: Any, spec: Dict[str, Any], submission: pathlib.Path, write: bool = True) -> None:
+def put(place: dict[str, Any], value: Any, spec: dict[str, Any], submission: pathlib.Path, write: bool = True) -> None:
     """One value to its place in the data of the spec, or in a file of the submission.
 
     :raises PlaceError: there is no such place
@@ -192,7 +192,7 @@ def put(place: Dict[str, Any], value: Any, spec: Dict[str, Any], submission: pat
         _put_into_file(place, value, submission, write)
 
 
-def _put_into_file(place: Dict[str, Any], value: Any, submission: pathlib.Path, write: bool) -> None:
+def _put_into_file(place: dict[str, Any], value: Any, submission: pathlib.Path, write: bool) -> None:
     name = place.get("yaml") or place["file"]
     path = submission / name
     if ".." in pathlib.PurePath(name).parts or not path.is_file() or path.is_symlink():
@@ -219,7 +219,7 @@ def _put_into_file(place: Dict[str, Any], value: Any, submission: pathlib.Path, 
         path.write_text(text, encoding="utf-8", errors="surrogateescape")
 
 
-def _set(data: Any, keys: List, value: Any, where: str) -> None:
+def _set(data: Any, keys: list, value: Any, where: str) -> None:
     """The last key of a table may be new, as many values have a default."""
     for number, key in enumerate(keys):
         last = number == len(keys) - 1
@@ -237,7 +237,7 @@ def _shown(value: Any) -> str:
     return str(value).lower() if isinstance(value, bool) else repr(value) if isinstance(value, float) else str(value)
 
 
-def _stay_beside(data: Dict[str, Any], folder: pathlib.Path) -> None:
+def _stay_beside(data: dict[str, Any], folder: pathlib.Path) -> None:
     """A case's spec lies elsewhere: what the original names beside itself gets its whole path."""
     if "also" in data:
         data["also"] = [str(folder / name) for name in data["also"]]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from building_editor.building import Building, Look, Stairs, Wall
@@ -24,17 +25,17 @@ _SIDES = np.array(
     np.uint32,
 )
 
-Hook = Callable[[Any, Optional[Element]], None]  # mesh, the element it is (None: the sheet)
+Hook = Callable[[Any, Element | None], None]  # mesh, the element it is (None: the sheet)
 
 
-def boxes_mesh(boxes: List[Tuple]) -> Tuple[np.ndarray, np.ndarray]:
+def boxes_mesh(boxes: list[tuple]) -> tuple[np.ndarray, np.ndarray]:
     """((N, 3) float32, (M, 3) uint32) of boxes (middle, size)."""
     vertices = [np.asarray(middle) + _CUBE * np.asarray(size) for middle, size in boxes]
     triangles = [_SIDES + np.uint32(8 * number) for number in range(len(boxes))]
     return np.concatenate(vertices).astype(np.float32), np.concatenate(triangles)
 
 
-def colour_of(look: Look) -> Tuple[int, int, int]:
+def colour_of(look: Look) -> tuple[int, int, int]:
     if look.color is not None:
         return rgb255(look.color)
     material = gazebo_material(look.material)
@@ -47,11 +48,11 @@ class PlanDrawing:
     def __init__(self, scene: Any, hook: Hook):
         self._scene = scene
         self._hook = hook
-        self._nodes: Dict[str, Tuple[Any, Any]] = {}  # name -> (what it shows, handle)
-        self._ghost: Optional[Any] = None
-        self._sheet: Optional[Any] = None
-        self._grid: Optional[Any] = None
-        self._picture: Optional[Any] = None
+        self._nodes: dict[str, tuple[Any, Any]] = {}  # name -> (what it shows, handle)
+        self._ghost: Any | None = None
+        self._sheet: Any | None = None
+        self._grid: Any | None = None
+        self._picture: Any | None = None
 
     def close(self) -> None:
         for _, handle in self._nodes.values():
@@ -86,7 +87,7 @@ class PlanDrawing:
         self._sheet.position, self._grid.position = (0.0, 0.0, height), (0.0, 0.0, height + 0.004)
         self._grid.cell_size = max(snap, 0.05)
 
-    def picture(self, pixels: Optional[np.ndarray], resolution: float) -> None:
+    def picture(self, pixels: np.ndarray | None, resolution: float) -> None:
         """A floor plan to draw over, its lower left corner at the origin; ``resolution`` m per pixel."""
         if self._picture is not None:
             self._picture.remove()
@@ -108,12 +109,12 @@ class PlanDrawing:
 
     # ------------------------------------------------------------------------------------------ the building
 
-    def show(self, plan: Plan, building: Optional[Building], picked: Optional[Element], whole: bool) -> None:
+    def show(self, plan: Plan, building: Building | None, picked: Element | None, whole: bool) -> None:
         """What has changed since the last call.
 
         :param whole: all levels; else those up to the one that is drawn on
         """
-        wanted: Dict[str, Tuple] = {}
+        wanted: dict[str, tuple] = {}
         for number, level in enumerate(building.levels if building is not None else ()):
             if not whole and number > plan.level:
                 continue
@@ -131,7 +132,7 @@ class PlanDrawing:
                 self._nodes[name] = (content, self._make(f"/plan/{name}", *content))
 
     @staticmethod
-    def _want_wall(wanted: Dict, number: int, at: int, wall: Wall, base: float, picked: Optional[Element]) -> None:
+    def _want_wall(wanted: dict, number: int, at: int, wall: Wall, base: float, picked: Element | None) -> None:
         element = Element(number, "walls", at)
         wanted[f"w{number}_{at}"] = (element, wall, base, _paint(wall.look, element == picked))
         counts = {"door": 0, "window": 0}
@@ -141,7 +142,7 @@ class PlanDrawing:
             colour = _PICKED if hole == picked else _OPENINGS[opening.kind]
             wanted[f"{hole.kind}{number}_{at}_{hole.index}"] = (hole, (wall, opening), base, colour)
 
-    def _make(self, node: str, element: Optional[Element], content: Any, base: float, colour: Tuple) -> Any:
+    def _make(self, node: str, element: Element | None, content: Any, base: float, colour: tuple) -> Any:
         opacity, yaw, place = None, 0.0, (0.0, 0.0, base)
         if isinstance(content, Wall):
             boxes, yaw, place = wall_boxes(content), content.yaw, _middle(content, base)
@@ -173,7 +174,7 @@ class PlanDrawing:
             self._hook(mesh, element)
         return mesh
 
-    def ghost(self, line: Optional[Tuple[Point, Point]], base: float = 0.0, thickness: float = 0.15) -> None:
+    def ghost(self, line: tuple[Point, Point] | None, base: float = 0.0, thickness: float = 0.15) -> None:
         """What a hand is about to draw; None: nothing."""
         if line is None:
             if self._ghost is not None:
@@ -190,15 +191,15 @@ class PlanDrawing:
         self._ghost.wxyz = wxyz(quat_from_rpy(0.0, 0.0, math.atan2(end[1] - start[1], end[0] - start[0])))
 
 
-def _paint(look: Look, picked: bool) -> Tuple[int, int, int]:
+def _paint(look: Look, picked: bool) -> tuple[int, int, int]:
     return _PICKED if picked else colour_of(look)
 
 
-def _middle(wall: Wall, base: float) -> Tuple[float, float, float]:
+def _middle(wall: Wall, base: float) -> tuple[float, float, float]:
     return (wall.start[0] + wall.end[0]) / 2, (wall.start[1] + wall.end[1]) / 2, base
 
 
-def _floor(building: Building, number: int) -> List[Tuple]:
+def _floor(building: Building, number: int) -> list[tuple]:
     """Boxes of the floor of a level, as :mod:`building_editor.sdf_model` builds it."""
     below, level = building.levels[number - 1], building.levels[number]
     near = [part for part in (below, level) if part.walls or part.stairs]

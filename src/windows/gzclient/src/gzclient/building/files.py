@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from typing import Any, Dict, List, Tuple
+from typing import Any
 
 import yaml
 from building_editor import preview, sdf_model
@@ -37,7 +37,7 @@ def checked_name(name: str) -> str:
     return name
 
 
-def names() -> List[str]:
+def names() -> list[str]:
     """Of the buildings that can be opened."""
     try:
         return sorted(
@@ -49,7 +49,7 @@ def names() -> List[str]:
         return []
 
 
-def save(document: Dict[str, Any]) -> str:
+def save(document: dict[str, Any]) -> str:
     """Write ``plan.yaml``, ``model.sdf``, ``model.config``, ``NAME.world`` and ``preview.png``; the folder.
 
     :raises Refused: nothing is drawn, or it cannot be written
@@ -70,7 +70,7 @@ def save(document: Dict[str, Any]) -> str:
     return target
 
 
-def text_of(document: Dict[str, Any]) -> str:
+def text_of(document: dict[str, Any]) -> str:
     """The plan as YAML, an element a line."""
     ordered = {key: document[key] for key in ("name", *(key for key in document if key != "name")) if key in document}
     return "# A building for gzclient's editor and for rosrun building_editor build_world plan.yaml -o NAME.world\n" + yaml.safe_dump(
@@ -78,7 +78,7 @@ def text_of(document: Dict[str, Any]) -> str:
     )
 
 
-def load(name: str) -> Tuple[Dict[str, Any], List[str]]:
+def load(name: str) -> tuple[dict[str, Any], list[str]]:
     """The plan of a building that was saved, and what of it was not understood: Gazebo's editor writes no plan, only a model.
 
     :raises Refused: it cannot be read
@@ -95,7 +95,7 @@ def load(name: str) -> Tuple[Dict[str, Any], List[str]]:
     return document, []
 
 
-def _load_model(name: str, file: str) -> Tuple[Dict[str, Any], List[str]]:
+def _load_model(name: str, file: str) -> tuple[dict[str, Any], list[str]]:
     try:
         with open(file, encoding="utf-8") as stream:
             model, _ = read_sdf_model(stream.read(), name=name, file=file)

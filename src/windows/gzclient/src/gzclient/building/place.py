@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import partial
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from typing import Any
 
 from ode_sim_viewer.simulation import Refused
 
@@ -24,9 +25,9 @@ class PlaceControls:
     """
 
     def __init__(self, gui: Any, on_update: Callable[[Any, Callable[[Any], None]], None], told: Callable[[Callable[[], None]], None]):
-        self._plan: Optional[Plan] = None
-        self._which: Optional[Element] = None
-        self._ends: Dict[str, List[Tuple[int, str]]] = {}
+        self._plan: Plan | None = None
+        self._which: Element | None = None
+        self._ends: dict[str, list[tuple[int, str]]] = {}
         self._folder = gui.add_folder("Its place", visible=False)
         with self._folder:
             self._from = gui.add_vector2("Start (m)", (0.0, 0.0), step=0.001)
@@ -53,12 +54,12 @@ class PlaceControls:
         told(change)
 
     @property
-    def _shown(self) -> Tuple[Plan, Element]:
+    def _shown(self) -> tuple[Plan, Element]:
         """The plan, and what is picked in it."""
         assert self._plan is not None and self._which is not None  # the folder is not seen without them
         return self._plan, self._which
 
-    def show(self, plan: Plan, which: Optional[Element]) -> None:
+    def show(self, plan: Plan, which: Element | None) -> None:
         """Other things than numbers have changed, or what is picked."""
         self._plan, self._which, self._ends = plan, which, {}
         self._folder.visible = which is not None
@@ -79,7 +80,7 @@ class PlaceControls:
         """The numbers as they are, but for the one that a hand is in."""
         plan, which = self._shown
         element = plan.element(which)
-        values: Tuple[Tuple[Any, Any], ...]
+        values: tuple[tuple[Any, Any], ...]
         if which.kind == "walls":
             values = (
                 (self._from, tuple(element["from"])),

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import copy
 import math
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple
+from typing import Any, NamedTuple
 
 from building_editor.building import Building, PlanError, building_of
 from ode_sim_viewer.simulation import Refused
 
-Point = Tuple[float, float]
+Point = tuple[float, float]
 
 SNAP = 0.25  # m
 SNAP_ANGLE = math.radians(15.0)
@@ -40,17 +40,17 @@ def snapped(value: float, step: float) -> float:
 class Plan:
     """:ivar document: as written to the file. :ivar level: that is drawn on. :ivar snap: m. :ivar snap_angle: rad."""
 
-    def __init__(self, document: Optional[Dict[str, Any]] = None):
-        self.document: Dict[str, Any] = _of_single_walls(document) if document else {"name": "building", "walls": []}
+    def __init__(self, document: dict[str, Any] | None = None):
+        self.document: dict[str, Any] = _of_single_walls(document) if document else {"name": "building", "walls": []}
         self.level = 0
         self.snap = SNAP
         self.snap_angle = SNAP_ANGLE
-        self._past: List[Dict] = []
-        self._future: List[Dict] = []
+        self._past: list[dict] = []
+        self._future: list[dict] = []
 
     # ------------------------------------------------------------------------------------------ what is there
 
-    def building(self) -> Optional[Building]:
+    def building(self) -> Building | None:
         """None while nothing is drawn.
 
         :raises PlanError: the document was changed to something that cannot be built
@@ -63,7 +63,7 @@ class Plan:
     def levels(self) -> int:
         return 1 + len(self.document.get("levels") or [])
 
-    def part(self, level: int) -> Dict[str, Any]:
+    def part(self, level: int) -> dict[str, Any]:
         """The mapping that holds the walls and stairs of a level."""
         return self.document if level == 0 else self.document["levels"][level - 1]
 
@@ -76,7 +76,7 @@ class Plan:
         heights = [wall.get("height", usual) for wall in part.get("walls") or []]
         return float(part.get("height", max(heights, default=2.5)))
 
-    def element(self, which: Element) -> Dict[str, Any]:
+    def element(self, which: Element) -> dict[str, Any]:
         """:raises Refused: it has gone."""
         try:
             part = self.part(which.level)
@@ -102,7 +102,7 @@ class Plan:
     def redo(self) -> None:
         self._turn(self._future, self._past, "do again")
 
-    def _turn(self, source: List[Dict], target: List[Dict], verb: str) -> None:
+    def _turn(self, source: list[dict], target: list[dict], verb: str) -> None:
         if not source:
             raise Refused(f"There is nothing to {verb}.")
         target.append(self.document)
@@ -179,7 +179,7 @@ class Plan:
 
         return self.attempt(change)
 
-    def _along(self, wall: Dict[str, Any], point: Point, width: float) -> float:
+    def _along(self, wall: dict[str, Any], point: Point, width: float) -> float:
         """m from the wall's start to the middle of an opening at ``point``, on the grid, inside the wall."""
         (x0, y0), (x1, y1) = wall["from"], wall["to"]
         length = math.dist((x0, y0), (x1, y1))
@@ -274,7 +274,7 @@ class Plan:
         else:
             self.attempt(lambda: whole.update({end: [round(v + s, 6) for v, s in zip(whole[end], shift)] for end in ("from", "to")}))
 
-    def _move_end(self, whole: Dict[str, Any], grip: str, point: Point) -> None:
+    def _move_end(self, whole: dict[str, Any], grip: str, point: Point) -> None:
         before = tuple(whole[grip])
         other = whole["to" if grip == "from" else "from"]
         joined = [(wall, end) for wall in self.part(self.level)["walls"] for end in ("from", "to") if math.dist(wall[end], before) < _NEAR]
@@ -284,7 +284,7 @@ class Plan:
         for wall, end in joined:
             wall[end] = list(place)
 
-    def ends_at(self, which: Element, end: str) -> List[Tuple[int, str]]:
+    def ends_at(self, which: Element, end: str) -> list[tuple[int, str]]:
         """(wall, from or to) of each end of its level that is where this wall's is, its own first."""
         place = self.element(which)[end]
         return [(which.index, end)] + [
@@ -294,7 +294,7 @@ class Plan:
             if (number, other) != (which.index, end) and math.dist(wall[other], place) < _NEAR
         ]
 
-    def put_ends(self, level: int, ends: List[Tuple[int, str]], point: Point) -> None:
+    def put_ends(self, level: int, ends: list[tuple[int, str]], point: Point) -> None:
         """To that very place, whatever the grid.
 
         :param ends: as of :meth:`ends_at`
@@ -316,7 +316,7 @@ class Plan:
         self.attempt(lambda: whole.update(yaw=round((whole.get("yaw", 0.0) + angle) % (2 * math.pi), 9)))
 
 
-def _plain(settings: Dict[str, Any]) -> Dict[str, Any]:
+def _plain(settings: dict[str, Any]) -> dict[str, Any]:
     """For the file: lists in place of tuples, floats rounded; what is None left out."""
     made = {}
     for key, value in settings.items():
@@ -331,7 +331,7 @@ def _plain(settings: Dict[str, Any]) -> Dict[str, Any]:
     return made
 
 
-def _of_single_walls(document: Dict[str, Any]) -> Dict[str, Any]:
+def _of_single_walls(document: dict[str, Any]) -> dict[str, Any]:
     """The same building with every piece of a wall's path as a wall of its own, so that a hand can take it.
 
     :raises PlanError: it is no plan, or one of a picture, which is not drawn by hand
@@ -350,9 +350,9 @@ def _of_single_walls(document: Dict[str, Any]) -> Dict[str, Any]:
     return made
 
 
-def _wall_entry(wall: Any) -> Dict[str, Any]:
+def _wall_entry(wall: Any) -> dict[str, Any]:
     look = {"color": list(wall.look.color)} if wall.look.color is not None else {"material": wall.look.material}
-    entry: Dict[str, Any] = {"from": list(wall.start), "to": list(wall.end), "thickness": wall.thickness, "height": wall.height, **look}
+    entry: dict[str, Any] = {"from": list(wall.start), "to": list(wall.end), "thickness": wall.thickness, "height": wall.height, **look}
     for opening in wall.openings:
         hole = {"at": opening.at, "width": opening.width, "height": opening.height}
         if opening.kind == "window" or opening.sill:

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Dict, Iterator, List, Sequence, Tuple
+from typing import Any
 
 from ode_sim.description import model as d
 from ode_sim.description.materials import NAMES, gazebo_material
@@ -18,8 +19,8 @@ _KIND = re.compile(r"(Wall|Stairs|Floor)_\d+")
 _SAME = 2e-3  # m: Gazebo writes six digits, and ends of walls that meet differ by what they round
 _LEANS = 1e-3  # rad
 _STOREY = 0.3  # m: what stands nearer above each other is on one level: a wall on its floor, or in it
-Span = Tuple[float, float]
-Hole = Tuple[Span, Span]  # x, z
+Span = tuple[float, float]
+Hole = tuple[Span, Span]  # x, z
 
 
 class _Strange(Exception):
@@ -40,19 +41,19 @@ class _Part:
     kind: str
     name: str
     pose: Pose  # X_WL
-    boxes: Tuple[_Box, ...]
-    look: Dict[str, Any]
+    boxes: tuple[_Box, ...]
+    look: dict[str, Any]
 
     @property
     def bottom(self) -> float:
         return self.pose.p[2] + min(box.z[0] for box in self.boxes)
 
-    def at(self, x: float, y: float) -> List[float]:
+    def at(self, x: float, y: float) -> list[float]:
         """A place of the link's frame on the plan."""
         return [round(v, 4) + 0.0 for v in transform(self.pose, (x, y, 0.0))[:2]]
 
 
-def plan_of(model: d.Model) -> Tuple[Dict[str, Any], List[str]]:
+def plan_of(model: d.Model) -> tuple[dict[str, Any], list[str]]:
     """The document of a plan, and what of the model it does not hold: a few words for each.
 
     Floors are laid anew by a plan; of those here only the look is kept.
@@ -63,12 +64,12 @@ def plan_of(model: d.Model) -> Tuple[Dict[str, Any], List[str]]:
             parts.append(_part(model, link))
         except _Strange as error:
             left.append(f"{link.name} ({error})")
-    document: Dict[str, Any] = {"name": model.name, "walls": []}
+    document: dict[str, Any] = {"name": model.name, "walls": []}
     bases = _bases(part.bottom for part in parts if part.kind != "Floor")
-    ends: List[List[float]] = []
+    ends: list[list[float]] = []
     for number, base in enumerate(bases):
         here = [part for part in parts if part.kind != "Floor" and base <= part.bottom < base + _STOREY]
-        level: Dict[str, Any] = document if number == 0 else {"walls": []}
+        level: dict[str, Any] = document if number == 0 else {"walls": []}
         for part in here:
             try:
                 kind, entry = ("walls", _wall(part)) if part.kind == "Wall" else ("stairs", _stairs(part))
@@ -110,7 +111,7 @@ def _box(shape: Any) -> _Box:
     return _Box(x, y, z)
 
 
-def _look(visuals: Sequence[d.Visual]) -> Dict[str, Any]:
+def _look(visuals: Sequence[d.Visual]) -> dict[str, Any]:
     """Gazebo's editor gives a colour as another ambient light of a material, white where there is none."""
     material = visuals[0].material if visuals else None
     if material is None:
@@ -122,9 +123,9 @@ def _look(visuals: Sequence[d.Visual]) -> Dict[str, Any]:
     return {"color": [round(min(1.0, max(0.0, part)), 4) for part in colour[:3]]} if colour else {}
 
 
-def _bases(heights: Iterator[float]) -> List[float]:
+def _bases(heights: Iterator[float]) -> list[float]:
     """Of the levels, m, from below."""
-    bases: List[float] = []
+    bases: list[float] = []
     for height in sorted(heights):
         if not bases or height >= bases[-1] + _STOREY:
             bases.append(height)
@@ -134,7 +135,7 @@ def _bases(heights: Iterator[float]) -> List[float]:
 # ---------------------------------------------------------------------------------------------- walls
 
 
-def _wall(part: _Part) -> Dict[str, Any]:
+def _wall(part: _Part) -> dict[str, Any]:
     boxes = part.boxes
     (x0, x1), (y0, y1), (z0, z1) = (_around([getattr(box, axis) for box in boxes]) for axis in "xyz")
     if any(abs(box.y[0] - y0) > _SAME or abs(box.y[1] - y1) > _SAME for box in boxes):
@@ -143,7 +144,7 @@ def _wall(part: _Part) -> Dict[str, Any]:
     start, end = x0 + thickness / 2, x1 - thickness / 2  # a wall reaches half its thickness beyond its ends
     if end - start < _SAME:
         raise _Strange("shorter than it is thick")
-    entry: Dict[str, Any] = {
+    entry: dict[str, Any] = {
         "from": part.at(start, y),
         "to": part.at(end, y),
         "thickness": round(thickness, 4),
@@ -166,11 +167,11 @@ def _around(spans: Sequence[Span]) -> Span:
     return min(low for low, _ in spans), max(high for _, high in spans)
 
 
-def _holes(boxes: Sequence[_Box]) -> List[Hole]:
+def _holes(boxes: Sequence[_Box]) -> list[Hole]:
     """What the boxes leave open of the rectangle around them, in rectangles."""
     xs, zs = _cuts([box.x for box in boxes]), _cuts([box.z for box in boxes])
-    holes: List[Hole] = []
-    growing: Dict[Span, float] = {}  # open from here on: z -> x
+    holes: list[Hole] = []
+    growing: dict[Span, float] = {}  # open from here on: z -> x
     for x0, x1 in [*zip(xs, xs[1:]), (xs[-1], math.inf)]:
         open_here = set() if math.isinf(x1) else set(_gaps(boxes, (x0 + x1) / 2, zs))
         holes += [((growing.pop(z), x0), z) for z in sorted(set(growing) - open_here)]
@@ -179,9 +180,9 @@ def _holes(boxes: Sequence[_Box]) -> List[Hole]:
     return sorted(holes)
 
 
-def _gaps(boxes: Sequence[_Box], x: float, zs: Sequence[float]) -> List[Span]:
+def _gaps(boxes: Sequence[_Box], x: float, zs: Sequence[float]) -> list[Span]:
     """What is open above one place of the wall."""
-    gaps: List[Span] = []
+    gaps: list[Span] = []
     for z0, z1 in zip(zs, zs[1:]):
         middle = (z0 + z1) / 2
         if any(box.x[0] <= x <= box.x[1] and box.z[0] <= middle <= box.z[1] for box in boxes):
@@ -193,16 +194,16 @@ def _gaps(boxes: Sequence[_Box], x: float, zs: Sequence[float]) -> List[Span]:
     return gaps
 
 
-def _cuts(spans: Sequence[Span]) -> List[float]:
+def _cuts(spans: Sequence[Span]) -> list[float]:
     """Where boxes begin and end; what is nearly the same is the same."""
-    cuts: List[float] = []
+    cuts: list[float] = []
     for value in sorted(value for span in spans for value in span):
         if not cuts or value > cuts[-1] + _SAME:
             cuts.append(value)
     return cuts
 
 
-def _join(wall: Dict[str, Any], ends: List[List[float]]) -> None:
+def _join(wall: dict[str, Any], ends: list[list[float]]) -> None:
     """Ends that meet but for what was rounded are the same, so that a hand takes them along."""
     for end in ("from", "to"):
         place = next((other for other in ends if math.dist(other, wall[end]) < _SAME), None)
@@ -215,7 +216,7 @@ def _join(wall: Dict[str, Any], ends: List[List[float]]) -> None:
 # ---------------------------------------------------------------------------------------------- stairs
 
 
-def _stairs(part: _Part) -> Dict[str, Any]:
+def _stairs(part: _Part) -> dict[str, Any]:
     """Steps are boxes one behind and above the other."""
     steps = sorted(part.boxes, key=lambda box: box.z[1])
     lowest, highest = (((box.x[0] + box.x[1]) / 2, (box.y[0] + box.y[1]) / 2) for box in (steps[0], steps[-1]))

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 import re
 import xml.etree.ElementTree as ET
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Callable, List, Optional, Tuple, Union
 
 import lenient_xml
 import numpy as np
@@ -21,7 +21,7 @@ from ode_sim_viewer.simulation import Refused
 
 from gzclient.modelling import meshes
 
-Solid = Union[Simple, d.Mesh]  # what the editor makes
+Solid = Simple | d.Mesh  # what the editor makes
 #: As upstream's editor names it, in the home folder.
 FOLDER = "model_editor_models"
 JOINTS = ("revolute", "prismatic", "fixed", "ball", "universal", "revolute2", "screw")
@@ -34,10 +34,10 @@ _MOST_LINKS = 500
 class Draft:
     """:ivar model: as it is now. Every change is one step of the history; what is refused changes nothing."""
 
-    def __init__(self, model: Optional[d.Model] = None):
+    def __init__(self, model: d.Model | None = None):
         self.model = model or d.Model("my_model")
-        self._past: List[d.Model] = []
-        self._future: List[d.Model] = []
+        self._past: list[d.Model] = []
+        self._future: list[d.Model] = []
 
     # ------------------------------------------------------------------------------------------ history
 
@@ -52,7 +52,7 @@ class Draft:
     def redo(self) -> None:
         self._turn(self._future, self._past, "do again")
 
-    def _turn(self, source: List[d.Model], target: List[d.Model], verb: str) -> None:
+    def _turn(self, source: list[d.Model], target: list[d.Model], verb: str) -> None:
         if not source:
             raise Refused(f"There is nothing to {verb}.")
         target.append(self.model)
@@ -86,7 +86,7 @@ class Draft:
         """X_ML."""
         self.change_link(name, lambda link: replace(link, pose=pose))
 
-    def set_shape(self, name: str, shape: Solid, mass: float, colour: Optional[d.Rgba] = None) -> None:
+    def set_shape(self, name: str, shape: Solid, mass: float, colour: d.Rgba | None = None) -> None:
         """Other measures: the inertia follows."""
         if not (mass > 0.0 and np.isfinite(mass)):
             raise Refused("A mass is more than 0.")
@@ -130,7 +130,7 @@ class Draft:
         parent: str,
         child: str,
         axis: d.Vec3 = (0.0, 0.0, 1.0),
-        limits: Tuple[float, float] = (-1e16, 1e16),
+        limits: tuple[float, float] = (-1e16, 1e16),
         anchor: d.Vec3 = (0.0, 0.0, 0.0),
     ) -> str:
         """Its name.
@@ -208,7 +208,7 @@ class Draft:
         return target
 
     @classmethod
-    def load(cls, name: str, finder: Optional[ResourceFinder] = None) -> "Draft":
+    def load(cls, name: str, finder: ResourceFinder | None = None) -> Draft:
         """A model that was saved.
 
         :param finder: of the meshes that it names
@@ -238,7 +238,7 @@ def checked_name(name: str) -> str:
     return name
 
 
-def names() -> List[str]:
+def names() -> list[str]:
     """Of the models that can be opened."""
     try:
         return sorted(

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, Tuple
+from typing import Any
 
 import numpy as np
 from ode_sim.description import model as d
@@ -19,8 +20,8 @@ class _Drawn:
     """``nodes``: that of the link's frame, those below it. ``painted``: what is seen of it, and its colour."""
 
     link: d.Link
-    nodes: List[Any]
-    painted: List[Tuple[Any, Tuple[int, int, int]]]
+    nodes: list[Any]
+    painted: list[tuple[Any, tuple[int, int, int]]]
 
     def pick(self, on: bool) -> None:
         self.nodes[0].show_axes = on
@@ -35,8 +36,8 @@ class ModelSketch:
         self._scene = scene
         self._on_click = on_click
         self._assets = Assets()
-        self._links: Dict[str, _Drawn] = {}
-        self._joints: List[Any] = []
+        self._links: dict[str, _Drawn] = {}
+        self._joints: list[Any] = []
         self._serial = 0
         self._picked = ""
         self._gizmo = scene.add_transform_controls("/model_gizmo", scale=0.5, visible=False, depth_test=False)
@@ -85,7 +86,7 @@ class ModelSketch:
             pose = wanted[picked].pose
             self._gizmo.position, self._gizmo.wxyz = pose.p, wxyz(pose.q)
 
-    def _draw(self, link: d.Link) -> "_Drawn":
+    def _draw(self, link: d.Link) -> _Drawn:
         self._serial += 1
         root = self._scene.add_frame(
             f"/model/{self._serial}", show_axes=False, axes_length=_AXIS, axes_radius=0.006, position=link.pose.p, wxyz=wxyz(link.pose.q)

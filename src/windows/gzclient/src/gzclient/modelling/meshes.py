@@ -6,8 +6,8 @@ import filecmp
 import os
 import shutil
 import tempfile
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import Dict, Iterator, List, Tuple
 
 import numpy as np
 from ode_sim.description import model as d
@@ -83,7 +83,7 @@ def gather(model: d.Model, folder: str, name: str, editors: str) -> d.Model:
     :param editors: folder of the models that this editor keeps: what is below it has no name that others know
     :raises OSError: a file cannot be copied
     """
-    files: Dict[str, str] = {}  # -> base name in the folder
+    files: dict[str, str] = {}  # -> base name in the folder
 
     def mend(shape: d.Geometry) -> d.Geometry:
         if not isinstance(shape, d.Mesh) or not shape.path or not _own(shape, editors):
@@ -112,7 +112,7 @@ def _own(shape: d.Mesh, editors: str) -> bool:
     return scheme == "file" or os.path.realpath(shape.path).startswith(os.path.realpath(editors) + os.sep)
 
 
-def _parts(path: str, base: str) -> Iterator[Tuple[str, str]]:
+def _parts(path: str, base: str) -> Iterator[tuple[str, str]]:
     """(file, where it goes below the model's folder) of a mesh and of what it names; not of what lies outside of a model's folder."""
     yield path, os.path.join(FOLDER, base)
     for file in _named(path):
@@ -121,7 +121,7 @@ def _parts(path: str, base: str) -> Iterator[Tuple[str, str]]:
             yield file, below
 
 
-def _named(path: str) -> List[str]:
+def _named(path: str) -> list[str]:
     """Material files and pictures."""
     found = [part.material.texture for part in load_visual(path) if part.material.texture]
     if path.lower().endswith(".obj"):

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import io
 import math
-from typing import Any, Callable, Optional, Sequence, Tuple
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from building_editor import preview, sdf_model
@@ -37,13 +38,13 @@ class BuildingPanel(Panel):
     def __init__(self, page: Any):
         super().__init__(page)
         self._plan = Plan()
-        self._drawing: Optional[PlanDrawing] = None
-        self._picked: Optional[Element] = None
-        self._left: Tuple[str, ...] = ()  # what a model has that this plan of it has not
-        self._start: Optional[Point] = None  # of the wall that clicks are drawing
-        self._drag: Optional[Tuple[Optional[Element], str, Point]] = None
+        self._drawing: PlanDrawing | None = None
+        self._picked: Element | None = None
+        self._left: tuple[str, ...] = ()  # what a model has that this plan of it has not
+        self._start: Point | None = None  # of the wall that clicks are drawing
+        self._drag: tuple[Element | None, str, Point] | None = None
         self._busy = False  # the controls are being set by the program
-        self._picture: Optional[np.ndarray] = None
+        self._picture: np.ndarray | None = None
         gui = self.gui
         self._on = gui.add_checkbox("Edit a building", False, hint="the world is hidden meanwhile, and runs on")
         self._tool = gui.add_dropdown(
@@ -210,7 +211,7 @@ class BuildingPanel(Panel):
 
     # ------------------------------------------------------------------------------------------ the hand
 
-    def _listen(self, mesh: Any, element: Optional[Element]) -> None:
+    def _listen(self, mesh: Any, element: Element | None) -> None:
         async def on_click(event: Any) -> None:
             self.page.later(lambda: self.page.attempt(event, lambda: self._click(event, element)))
 
@@ -229,7 +230,7 @@ class BuildingPanel(Panel):
         way = (height - origin[2]) / direction[2]
         return float(origin[0] + way * direction[0]), float(origin[1] + way * direction[1])
 
-    def _click(self, event: Any, element: Optional[Element]) -> None:
+    def _click(self, event: Any, element: Element | None) -> None:
         point, tool = self._on_sheet(event.ray_origin, event.ray_direction), self._tool.value
         if tool == "Wall":
             self._click_wall(point)
@@ -245,7 +246,7 @@ class BuildingPanel(Panel):
         self._show_picked()
         self._refresh()
 
-    def _ghost(self, line: Tuple[Point, Point], thickness: float) -> None:
+    def _ghost(self, line: tuple[Point, Point], thickness: float) -> None:
         if self._drawing is not None:
             self._drawing.ghost(line, self._plan.base(self._plan.level), thickness)
 
@@ -267,7 +268,7 @@ class BuildingPanel(Panel):
         if self._drawing is not None:
             self._drawing.ghost(None)
 
-    def _add_opening(self, tool: str, element: Optional[Element], point: Point) -> None:
+    def _add_opening(self, tool: str, element: Element | None, point: Point) -> None:
         if element is None or (element.kind != "walls" and element.wall < 0) or element.level != self._plan.level:
             raise Refused(f"Click on a wall of level {self._plan.level}: a {tool.lower()} is a hole in it.")
         wall = element.index if element.kind == "walls" else element.wall
@@ -278,7 +279,7 @@ class BuildingPanel(Panel):
         )
         self._picked = self._plan.add_opening(tool.lower() + "s", wall, point, **settings)
 
-    def _dragged(self, event: Any, element: Optional[Element], phase: str, start: Any, end: Any) -> None:
+    def _dragged(self, event: Any, element: Element | None, phase: str, start: Any, end: Any) -> None:
         eye = np.asarray(event.client.camera.position)
         begin = self._on_sheet(eye, np.subtract(start, eye))
         point = self._on_sheet(eye, np.subtract(end, eye))
@@ -418,7 +419,7 @@ class BuildingPanel(Panel):
     def _new(self) -> None:
         self._take(None)
 
-    def _take(self, document: Optional[dict], left: Sequence[str] = ()) -> None:
+    def _take(self, document: dict | None, left: Sequence[str] = ()) -> None:
         try:
             plan = Plan(document)
         except PlanError as error:

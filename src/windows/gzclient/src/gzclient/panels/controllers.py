@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, List, NamedTuple, Tuple
+from typing import Any, NamedTuple
 
 import rosgraph
 import rospy
@@ -23,7 +23,7 @@ class _Listed(NamedTuple):
     name: str
     kind: str
     state: str
-    joints: Tuple[str, ...]
+    joints: tuple[str, ...]
 
 
 class _Sent(NamedTuple):
@@ -32,10 +32,10 @@ class _Sent(NamedTuple):
     listed: _Listed
     command: Command
     publisher: rospy.Publisher
-    sliders: Tuple[Any, ...]
+    sliders: tuple[Any, ...]
 
 
-def managers() -> List[str]:
+def managers() -> list[str]:
     """Namespaces that have a controller manager, from the master."""
     services = rosgraph.Master(rospy.get_name()).getSystemState()[2]
     return sorted(name[: -len(_LIST)] for name, _ in services if name.endswith(_LIST))
@@ -46,8 +46,8 @@ class ControllersPanel(Panel):
 
     def __init__(self, page: Any):
         super().__init__(page)
-        self._made: List[Any] = []
-        self._sent: List[_Sent] = []
+        self._made: list[Any] = []
+        self._sent: list[_Sent] = []
         self.gui.add_button("Look for controllers").on_click(lambda event: page.attempt(event, self._read))
         self._folder = self.gui.add_folder("Controllers")
         with self._folder:
@@ -62,7 +62,7 @@ class ControllersPanel(Panel):
         found = [_listed(manager, controller) for manager in asked for controller in _call(manager + _LIST, ListControllers).controller]
         self.page.later(lambda: self._show(found, bool(asked)))
 
-    def _show(self, found: List[_Listed], asked: bool) -> None:
+    def _show(self, found: list[_Listed], asked: bool) -> None:
         for thing in self._made:
             thing.remove()
         for sent in self._sent:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Optional
+from typing import Any
 
 import numpy as np
 from ode_sim.math3 import Pose
@@ -22,8 +22,8 @@ class FramesPanel(Panel):
     def __init__(self, page: Any):
         super().__init__(page)
         self._frames = TfFrames()
-        self._axes: Optional[Any] = None
-        self._labels: Dict[str, Any] = {}
+        self._axes: Any | None = None
+        self._labels: dict[str, Any] = {}
         self._named = self.gui.add_checkbox("Names", True)
         self._on = self.gui.add_checkbox("TF frames", False)
         self._note = self.gui.add_html(note("each tree hangs on the first of its frames that is a link of the world"))
@@ -40,7 +40,7 @@ class FramesPanel(Panel):
         if self._frames.listening and frame.revision == self.page.world.revision:
             self._draw(self._frames.placed(self.page.world, frame))
 
-    def _draw(self, placed: Dict[str, Pose]) -> None:
+    def _draw(self, placed: dict[str, Pose]) -> None:
         scene = self.page.server.scene
         names = sorted(placed)
         positions = np.array([placed[name].p for name in names], np.float32).reshape(-1, 3)

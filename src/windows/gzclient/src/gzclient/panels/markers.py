@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import queue
 from functools import partial
-from typing import Any, Dict, Optional
+from typing import Any
 
 import rosgraph
 import rospy
@@ -47,8 +47,8 @@ class MarkersPanel(Panel):
 
     def __init__(self, page: Any):
         super().__init__(page)
-        self._boxes: Dict[str, Any] = {}
-        self._topics: Dict[str, _Topic] = {}
+        self._boxes: dict[str, Any] = {}
+        self._topics: dict[str, _Topic] = {}
         self._frames = TfFrames()
         self._serial = 0
         self._said = ""
@@ -67,7 +67,7 @@ class MarkersPanel(Panel):
             raise Refused(f"the ROS master does not answer: {error}") from error
         self.page.later(lambda: self.list(found))
 
-    def list(self, found: Dict[str, type]) -> None:
+    def list(self, found: dict[str, type]) -> None:
         """A box for each topic. Drawing thread."""
         for name in [name for name in self._boxes if name not in found and name not in self._topics]:
             self._boxes.pop(name).remove()
@@ -113,7 +113,7 @@ class MarkersPanel(Panel):
             self._say(trouble[0] if trouble else "")
 
     @staticmethod
-    def _draw(topic: _Topic, now: float) -> Optional[str]:
+    def _draw(topic: _Topic, now: float) -> str | None:
         """What came since the last frame; the last trouble with it."""
         trouble = None
         for _ in range(_MOST_AT_ONCE):
@@ -125,7 +125,7 @@ class MarkersPanel(Panel):
                 trouble = f"{topic.name}: {error}"
         return trouble
 
-    def _places(self, world: WorldRecord, frame: Frame) -> Dict[str, Pose]:
+    def _places(self, world: WorldRecord, frame: Frame) -> dict[str, Pose]:
         """Frame -> X_WF; of a robot's links as the simulator has them, of the others as TF says."""
         return {
             **{name: Pose() for name in _FIXED},

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, Callable, Dict, List, Optional
+from typing import Any
 
 from ode_sim.description import model as d
 from ode_sim.math3 import Pose, vec3
@@ -17,7 +18,7 @@ from gzclient.modelling.draft import JOINTS, Draft
 from gzclient.modelling.drawing import ModelSketch
 
 _NONE = "(none is saved)"
-_SHAPES: Dict[str, Simple] = {"Box": d.Box((0.5, 0.5, 0.5)), "Sphere": d.Sphere(0.25), "Cylinder": d.Cylinder(0.2, 0.5)}
+_SHAPES: dict[str, Simple] = {"Box": d.Box((0.5, 0.5, 0.5)), "Sphere": d.Sphere(0.25), "Cylinder": d.Cylinder(0.2, 0.5)}
 _LIMITLESS = 1e16
 _MOST_LIMIT = 1000.0  # typed limits beyond are none
 
@@ -30,9 +31,9 @@ class ModelPanel(Panel):
     def __init__(self, page: Any):
         super().__init__(page)
         self._draft = Draft()
-        self._sketch: Optional[ModelSketch] = None
+        self._sketch: ModelSketch | None = None
         self._picked = ""
-        self._ends: List[str] = []  # of the joint that clicks are making
+        self._ends: list[str] = []  # of the joint that clicks are making
         self._busy = False  # the controls are being set by the program
         gui = self.gui
         self._on = gui.add_checkbox("Edit a model", False, hint="the world is hidden meanwhile, and runs on")

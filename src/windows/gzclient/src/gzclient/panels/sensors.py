@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import Any, Dict, Optional
+from typing import Any
 
 import rosgraph
 import rospy
@@ -25,7 +25,7 @@ class _Source:
         self.message: Any = None
         self.fresh = False
         self.node: Any = None
-        self.forces: Optional[Forces] = None
+        self.forces: Forces | None = None
         self._subscriber = rospy.Subscriber(topic, cls, self._take, queue_size=1, buff_size=1 << 24)
 
     def name(self, parent: str) -> str:
@@ -53,7 +53,7 @@ class SensorsPanel(Panel):
 
     def __init__(self, page: Any):
         super().__init__(page)
-        self._sources: Dict[str, Dict[str, _Source]] = {}
+        self._sources: dict[str, dict[str, _Source]] = {}
         for kind in KINDS:
             box = self.gui.add_checkbox(kind, False)
             self.on_update(box, partial(self._switch, kind))
@@ -75,7 +75,7 @@ class SensorsPanel(Panel):
     def _switch(self, kind: str, on: bool) -> None:
         """In the thread of the click."""
         wanted = KINDS[kind]
-        found: Dict[str, _Source] = {}
+        found: dict[str, _Source] = {}
         if on:
             try:
                 topics = sorted(
@@ -86,7 +86,7 @@ class SensorsPanel(Panel):
             found = {topic: _Source(topic, wanted.cls) for topic in topics[: wanted.most]}
         self.page.later(lambda: self._replace(kind, found, on))
 
-    def _replace(self, kind: str, found: Dict[str, _Source], on: bool) -> None:
+    def _replace(self, kind: str, found: dict[str, _Source], on: bool) -> None:
         for source in self._sources.pop(kind, {}).values():
             source.end()
         if on:
@@ -111,7 +111,7 @@ class SensorsPanel(Panel):
             source.hide()
             self._say(f"{source.topic}: {error}")
 
-    def _place(self, source: _Source) -> Optional[Place]:
+    def _place(self, source: _Source) -> Place | None:
         frame_id = source.message.header.frame_id
         found = find_frame(self.page.world, frame_id)
         if found is None:

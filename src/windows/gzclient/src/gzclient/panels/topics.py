@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from typing import Any, Deque, List, Optional, Tuple
+from typing import Any
 
 import genpy
 import numpy as np
@@ -29,12 +29,12 @@ class TopicsPanel(Panel):
 
     def __init__(self, page: Any):
         super().__init__(page)
-        self._subscriber: Optional[rospy.Subscriber] = None
+        self._subscriber: rospy.Subscriber | None = None
         self._topic, self._type = "", ""
         self._message: Any = None
         self._count = 0
         self._drawn = 0
-        self._points: Deque[Tuple[float, float]] = deque(maxlen=_MOST_POINTS)
+        self._points: deque[tuple[float, float]] = deque(maxlen=_MOST_POINTS)
         self._path = ""
         self._plot: Any = None
         self.on_click(self.gui.add_button("Look for topics"), self._find)
@@ -47,7 +47,7 @@ class TopicsPanel(Panel):
         self._image: Any = None
         self._text = self.gui.add_html("", visible=False)
         self._plots = self.gui.add_folder("Plot", visible=False)
-        self._topics: Tuple[str, ...] = ()
+        self._topics: tuple[str, ...] = ()
         self._search.on_update(lambda event: self._narrow())
         self.on_update(self._chosen, self._choose)
         self.on_update(self._field, self._plot_field)
@@ -143,7 +143,7 @@ class TopicsPanel(Panel):
             return
         self._why.visible = False
         self._plots.visible = True
-        points: List[Tuple[float, float]] = list(self._points)
+        points: list[tuple[float, float]] = list(self._points)
         if len(points) < 2:
             return
         values = np.array(points).T

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Callable, Dict, Iterable, List, Optional
+from collections.abc import Callable, Iterable
 
 from python_qt_binding.QtCore import Qt, Signal
 from python_qt_binding.QtWidgets import (
@@ -43,7 +43,7 @@ class Screen(QWidget):
     def enter(self) -> None:
         """The screen is shown: fill it from the configuration."""
 
-    def leave(self) -> Optional[str]:
+    def leave(self) -> str | None:
         """The screen is left: put what was typed into the configuration; a line if that cannot be done."""
         return None
 
@@ -91,7 +91,7 @@ class TwoLists(QWidget):
         self._all, self._names = list(available), list(chosen)
         self._fill()
 
-    def chosen(self) -> List[str]:
+    def chosen(self) -> list[str]:
         """The names on the right."""
         return list(self._names)
 
@@ -129,7 +129,7 @@ class Entries(QWidget):
     def __init__(
         self,
         name: str,
-        fields: Dict[str, tuple],
+        fields: dict[str, tuple],
         things: Callable[[], list],
         label: Callable,
         read: Callable,
@@ -171,7 +171,7 @@ class Entries(QWidget):
         box.addItems(list(names))
         box.setCurrentText(chosen)
 
-    def values(self) -> Dict[str, str]:
+    def values(self) -> dict[str, str]:
         """What the form says."""
         return {key: w.currentText() if isinstance(w, QComboBox) else w.text().strip() for key, w in self._fields.items()}
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import List
 
 from python_qt_binding.QtWidgets import (
     QFileDialog,
@@ -32,7 +31,7 @@ class FilesScreen(Screen):
 
     def __init__(self, session) -> None:
         super().__init__(session)
-        self._files: List[PlannedFile] = []
+        self._files: list[PlannedFile] = []
         self._folder, browse = line(), QPushButton("Browse")
         self._folder.setObjectName("files_folder")
         self._folder.editingFinished.connect(self._plan)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import List
-
 from python_qt_binding.QtWidgets import QDoubleSpinBox, QFormLayout, QHBoxLayout, QListWidget, QPushButton, QTabWidget, QVBoxLayout, QWidget
 from srdfdom import srdf
 
@@ -146,7 +144,7 @@ class GroupsScreen(Screen):
         group.joints = [srdf.Joint(name) for name in self._lists["joints"].chosen()]
         group.links = [srdf.Link(name) for name in self._lists["links"].chosen()]
         group.groups[:] = [srdf.Group(name) for name in self._lists["subgroups"].chosen()]
-        others: List = group.chains[1:]
+        others: list = group.chains[1:]
         base, tip = self._base.currentText(), self._tip.currentText()
         group.chains = ([srdf.Chain(base, tip)] if base and tip else []) + others
         solver = self._solver.currentText().strip()

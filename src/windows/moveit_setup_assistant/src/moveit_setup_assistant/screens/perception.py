@@ -1,12 +1,12 @@
 """3D perception: sensors that see the surroundings."""
 
-from typing import Any, Dict
+from typing import Any
 
 from python_qt_binding.QtWidgets import QFormLayout, QStackedWidget, QWidget
 
 from moveit_setup_assistant.screens.base import Screen, choice, line
 
-_KINDS: Dict[str, Dict[str, Any]] = {
+_KINDS: dict[str, dict[str, Any]] = {
     "Point Cloud": {
         "sensor_plugin": "occupancy_map_monitor/PointCloudOctomapUpdater",
         "point_cloud_topic": "/head_mount_kinect/depth_registered/points",
@@ -44,7 +44,7 @@ class PerceptionScreen(Screen):
         self._kind.setObjectName("perception_kind")
         self.layout_.addWidget(self._kind)
         self._stack = QStackedWidget()
-        self._fields: Dict[str, Any] = {}
+        self._fields: dict[str, Any] = {}
         self._stack.addWidget(QWidget())
         for kind, values in _KINDS.items():
             page = QWidget()
@@ -73,7 +73,7 @@ class PerceptionScreen(Screen):
             return None
         defaults = _KINDS[kind]
         same = self._first().get("sensor_plugin") == defaults["sensor_plugin"]
-        sensor: Dict[str, Any] = {**(self._first() if same else {}), "sensor_plugin": defaults["sensor_plugin"]}
+        sensor: dict[str, Any] = {**(self._first() if same else {}), "sensor_plugin": defaults["sensor_plugin"]}
         for key, field in self._fields[kind].items():
             try:
                 sensor[key] = type(defaults[key])(field.text().strip())
@@ -82,7 +82,7 @@ class PerceptionScreen(Screen):
         self.config.sensors = [sensor, *others]
         return None
 
-    def _first(self) -> Dict[str, Any]:
+    def _first(self) -> dict[str, Any]:
         return self.config.sensors[0] if self.config.sensors else {}
 
     def _fill(self, kind: str) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Dict
+from typing import Any
 
 from python_qt_binding.QtCore import Qt, QTimer
 from python_qt_binding.QtWidgets import (
@@ -33,7 +33,7 @@ class PosesScreen(Screen):
 
     def __init__(self, session) -> None:
         super().__init__(session)
-        self._sliders: Dict[str, tuple] = {}
+        self._sliders: dict[str, tuple] = {}
         self._state: Any = None  # of motion, from enter() on
         row = QHBoxLayout()
         left, right = QVBoxLayout(), QVBoxLayout()
@@ -130,7 +130,7 @@ class PosesScreen(Screen):
         self._hint.setText("The robot touches itself: " + ", ".join(f"{a} - {b}" for a, b in touching) if touching else "")
         self.session.highlight([name for pair in touching for name in pair])
 
-    def _set(self, values: Dict[str, float]) -> None:
+    def _set(self, values: dict[str, float]) -> None:
         for name, value in values.items():
             self._state.set(name, value)
             if name in self._sliders:

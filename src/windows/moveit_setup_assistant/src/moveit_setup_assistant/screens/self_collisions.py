@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-from typing import Dict, Optional
 
 from python_qt_binding.QtCore import Signal
 from python_qt_binding.QtWidgets import (
@@ -37,8 +36,8 @@ class SelfCollisionsScreen(Screen):
 
     def __init__(self, session) -> None:
         super().__init__(session)
-        self._reasons: Dict[collisions.Pair, str] = {}
-        self._thread: Optional[threading.Thread] = None
+        self._reasons: dict[collisions.Pair, str] = {}
+        self._thread: threading.Thread | None = None
         self._stop = False
         self._trials, self._always = QSpinBox(), QDoubleSpinBox()
         self._trials.setRange(1000, 100000)

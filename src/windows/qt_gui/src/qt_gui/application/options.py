@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
-from typing import Callable, List, Optional
+from collections.abc import Callable
 
 from qt_gui.errors import UsageError
 
@@ -67,7 +67,7 @@ def _full(parser: argparse.ArgumentParser, group: argparse._ArgumentGroup) -> No
 
 
 def parse(
-    program: str, arguments: List[str], standalone: Optional[str] = None, plugin_arguments: Optional[Callable] = None
+    program: str, arguments: list[str], standalone: str | None = None, plugin_arguments: Callable | None = None
 ) -> argparse.Namespace:
     """The options of one start.
 

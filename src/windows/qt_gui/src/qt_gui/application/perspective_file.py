@@ -11,7 +11,7 @@ import json
 import os
 import re
 import tempfile
-from typing import Any, Dict
+from typing import Any
 
 from python_qt_binding.QtCore import QByteArray
 
@@ -23,7 +23,7 @@ _MOST = 16 << 20  # bytes; the file of a busy window has some ten thousand
 _DEEPEST = 60  # groups in groups
 
 
-def read(path: str) -> Dict[str, Any]:
+def read(path: str) -> dict[str, Any]:
     """The perspective in a file, as ``{"keys": {name: value}, "groups": {...}}`` with values of Python and ``QByteArray``.
 
     :raises PerspectiveError: not to be read, not JSON, or a value that is no literal.
@@ -40,7 +40,7 @@ def read(path: str) -> Dict[str, Any]:
     return _read_group(data, path, ())
 
 
-def _read_group(data, path, place) -> Dict[str, Any]:
+def _read_group(data, path, place) -> dict[str, Any]:
     where = "/".join(place) or "the whole"
     if not isinstance(data, dict) or not isinstance(data.get("keys", {}), dict) or not isinstance(data.get("groups", {}), dict):
         raise PerspectiveError(f"perspective file {path}: {where} is not an object with keys and groups")
@@ -67,7 +67,7 @@ def _read_value(value, path, where):
         raise PerspectiveError(f"perspective file {path}: the value of {where} is not a Python literal: {text[:60]!r}") from error
 
 
-def write(path: str, data: Dict[str, Any]) -> None:
+def write(path: str, data: dict[str, Any]) -> None:
     """Write what :func:`read` returns; a file that is there is replaced only when all is written.
 
     :raises PerspectiveError: the file cannot be written, or a value has no literal form.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import traceback
-from typing import Callable, Dict, List, Tuple
+from collections.abc import Callable
 
 from python_qt_binding import QtCore
 
@@ -17,8 +17,8 @@ _NOISE = (
     "OpenType support missing",
 )  # of no use to anybody
 _options = {"verbose": False}
-_seen: Dict[Tuple, int] = {}
-listeners: List[Callable[[str], None]] = []  # each is given every warning and error, for tests
+_seen: dict[tuple, int] = {}
+listeners: list[Callable[[str], None]] = []  # each is given every warning and error, for tests
 
 
 def describe(error: BaseException) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List
+from typing import Any
 
 from python_qt_binding.QtCore import QDateTime
 from rqt_py_common.ini_helper import pack, unpack
@@ -14,7 +14,7 @@ _STAMP = "hh:mm:ss.zzz (yyyy-MM-dd)"
 _LEVELS = {name: level for level, name in SEVERITIES.items()}
 
 
-def store(settings, name: str, rules: List[list]) -> None:
+def store(settings, name: str, rules: list[list]) -> None:
     """Keep rules, as ``RuleBox.state`` gives them, under ``<name>_filters`` and ``<name>_filter_<i>/...``."""
     settings.set_value(f"{name}_filters", pack([kind for kind, _, _ in rules]))
     for index, (kind, enabled, state) in enumerate(rules):
@@ -34,7 +34,7 @@ def store(settings, name: str, rules: List[list]) -> None:
             group.set_value("itemlist", _items(kind, state["selected"]))
 
 
-def load(settings, name: str, default: List[list]) -> List[list]:
+def load(settings, name: str, default: list[list]) -> list[list]:
     """The rules that :func:`store` or Noetic's console has kept; ``default`` where none were. Unknown kinds are left out."""
     if not settings.contains(f"{name}_filters"):
         return default
@@ -48,7 +48,7 @@ def load(settings, name: str, default: List[list]) -> List[list]:
 
 def _state(kind: str, group) -> dict:
     if kind == "time":
-        state: Dict[str, Any] = {"stop_enabled": _true(group.value("stop_time_enabled", True))}
+        state: dict[str, Any] = {"stop_enabled": _true(group.value("stop_time_enabled", True))}
         for key in ("start", "stop"):
             time = QDateTime.fromString(str(group.value(f"{key}_time", "")), _STAMP)
             state[key] = time.toMSecsSinceEpoch() / 1000 if time.isValid() else 0.0

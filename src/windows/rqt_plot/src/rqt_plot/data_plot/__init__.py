@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Optional
 
 from python_qt_binding.QtCore import QSize, Signal, qWarning
 from python_qt_binding.QtGui import QColor
@@ -23,7 +23,7 @@ class DataPlotException(WindowError):
 
 
 class _Curve(Series):
-    def __init__(self, name: str, color: QColor, markers_on: bool, capacity: Optional[int]):
+    def __init__(self, name: str, color: QColor, markers_on: bool, capacity: int | None):
         super().__init__(capacity)
         self.name, self.color, self.markers_on = name, color, markers_on
 
@@ -48,21 +48,21 @@ class DataPlot(QWidget):
     _redraw = Signal()
     _add_curve = Signal(str, str, object, bool)
 
-    def __init__(self, parent: Optional[QWidget] = None, capacity: Optional[int] = CAPACITY):
+    def __init__(self, parent: QWidget | None = None, capacity: int | None = CAPACITY):
         super().__init__(parent)
         self.plot_types = [backend.describe() for backend in BACKENDS]
         if not any(kind["enabled"] for kind in self.plot_types):
             raise DataPlotException("nothing to plot with: install python3-pyqtgraph")
         self._layout = QHBoxLayout(self)
         self._layout.setContentsMargins(0, 0, 0, 0)
-        self._curves: Dict[str, _Curve] = {}
+        self._curves: dict[str, _Curve] = {}
         self._capacity = capacity
         self._color_index = 0
         self._markers_on = False
         self._autoscroll = False
         self._autoscale_x, self._autoscale_y = True, DataPlot.SCALE_ALL
         self._fresh = True  # y limits are nobody's choice yet
-        self._vline: Optional[Tuple[float, Any]] = None
+        self._vline: tuple[float, Any] | None = None
         self._plot_index = -1
         self._data_plot_widget = None
         self._switch_data_plot_widget(0)
@@ -74,7 +74,7 @@ class DataPlot(QWidget):
 
     # How it is drawn
 
-    def _switch_data_plot_widget(self, index: int, markers_on: Optional[bool] = None) -> None:
+    def _switch_data_plot_widget(self, index: int, markers_on: bool | None = None) -> None:
         markers_on = self._markers_on if markers_on is None else markers_on
         if not 0 <= index < len(BACKENDS) or not self.plot_types[index]["enabled"]:
             index = next(i for i, kind in enumerate(self.plot_types) if kind["enabled"])
@@ -183,7 +183,7 @@ class DataPlot(QWidget):
         """
         self._get_curve(curve_id).extend(values_x, values_y, sort_data)
 
-    def clear_values(self, curve_id: Optional[str] = None) -> None:
+    def clear_values(self, curve_id: str | None = None) -> None:
         """Forget the values of one curve, or of all."""
         for curve in list(self._curves.values()) if curve_id is None else [self._get_curve(curve_id)]:
             curve.clear()
@@ -200,7 +200,7 @@ class DataPlot(QWidget):
         """Whether the window follows the newest sample."""
         self._autoscroll = enabled
 
-    def set_autoscale(self, x: Optional[bool] = None, y: Optional[int] = None) -> None:
+    def set_autoscale(self, x: bool | None = None, y: int | None = None) -> None:
         """Change how limits follow the data: x wholly or not; y a combination of SCALE_..., or 0; None leaves it."""
         if x is not None:
             self._autoscale_x = x
@@ -227,7 +227,7 @@ class DataPlot(QWidget):
         self._follow_y(extents)
         widget.redraw()
 
-    def _new_xlim(self) -> List[float]:
+    def _new_xlim(self) -> list[float]:
         """Limits of x after the data that came: all of it, the newest, or where they are."""
         low, high = self.get_xlim()
         ends = [(curve.x[0], curve.x[-1]) for curve in self._curves.values() if len(curve)]
@@ -252,13 +252,13 @@ class DataPlot(QWidget):
         if new != shown:
             self._data_plot_widget.set_ylim(new)
 
-    def get_xlim(self) -> List[float]:
+    def get_xlim(self) -> list[float]:
         return list(self._data_plot_widget.get_xlim())
 
     def set_xlim(self, limits) -> None:
         self._data_plot_widget.set_xlim(list(limits))
 
-    def get_ylim(self) -> List[float]:
+    def get_ylim(self) -> list[float]:
         return list(self._data_plot_widget.get_ylim())
 
     def set_ylim(self, limits) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List
+from typing import Any
 
 from matplotlib.backends.backend_qtagg import FigureCanvasQTAgg, NavigationToolbar2QT
 from matplotlib.figure import Figure
@@ -27,7 +27,7 @@ class MatDataPlot(QWidget):
         layout.addWidget(self._canvas)
         self._axes.callbacks.connect("xlim_changed", lambda _axes: self.limits_changed.emit())
         self._axes.callbacks.connect("ylim_changed", lambda _axes: self.limits_changed.emit())
-        self._curves: Dict[str, Any] = {}
+        self._curves: dict[str, Any] = {}
         self._current_vline = None
 
     def add_curve(self, curve_id: str, curve_name: str, curve_color: QColor = QColor("blue"), markers_on: bool = False) -> None:
@@ -56,16 +56,16 @@ class MatDataPlot(QWidget):
         self._current_vline = self._axes.axvline(x, color=[part / 255 for part in color])
         self.redraw()
 
-    def set_xlim(self, limits: List[float]) -> None:
+    def set_xlim(self, limits: list[float]) -> None:
         self._axes.set_xlim(*limits)
         self.redraw()
 
-    def set_ylim(self, limits: List[float]) -> None:
+    def set_ylim(self, limits: list[float]) -> None:
         self._axes.set_ylim(*limits)
         self.redraw()
 
-    def get_xlim(self) -> List[float]:
+    def get_xlim(self) -> list[float]:
         return [float(value) for value in self._axes.get_xlim()]
 
-    def get_ylim(self) -> List[float]:
+    def get_ylim(self) -> list[float]:
         return [float(value) for value in self._axes.get_ylim()]

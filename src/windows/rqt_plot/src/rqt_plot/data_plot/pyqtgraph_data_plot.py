@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Dict, List
-
 from python_qt_binding.QtCore import Signal
 from python_qt_binding.QtGui import QColor
 from python_qt_binding.QtWidgets import QVBoxLayout, QWidget
@@ -48,7 +46,7 @@ class PyQtGraphDataPlot(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self._plot_widget)
         item.sigRangeChanged.connect(lambda *_: self.limits_changed.emit())
-        self._curves: Dict[str, pyqtgraph.GraphicsObject] = {}
+        self._curves: dict[str, pyqtgraph.GraphicsObject] = {}
         self._current_vline = None
 
     def add_curve(self, curve_id: str, curve_name: str, curve_color: QColor = QColor("blue"), markers_on: bool = False) -> None:
@@ -82,14 +80,14 @@ class PyQtGraphDataPlot(QWidget):
             self._plot_widget.removeItem(self._current_vline)
         self._current_vline = self._plot_widget.addLine(x=x, pen=color)
 
-    def set_xlim(self, limits: List[float]) -> None:
+    def set_xlim(self, limits: list[float]) -> None:
         self._plot_widget.setXRange(limits[0], limits[1], padding=0)
 
-    def set_ylim(self, limits: List[float]) -> None:
+    def set_ylim(self, limits: list[float]) -> None:
         self._plot_widget.setYRange(limits[0], limits[1], padding=0)
 
-    def get_xlim(self) -> List[float]:
+    def get_xlim(self) -> list[float]:
         return list(self._plot_widget.viewRange()[0])
 
-    def get_ylim(self) -> List[float]:
+    def get_ylim(self) -> list[float]:
         return list(self._plot_widget.viewRange()[1])
