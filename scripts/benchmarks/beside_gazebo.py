@@ -73,7 +73,7 @@ def figures_of(text: str, launched: float) -> dict:
     rows = [line.split(",") for line in text.splitlines()]
     first = next(float(r[1]) for r in rows if r[0] == "first")
     steps, dt, wall, thread, process = (float(v) for v in next(r[1:] for r in rows if r[0] == "steps"))
-    memory = next(int(r[1]) for r in rows if r[0] == "VmHWM") / 1024
+    memory = next(int(r[1]) for r in rows if r[0] == "maxrss") / 1024
     return {
         "us of the stepping thread a step": thread / steps * 1e6,
         "us of all threads a step": process / steps * 1e6,
@@ -97,6 +97,8 @@ def ended(process) -> float:
 
 
 def measure(command, environment, out: str) -> dict:
+    if os.path.exists(out):
+        os.remove(out)  # of a run before, where the world files are kept
     launched = time.time()
     process = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
     try:

@@ -119,6 +119,11 @@ void Mirror::Stop()
     world_->core_->observer = nullptr;
 }
 
+bool Mirror::Mentions(const Model& model, const std::string& element)
+{
+  return model.text_.find('<' + element) != std::string::npos;
+}
+
 void Mirror::SetPaused(bool paused)
 {
   if (!world_ || world_->paused_ == paused)

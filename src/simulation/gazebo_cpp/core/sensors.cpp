@@ -8,6 +8,7 @@
 #include <gazebo/physics/physics.hh>
 #include <gazebo/transport/transport.hh>
 
+#include "mirror.hpp"
 #include "sdf_text.hpp"
 
 namespace gazebo
@@ -301,7 +302,9 @@ void SensorManager::addOf(const std::string& name, uint32_t id, const physics::L
 void SensorManager::addOf(const std::string& model)
 {
   const physics::ModelPtr found = physics::get_world()->ModelByName(model);
-  const sdf::ElementPtr sdf = found ? found->GetSDF() : sdf::ElementPtr();
+  if (!found || !physics::Mirror::Mentions(*found, "sensor"))
+    return;
+  const sdf::ElementPtr sdf = found->GetSDF();
   for (auto element = inside(sdf, "link"); element; element = element->GetNextElement("link"))
     if (const physics::LinkPtr link = found->GetLink(element->Get<std::string>("name")))
       addOf(link->GetScopedName(), link->GetId(), link, element);
