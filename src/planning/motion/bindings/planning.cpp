@@ -58,8 +58,6 @@ void bindPlanning(py::module_& m)
       .def_readwrite("goal_samples", &PlanRequest::goal_samples)
       .def_readwrite("threads", &PlanRequest::threads)
       .def("set_workspace", [](PlanRequest& r, const Vector3& low, const Vector3& high) {
-        if (!low.allFinite() || !high.allFinite() || (high - low).minCoeff() < 0)
-          throw InvalidInput("the workspace's lower corner must be below its upper one, and both finite");
         r.has_workspace = true;
         r.workspace_min = low;
         r.workspace_max = high;

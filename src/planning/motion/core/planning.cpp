@@ -113,7 +113,9 @@ private:
 
   bool startIsGood()
   {
-    const std::string outside = outsideLimits(*scene_.model(), group_, start_);
+    std::string outside = outsideLimits(*scene_.model(), group_, start_);
+    if (outside.empty() && request_.has_workspace)
+      outside = emptyWorkspace(*scene_.model(), group_, request_.workspace_min, request_.workspace_max);
     if (!outside.empty())
     {
       fail(PlanStatus::InvalidStart, outside);
@@ -240,8 +242,7 @@ private:
     for (int j : group_.active_joints)
     {
       const JointModel& joint = scene_.model()->joints[j];
-      const int lengths = joint.type == JointType::Planar ? 2 : joint.type == JointType::Floating ? 3 : 0;
-      for (int k = 0; k < lengths; ++k)
+      for (int k = 0; k < lengthsOf(joint); ++k)
         if (!joint.bounds[k].has_position)
         {
           // Start and goals stay inside whatever the workspace says.

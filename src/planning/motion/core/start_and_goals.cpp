@@ -34,6 +34,24 @@ std::string outsideLimits(const RobotModel& model, const JointModelGroup& group,
   return "";
 }
 
+int lengthsOf(const JointModel& joint)
+{
+  return joint.type == JointType::Planar ? 2 : joint.type == JointType::Floating ? 3 : 0;
+}
+
+std::string emptyWorkspace(const RobotModel& model, const JointModelGroup& group, const Vector3& low, const Vector3& high)
+{
+  for (int j : group.active_joints)
+    for (int k = 0; k < lengthsOf(model.joints[j]); ++k)
+      if (!(low[k] <= high[k]))
+      {
+        const std::string axis(1, "xyz"[k]);
+        return "the workspace is empty: min_corner." + axis + " of workspace_parameters is not below max_corner." + axis +
+               ", so joint '" + model.joints[j].name + "' can be nowhere";
+      }
+  return "";
+}
+
 std::vector<std::vector<double>> nearestFirst(const RobotState& start, const JointModelGroup& group,
                                               const std::vector<std::vector<double>>& goals)
 {

@@ -14,6 +14,12 @@ std::string touching(const PlanningScene& scene, const RobotState& state, const 
 // "" if the start is within the limits.
 std::string outsideLimits(const RobotModel& model, const JointModelGroup& group, const RobotState& start);
 
+// "" if a base of the group can be anywhere between the workspace's corners: as upstream, a start in none is outside.
+std::string emptyWorkspace(const RobotModel& model, const JointModelGroup& group, const Vector3& low, const Vector3& high);
+
+// How many of a joint's first variables are metres in the frame of the robot.
+int lengthsOf(const JointModel& joint);
+
 // The goals, that first which is nearest to the start.
 std::vector<std::vector<double>> nearestFirst(const RobotState& start, const JointModelGroup& group,
                                               const std::vector<std::vector<double>>& goals);

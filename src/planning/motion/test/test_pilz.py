@@ -279,3 +279,15 @@ def test_an_arm_of_four_joints_follows_positions():
     line = motion.cartesian_path(scene, "arm", [goal], start=state, position_only=True)
     assert line.fraction == 1.0
     assert off_line(places(line.trajectory, "l5"), here.position, goal[0]).max() < 2e-5
+    asked = motion.MotionRequest(
+        "arm", goals=[motion.pose_goal("l5", goal)], start=state, planner="LIN", velocity_scaling=0.1, acceleration_scaling=0.1
+    )
+    assert motion.pilz_plan(scene, asked).code == -31  # NO_IK_SOLUTION
+    asked.position_only = True
+    for planner in ("LIN", "PTP"):
+        asked.planner = planner
+        found = motion.pilz_plan(scene, asked)
+        assert found, found.message
+        np.testing.assert_allclose(places(found.trajectory, "l5")[-1], goal[0], atol=1e-5)
+        if planner == "LIN":
+            assert off_line(places(found.trajectory, "l5"), here.position, goal[0]).max() < 2e-5

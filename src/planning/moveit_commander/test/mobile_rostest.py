@@ -9,8 +9,9 @@ import rospy
 import rostest
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 from moveit_commander import MoveGroupCommander, MoveItCommanderException, RobotCommander
-from moveit_msgs.msg import RobotState
-from moveit_msgs.srv import GetPositionFK
+from moveit_msgs.msg import Constraints, JointConstraint, MotionPlanRequest, RobotState
+from moveit_msgs.msg import MoveItErrorCodes as Codes
+from moveit_msgs.srv import GetMotionPlan, GetPositionFK
 from std_msgs.msg import Header
 from tf2_ros import StaticTransformBroadcaster
 
@@ -90,6 +91,35 @@ class Mobile(unittest.TestCase):
         good, path, _, _ = self.arm.plan()
         self.assertTrue(good)
         self.assertGreaterEqual(path.joint_trajectory.points[-1].time_from_start.to_sec(), 0.95 * 2 * np.sqrt(0.9 / 0.2))
+
+    def test_workspaces(self):
+        """As upstream a frame is not looked at, and nothing is inside corners the wrong way round; arms stand in no workspace."""
+
+        def answer(low, high, group="base", frame=""):
+            names = [f"base/{name}" for name in ("x", "y", "theta")] if group == "base" else self.arm.get_active_joints()
+            goal = [2.0, -0.5, 0.3] if group == "base" else [0.5, *HOME[1:]]
+            wanted = MotionPlanRequest(group_name=group, allowed_planning_time=5.0, start_state=RobotState(is_diff=True))
+            wanted.goal_constraints = [Constraints(joint_constraints=[JointConstraint(n, v, 1e-3, 1e-3, 1.0) for n, v in zip(names, goal)])]
+            wanted.workspace_parameters.header.frame_id = frame
+            wanted.workspace_parameters.min_corner, wanted.workspace_parameters.max_corner = Vector3(*low), Vector3(*high)
+            return rospy.ServiceProxy("plan_kinematic_path", GetMotionPlan)(wanted).motion_plan_response
+
+        ends, low, high = float("nan"), (-5.0, -5.0, 0.0), (5.0, 5.0, 0.0)
+        for name, code, asked in (
+            ("none", Codes.SUCCESS, ((0, 0, 0), (0, 0, 0))),
+            ("a plane", Codes.SUCCESS, (low, high)),
+            ("a frame that is not known", Codes.SUCCESS, (low, high, "base", "nowhere")),
+            ("corners the wrong way round", Codes.START_STATE_INVALID, (high, low)),
+            ("one of them", Codes.START_STATE_INVALID, ((-5.0, 5.0, 0.0), (5.0, -5.0, 0.0))),
+            ("no number", Codes.START_STATE_INVALID, ((ends, -5.0, 0.0), high)),
+            ("around an arm", Codes.SUCCESS, (high, low, "manipulator")),
+            ("the start is outside", Codes.SUCCESS, ((3.0, 3.0, 0.0), high)),
+        ):
+            found = answer(*asked)
+            self.assertEqual(found.error_code.val, code, name)
+            if code == Codes.SUCCESS and "manipulator" not in asked:
+                last = found.trajectory.multi_dof_joint_trajectory.points[-1].transforms[0].translation
+                np.testing.assert_allclose([last.x, last.y], [2.0, -0.5], atol=2e-3, err_msg=name)
 
     def test_a_joint_without_end_may_be_sent_anywhere(self):
         for target in (9.0, -4.0):

@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 """A motion is cancelled, or said to stop, while it is planned, executed, and between two plans."""
 
+import os
 import sys
 import unittest
+import xmlrpc.client
 
 import numpy as np
+import rosgraph
 import rospkg
 import rospy
 import rostest
@@ -21,7 +24,7 @@ from moveit_msgs.msg import (
 from moveit_msgs.srv import GetPositionFK, GetPositionFKRequest
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
-from test_support.hearing import heard
+from test_support.hearing import deliver, heard
 
 sys.path.insert(0, rospkg.RosPack().get_path("moveit_ros_move_group") + "/test")
 from client import HOME, JOINTS, LEFT, PATIENCE, Goal, apply, box, call, clear, move, plan, request, wait_until  # noqa: E402
@@ -33,6 +36,14 @@ LONG = 600.0  # s: planning that uses all its time ends only because it is stopp
 def at(wanted):
     message = rospy.wait_for_message("joint_states", JointState, PATIENCE)
     return np.allclose([message.position[message.name.index(name)] for name in JOINTS], wanted, atol=0.02)
+
+
+def processor_time(node):
+    """s that the process of a node has used."""
+    pid = xmlrpc.client.ServerProxy(rosgraph.Master(rospy.get_name()).lookupNode(node)).getPid(rospy.get_name())[2]
+    with open(f"/proc/{pid}/stat") as file:
+        user, system = file.read().rpartition(")")[2].split()[11:13]
+    return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
 
 
 class Stopping(unittest.TestCase):
@@ -57,7 +68,8 @@ class Stopping(unittest.TestCase):
     def planning(self, plan_only):
         goal = move(LEFT, plan_only, planner_id="RRTstar", allowed_planning_time=LONG)
         wait_until(lambda: "PLANNING" in goal.states, "planning")
-        rospy.sleep(0.5)
+        begin = processor_time("/move_group")
+        wait_until(lambda: processor_time("/move_group") > begin + 0.3, "a search that is under way")
         return goal
 
     def test_cancel_while_planning_only(self):
@@ -128,12 +140,11 @@ class Stopping(unittest.TestCase):
             goal.cancel()
             # An actionlib client takes a status from before the goal for the loss of it when it has cancelled it already.
             self.assertIn(goal.result()[0], (GoalStatus.PREEMPTED, GoalStatus.RECALLED, GoalStatus.LOST))
-        rospy.sleep(0.5)
-        self.assertTrue(at(HOME))
+        for _ in range(25):  # as many states of the joints as half a second has
+            self.assertTrue(at(HOME))
 
     def test_a_goal_that_comes_after_a_stop(self):
-        self.event.publish("stop")
-        rospy.sleep(0.3)
+        deliver(self.event, "stop")
         self.ended(move(LEFT), GoalStatus.SUCCEEDED, Codes.SUCCESS)
 
     def test_cancel_between_two_plans(self):

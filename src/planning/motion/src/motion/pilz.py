@@ -17,6 +17,7 @@ from motion.trajectory import Trajectory
 
 SAMPLING = 0.1  # s, as upstream
 _RADII = 1e-2  # m by which the distances of start and goal from a circle's centre may differ, as upstream
+_COLLINEAR = 1e-5  # of a cross product, below which three points lie on one line, as upstream
 _UNSET = 1.0  # rad/s, rad/s^2 where the robot says nothing
 
 
@@ -214,6 +215,7 @@ def _ptp(scene: _core.PlanningScene, start: _core.RobotState, request: MotionReq
             tool.link_at(tool.goal),
             link=tool.link,
             seed=start,
+            position_only=request.position_only,
             timeout=1.0,
             max_restarts=500,
             avoid_collisions=True,
@@ -268,6 +270,7 @@ def _along(
             tool.link_at(pose_at(share)),
             seed,
             f"the {request.planner} motion cannot be followed beyond {share:.0%} of its way",
+            request.position_only,
         )
         positions.append(values)
     trajectory = trajectory_of(scene, request.group, start, list(times), positions)
@@ -275,10 +278,23 @@ def _along(
     return trajectory
 
 
-def follow(scene: _core.PlanningScene, group: str, link: str, pose: Pose, seed: _core.RobotState, problem: str) -> np.ndarray:
+def follow(
+    scene: _core.PlanningScene, group: str, link: str, pose: Pose, seed: _core.RobotState, problem: str, position_only: bool = False
+) -> np.ndarray:
     """Joint values near those of ``seed``, which is put there: no joint is turned back from its limit."""
     size = scene.model.group(group).size
-    found = ik(scene, group, pose, link=link, seed=seed, timeout=0.1, max_restarts=0, tolerance=1e-6, consistency=[0.99 * np.pi] * size)
+    found = ik(
+        scene,
+        group,
+        pose,
+        link=link,
+        seed=seed,
+        timeout=0.1,
+        max_restarts=0,
+        tolerance=1e-6,
+        consistency=[0.99 * np.pi] * size,
+        position_only=position_only,
+    )
     if not found:
         raise _Refused("no_ik_solution", f"{problem}: {found.message}")
     seed.set_group(group, found.solutions[0])
@@ -307,18 +323,21 @@ def _circle(start: np.ndarray, goal: np.ndarray, point: np.ndarray, kind: str) -
     if kind == "interim":
         a, b = point - start, goal - start
         normal = np.cross(a, b)
-        if np.linalg.norm(normal) < 1e-9:
+        if np.linalg.norm(normal) < _COLLINEAR:
             raise _Refused("invalid_plan", "start, interim point and goal of the circle lie on one line")
         centre = start + (np.dot(b, b) * np.cross(np.cross(a, b), a) + np.dot(a, a) * np.cross(b, np.cross(a, b))) / (
             2 * np.dot(normal, normal)
         )
     else:
         centre = point
+        away, end = (float(np.linalg.norm(place - centre)) for place in (start, goal))
         normal = np.cross(start - centre, goal - centre)
-        apart = abs(np.linalg.norm(start - centre) - np.linalg.norm(goal - centre))
+        apart = abs(away - end)
         if apart > _RADII:
             raise _Refused("invalid_plan", f"start and goal of the circle are not equally far from its centre: by {apart:.4g} m")
-        if np.linalg.norm(normal) < 1e-9:
+        if min(away, end) < _COLLINEAR:
+            raise _Refused("invalid_plan", "the circle has no radius: its centre is its start or its goal")
+        if np.linalg.norm(normal) < _COLLINEAR * away * end:
             raise _Refused("invalid_plan", "start, centre and goal of the circle lie on one line: give an interim point instead")
     radius, last = (float(np.linalg.norm(place - centre)) for place in (start, goal))
     x = (start - centre) / radius

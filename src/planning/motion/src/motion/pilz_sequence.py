@@ -37,7 +37,9 @@ class SequenceResult:
         return self.status == "solved"
 
 
-def _blend(scene: _core.PlanningScene, first: Trajectory, second: Trajectory, link: str, radius: float) -> Trajectory:
+def _blend(
+    scene: _core.PlanningScene, first: Trajectory, second: Trajectory, link: str, radius: float, position_only: bool = False
+) -> Trajectory:
     """One trajectory that leaves the first where it enters the ball about its end, and joins the second where that leaves it."""
     places = [np.array([t.state(i).pose(link).position for i in range(len(t))]) for t in (first, second)]
     corner = places[0][-1]
@@ -61,7 +63,7 @@ def _blend(scene: _core.PlanningScene, first: Trajectory, second: Trajectory, li
         _, turn = slerp(a, b)
         pose = Pose((1 - alpha) * a.position + alpha * b.position, turn(alpha))
         times.append(t_enter + t)
-        positions.append(follow(scene, first.group, link, pose, seed, "the blend between two motions cannot be followed"))
+        positions.append(follow(scene, first.group, link, pose, seed, "the blend between two motions cannot be followed", position_only))
     times += list(times[-1] + second.times[leave + 1 :] - t_leave)
     positions += list(second.positions[leave + 1 :])
     blended = trajectory_of(scene, first.group, first.start, times, positions)
@@ -139,7 +141,7 @@ def _plan_all(
             out.append(trajectory)
         elif radius > 0:
             _check_overlap(before, trajectory, radius, radii[index], index)
-            out[-1] = _blended(scene, out[-1], trajectory, radius, where, result)
+            out[-1] = _blended(scene, out[-1], trajectory, radius, where, result, request.position_only)
         else:
             out[-1] = out[-1].append(trajectory)
         before = trajectory
@@ -157,10 +159,16 @@ def _check_overlap(first: Trajectory, second: Trajectory, radius: float, later: 
 
 
 def _blended(
-    scene: _core.PlanningScene, first: Trajectory, second: Trajectory, radius: float, where: str, result: SequenceResult
+    scene: _core.PlanningScene,
+    first: Trajectory,
+    second: Trajectory,
+    radius: float,
+    where: str,
+    result: SequenceResult,
+    position_only: bool,
 ) -> Trajectory:
     try:
-        trajectory = _blend(scene, first, second, scene.model.group(first.group).tip_link, radius)
+        trajectory = _blend(scene, first, second, scene.model.group(first.group).tip_link, radius, position_only)
     except _Refused as refused:
         raise _Refused(refused.status, f"{where}: {refused}") from None
     bad = path_valid(scene, first.start, trajectory.group, trajectory.positions)

@@ -72,6 +72,7 @@ class MotionRequest:
     :param longest_valid_segment_fraction: of the joint space's extent, between checked states.
     :param threads: of several attempts; 0 = four.
     :param auxiliary: of CIRC; without it, its path constraints named ``interim`` or ``center`` give it.
+    :param position_only: industrial motions bring their link to positions, and leave its orientation to the arm.
     :param cartesian_link: link whose speed `cartesian_speed` (m/s, 0 = any) limits; used by the Pipeline.
     """
 
@@ -98,6 +99,7 @@ class MotionRequest:
     enforce_joint_space: bool = False
     threads: int = 0
     auxiliary: AuxiliaryPoint | None = None
+    position_only: bool = False
     cartesian_link: str = ""
     cartesian_speed: float = 0.0
 

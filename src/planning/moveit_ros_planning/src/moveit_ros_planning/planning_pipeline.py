@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from copy import deepcopy
 from dataclasses import replace
 from typing import Any
 
@@ -16,8 +15,8 @@ from moveit_core import convert, states
 from moveit_core.errors import MoveItError, PlanningError, code_name, one_line
 from moveit_core.scene_messages import attach_to_state
 from moveit_msgs.msg import Constraints, MotionPlanRequest, MoveItErrorCodes
-from shape_msgs.msg import SolidPrimitive
 
+from . import industrial
 from .compiled import CompiledPipeline, exported
 from .planner_configs import PlannerConfigs
 from .robot_model import RobotDescription
@@ -38,6 +37,16 @@ _PARAMETERS = [
     Parameter("link_for_exploration_tree", str, "", description="Show the exploration tree for a particular link"),
     Parameter("display_random_valid_states", bool, False, description="Flag indicating whether random valid states are to be published"),
 ]
+
+
+#: request adapters of planners that are not here, and the parameters that their configuration files give beside OMPL's
+_ABSENT = {
+    "chomp/OptimizerAdapter": """collision_clearance collision_threshold enable_failure_recovery joint_update_limit learning_rate
+        max_iterations max_iterations_after_collision_free max_recovery_attempts min_clearance obstacle_cost_weight planning_time_limit
+        pseudo_inverse_ridge_factor ridge_factor smoothness_cost_acceleration smoothness_cost_jerk smoothness_cost_velocity
+        smoothness_cost_weight trajectory_initialization_method use_pseudo_inverse use_stochastic_descent""".split(),
+    "stomp_moveit/StompSmoothingAdapter": ["stomp"],
+}
 
 
 class PipelineError(MoveItError):
@@ -69,6 +78,10 @@ class Pipeline:
         self._adapters = motion.Pipeline(adapters, self._settings)
         for warning in self._adapters.warnings:
             rospy.logwarn("%s", warning)
+        for adapter, names in _ABSENT.items():
+            unused = sorted(name for name in names if name in parameters)
+            if adapter in adapters and unused:
+                rospy.logwarn("parameters of %s in %s are not used here: %s", adapter, rospy.resolve_name(namespace), ", ".join(unused))
         self._server = None
         if self.is_pilz:
             self._limits = _cartesian_limits(description)
@@ -106,7 +119,7 @@ class Pipeline:
         """What query_planner_interface lists."""
         if self.compiled is not None:
             return self.compiled.planner_ids()
-        return ["CIRC", "LIN", "PTP"] if self.is_pilz else self.configs.names()
+        return list(industrial.PLANNERS) if self.is_pilz else self.configs.names()
 
     def generate(
         self, scene: motion.PlanningScene, message: MotionPlanRequest, cancel: motion.CancelToken | None = None
@@ -163,8 +176,11 @@ class Pipeline:
                 "pilz_industrial_motion_planner and ompl; name one of them in pipeline_id",
             )
         requests = []
-        for message, radius in items:
-            request = self.request(scene, message)
+        for number, (message, radius) in enumerate(items, 1):
+            try:
+                request = self.request(scene, message)
+            except PlanningError as error:
+                raise PlanningError(error.code, f"motion {number} of the sequence: {error}") from error
             joints = message.start_state.joint_state
             if not (joints.name or joints.position or joints.velocity or joints.effort):  # then it starts where the one before ends
                 request = replace(request, start=None)
@@ -184,12 +200,14 @@ class Pipeline:
         :raises PlanningError: with the code and one line.
         """
         group = message.group_name
+        fields: dict[str, Any] = {}
+        if self.is_pilz:
+            solver = self._description.kinematics.get(group)
+            message, fields["auxiliary"] = industrial.prepared(message, scene, solver is not None)
+            fields["position_only"] = solver is not None and solver.position_only
         self._check_group(group)
         self._warn(self._unused(message))
         start = self._start(scene, message)
-        fields: dict[str, Any] = {}
-        if self.is_pilz:
-            message, fields["auxiliary"] = _points(message)
         goals = self._goals(scene, message)
         path = self._path_constraints(scene, message.path_constraints)
         name, settings = (message.planner_id, {}) if self.is_pilz else self.configs.find(group, message.planner_id)
@@ -300,7 +318,8 @@ class Pipeline:
                 "the request has no goal: set a pose, joint or named target first (a target that was cleared is none)",
             )
         group = self.model.group(message.group_name)
-        self._loosen(message.group_name, goals)
+        if not self.is_pilz:  # whose motions keep the orientation as far as the arm can
+            self._loosen(message.group_name, goals)
         for constraint in {entry.joint: entry for goal in goals for entry in goal.joint}.values():
             if not self.is_pilz:  # which refuse such a goal
                 self._warn_beyond(constraint)
@@ -358,44 +377,6 @@ class Pipeline:
             return convert.path_constraints(message, scene, rospy.logwarn)
         except (ValueError, motion.MotionError) as error:
             raise PlanningError(MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS, str(error)) from error
-
-
-def _points(message: MotionPlanRequest) -> tuple[MotionPlanRequest, motion.AuxiliaryPoint | None]:
-    """The request as industrial motions read it, and the auxiliary point of a circle: of a region only its pose matters.
-
-    :raises PlanningError: CIRC without one.
-    """
-    message = deepcopy(message)
-    for goal in message.goal_constraints:
-        for position in goal.position_constraints:
-            region = position.constraint_region
-            region.primitives = [
-                region.primitives[i] if i < len(region.primitives) else SolidPrimitive(SolidPrimitive.SPHERE, [1e-4])
-                for i in range(len(region.primitive_poses))
-            ]
-    if message.planner_id != "CIRC":
-        return message, None
-    given = message.path_constraints
-    if given.name not in ("interim", "center"):
-        raise PlanningError(
-            MoveItErrorCodes.INVALID_MOTION_PLAN,
-            "CIRC needs path constraints named 'interim' or 'center', whose "
-            f"position constraint has its auxiliary point; these are named '{given.name[:40]}'",
-        )
-    poses = [pose for position in given.position_constraints for pose in position.constraint_region.primitive_poses]
-    if len(given.position_constraints) != 1 or len(poses) != 1:
-        raise PlanningError(
-            MoveItErrorCodes.INVALID_MOTION_PLAN,
-            f"the path constraints '{given.name}' of CIRC need one position "
-            f"constraint with one of primitive_poses: there are {len(given.position_constraints)} with {len(poses)}",
-        )
-    position, at = given.position_constraints[0], poses[0].position
-    given.position_constraints = []
-    try:
-        place = convert.finite((at.x, at.y, at.z), "the auxiliary point of CIRC")
-    except ValueError as error:
-        raise PlanningError(MoveItErrorCodes.INVALID_MOTION_PLAN, str(error)) from error
-    return message, motion.AuxiliaryPoint(given.name, place, convert.strip(position.header.frame_id), position.link_name)
 
 
 def _no_kinematics(group: str, description: RobotDescription) -> str:
