@@ -30,7 +30,7 @@ class Outbox:
     """
 
     def __init__(
-        self, loop: asyncio.AbstractEventLoop, write: Callable[[Frame], Awaitable[None]], overflow: Callable[[], None], delay: float
+        self, loop: asyncio.AbstractEventLoop, write: Callable[[Frame], Awaitable[None]], overflow: Callable[[], object], delay: float
     ) -> None:
         self._loop, self._write, self._overflow, self.delay = loop, write, overflow, delay
         self._lock = threading.Lock()

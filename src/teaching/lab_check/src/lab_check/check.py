@@ -14,6 +14,7 @@ import socket
 import subprocess
 import uuid
 from dataclasses import asdict
+from typing import Any
 
 from . import report
 from .errors import LabError
@@ -161,7 +162,8 @@ def _in_bounds() -> None:
 def _run(words: list[str], unsafe: bool, out: pathlib.Path, patience: float) -> str:
     """'' or why there is no result."""
     with open(out / ".examiner.log", "w", encoding="utf-8") as log:
-        streams = dict(stdout=log, stderr=log, start_new_session=True, preexec_fn=_in_bounds, env=sandbox.own_environment(), cwd="/")
+        streams: dict[str, Any] = dict(stdout=log, stderr=log, start_new_session=True, env=sandbox.own_environment(), cwd="/")
+        streams["preexec_fn"] = _in_bounds
         process = subprocess.Popen(words, stdin=subprocess.DEVNULL, **streams) if unsafe else sandbox.shut_in(words, **streams)
         try:
             code = process.wait(patience)

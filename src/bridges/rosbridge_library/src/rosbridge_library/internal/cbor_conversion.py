@@ -27,7 +27,7 @@ TAGGED = {
 
 def extract_cbor_values(msg: Any) -> dict[str, Any]:
     """:param msg: a message, or the request or response of a service"""
-    return {name: outward(getattr(msg, name)) for name, outward in _fields(type(msg))}
+    return {name: outward(getattr(msg, name)) for name, outward in _fields(type(msg))}  # type: ignore[arg-type]
 
 
 @functools.cache

@@ -82,7 +82,7 @@ def extract_values(inst: Any, bson: bool = False) -> dict[str, Any]:
     """
     if not hasattr(inst, "_slot_types"):
         raise InvalidMessageException(inst)
-    return {name: outward(getattr(inst, name)) for name, outward in _fields(type(inst), bson)}
+    return {name: outward(getattr(inst, name)) for name, outward in _fields(type(inst), bson)}  # type: ignore[arg-type]
 
 
 @functools.cache

@@ -14,6 +14,7 @@ class PythonCheck(Check):
     def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         path = self.context.spec_folder / self.wanted["file"]
         spec = importlib.util.spec_from_file_location("lab_check_teacher", path)
+        assert spec is not None and spec.loader is not None  # the file was looked for when the spec was read
         module = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(module)
         answer = getattr(module, self.wanted["function"])(self.context, **self.wanted.get("arguments", {}))

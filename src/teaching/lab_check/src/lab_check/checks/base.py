@@ -18,17 +18,26 @@ class Context:
     """What a check may look at. ``log()`` is what was printed since the task began."""
 
     spec_folder: pathlib.Path
-    home: (
-        pathlib.Path
-    )  # of the submission; below it, its programs may have put links in the place of anything: see isolation.untrusted_files
+    # Of the submission; below it, its programs may have put links in the place of anything: see isolation.untrusted_files.
+    home: pathlib.Path
     source: pathlib.Path  # its packages
     packages: dict[str, pathlib.Path]
     log: Callable[[], str] = lambda: ""
-    bench: Bench | None = None
+    running: Bench | None = None  # the simulated world; None where nothing is launched
     actor: Any = None
     model: str = ""
     samples: list[Sample] = field(default_factory=list)
     simulator_seconds: Callable[[], float] = lambda: 0.0  # processor time of the simulator
+
+    @property
+    def bench(self) -> Bench:
+        """The simulated world.
+
+        :raises RuntimeError: the task launches nothing
+        """
+        if self.running is None:
+            raise RuntimeError("this task launches nothing: it has no simulated world to look at; give it a launch")
+        return self.running
 
 
 class Check:

@@ -121,6 +121,11 @@ def _limited(joint: ET.Element) -> bool:
         return False
 
 
+def _number(element: ET.Element | None, attribute: str) -> float:
+    """:raises ValueError: the element, the attribute or a number in it is missing"""
+    return float("" if element is None else element.get(attribute, ""))
+
+
 def insane(link: ET.Element) -> str:
     """Why the inertia of a link cannot be, '' when it can, or when there is none."""
     inertial = link.find("inertial")
@@ -128,10 +133,9 @@ def insane(link: ET.Element) -> str:
         return ""
     name = link.get("name")
     try:
-        mass = float(inertial.find("mass").get("value"))
-        inertia = inertial.find("inertia")
-        xx, yy, zz = (float(inertia.get(key)) for key in ("ixx", "iyy", "izz"))
-    except (AttributeError, TypeError, ValueError):
+        mass = _number(inertial.find("mass"), "value")
+        xx, yy, zz = (_number(inertial.find("inertia"), key) for key in ("ixx", "iyy", "izz"))
+    except ValueError:
         return f"the inertia of link '{name}' is not complete"
     if mass <= 0 or min(xx, yy, zz) <= 0:
         return f"link '{name}' has a mass or a moment of inertia that is not positive"

@@ -170,7 +170,7 @@ class MovedCheck(Timed):
         pose = sample.place(self._name)
         if pose is None or self._first is None:
             return
-        step = yaw(pose) - yaw(self._old)
+        step = yaw(pose) - yaw(self._old or self._first)
         self._turned += math.remainder(step, 2 * math.pi)
         self._old = pose
         self.note(f"{self._name} x", sample.time, pose[0])
@@ -183,7 +183,7 @@ class MovedCheck(Timed):
         return math.dist(pose[: len(to)], to)
 
     def verdict(self) -> tuple[bool, str, dict[str, Any]]:
-        if self._first is None:
+        if self._first is None or self._old is None:
             return False, f"there is no '{self._name}' in the simulator (there are: {names(self.context.bench.now.models)})", {}
         way = math.dist(self._first[:3], self._old[:3])
         figures = {"moved": way, "turned": self._turned, "at": self._old[:3]}
@@ -244,9 +244,9 @@ class DistanceCheck(Timed):
         self._least, self._most = math.inf, -math.inf
 
     def sample(self, sample: Sample) -> None:
-        places = [sample.place(self.wanted[key]) for key in ("from", "to")]
-        if all(places):
-            distance = math.dist(places[0][:3], places[1][:3])
+        a, b = (sample.place(self.wanted[key]) for key in ("from", "to"))
+        if a and b:
+            distance = math.dist(a[:3], b[:3])
             self._least, self._most = min(self._least, distance), max(self._most, distance)
             self.note("distance", sample.time, distance)
 
@@ -268,7 +268,8 @@ class _Listening(Timed):
         import roslib.message
 
         self.messages: list[tuple[float, Any]] = []
-        self.problem, self._subscriber = "", None
+        self.problem = ""
+        self._subscriber: Any = None  # rospy.Subscriber, once somebody publishes
         try:
             import rosgraph
 

@@ -138,7 +138,7 @@ def main() -> None:
                 engine, value = make(*arguments, show), None
             else:
                 value = getattr(engine, question[0])(*question[1:])
-            answer = (number, "answer", value, engine.workers)
+            answer: tuple[Any, ...] = (number, "answer", value, engine.workers)
         except (LabError, OSError) as error:
             answer = (number, "raised", error, 1)
         wire.send(answer)

@@ -6,6 +6,7 @@ import http.client
 import os
 import xmlrpc.client
 from collections import Counter
+from typing import Any
 from xml.parsers.expat import ExpatError
 
 import rosgraph
@@ -38,7 +39,8 @@ def complete(master: rosgraph.Master, deaf: set[str]) -> bool:
     for node, topics in wanted.items():
         try:
             proxy = xmlrpc.client.ServerProxy(master.lookupNode(node), transport=_Transport())
-            entries = proxy.getBusInfo("/lab_check")[2]
+            answer: Any = proxy.getBusInfo("/lab_check")
+            entries = answer[2]
             have = Counter(entry[4] for entry in entries if entry[2] == "i" and (len(entry) < 6 or entry[5]))
         except (
             OSError,

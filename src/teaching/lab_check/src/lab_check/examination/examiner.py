@@ -176,7 +176,7 @@ class Examiner:
     def _tasks(self, built: Built) -> None:
         spec = self.job.spec
         launches = list(dict.fromkeys(task["launch"] for task in spec["tasks"]))
-        found = {}
+        found: dict[str, TaskResult] = {}
         for number, launch in enumerate(launches):
             tasks = [task for task in spec["tasks"] if task["launch"] == launch]
             if not launch:

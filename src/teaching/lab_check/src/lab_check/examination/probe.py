@@ -41,7 +41,7 @@ class Probe:
 
     def __init__(self, server: Server, wire: Connection, changes: Changes):
         self._server, self._wire, self._changes = server, wire, changes
-        self._connection = None
+        self._connection: Any = None
         self._pairs: set[tuple[str, str]] = set()
         self._painter: Any = None
         changes.now = lambda: server.now().to_sec()
@@ -240,7 +240,7 @@ def main(arguments: list[str] | None = None) -> None:
     submission_code.tell(int(pipe), home)
     sys.argv[:] = ["gzserver", *options]
     wire, make, changes = Connection(int(number)), node.make_server, Changes()
-    node.ClockPublisher = QuantumClock
+    node.ClockPublisher = QuantumClock  # type: ignore[misc]
     changes.watch()
 
     def make_server(options, sim_time=True):

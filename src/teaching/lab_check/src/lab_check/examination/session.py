@@ -18,7 +18,6 @@ import uuid
 import xmlrpc.client
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
-from itertools import zip_longest
 from typing import Any
 from xml.parsers.expat import ExpatError
 
@@ -70,14 +69,20 @@ class Session:
         self.job, self.tasks, self.number = job, tasks, number
         self.programs: list[Program] = []
         self.notes: list[str] = []
-        self.bench: Bench | None = None
+        self._running: Bench | None = None
         self.launches: list[Program] = []
         self.guard = Guard(lambda: self.programs, job.limits, job.group, job.written, not job.unsafe)
-        self.starter: Starter | None = None
         self.core: subprocess.Popen | None = None
         self.interference = Interference()
         self.asked: dict[str, int] = {}  # service of the simulator -> how often the spec itself had it called
         self._begin = time.monotonic()
+
+    @property
+    def bench(self) -> Bench:
+        """The simulated world, once it is up."""
+        if self._running is None:
+            raise RuntimeError("no simulator has come up yet")
+        return self._running
 
     def run(self) -> list[TaskResult]:
         core = self.core = subprocess.Popen(
@@ -146,7 +151,7 @@ class Session:
         return f"what your nodes said could not be read ({type(error).__name__}: {str(error)[:200]})"
 
     def _remarks(self) -> None:
-        if self.bench is None:
+        if self._running is None:
             return
         with contextlib.suppress(Gone, *UNREADABLE):  # it has ended
             self._look_who_interferes()
@@ -176,7 +181,8 @@ class Session:
 
     def _log(self, since: Sequence[int] = ()) -> str:
         """What all programs said, each after as many bytes of it as ``since`` says; :meth:`_said` makes such a mark."""
-        return "".join(program.output.text(mark) for program, mark in zip_longest(self.programs, since, fillvalue=0))
+        later = [0] * (len(self.programs) - len(since))
+        return "".join(program.output.text(mark) for program, mark in zip(self.programs, [*since, *later]))
 
     def _said(self) -> list[int]:
         return [program.output.total for program in self.programs]
@@ -248,11 +254,13 @@ class Session:
 
     def _make_bench(self, simulator: dict[str, str]) -> None:
         self.nodes.find()
+        if self.starter.program is None or self.starter.wire is None:
+            raise RuntimeError("no simulator has come up yet")
         pid = self.starter.program.process.pid
         self.nodes.simulator_is(pid)
         self.simulator = simulator["uri"]
         connections.simulator_is(rosgraph.Master("/lab_check"), simulator["name"], simulator["uri"], pid)
-        self.bench = Bench(self.nodes, self.starter.wire, self.job.spec["quantum"], self._alive)
+        self._running = Bench(self.nodes, self.starter.wire, self.job.spec["quantum"], self._alive)
         self.bench.simulator = simulator["uri"]
 
     def _own_code(self) -> list[str]:
@@ -300,7 +308,7 @@ class Session:
             pathlib.Path(job.home, "catkin_ws", "src"),
             {name: pathlib.Path(job.home, folder) for name, folder in job.packages.items()},
             log=lambda: self._log(mark) if task["do"] else self._log(),
-            bench=bench,
+            running=bench,
             actor=actor,
             model=task.get("model", ""),
             simulator_seconds=self.starter.seconds,

@@ -94,6 +94,7 @@ def shut_in(words: list[str], **streams) -> subprocess.Popen:
     try:
         if _has_own_users(process):
             _map_users(process.pid)
+        assert process.stdin is not None
         process.stdin.write(b"mapped\n")
         process.stdin.close()
     except OSError:  # it ended: its exit code and its last line tell why
@@ -333,6 +334,7 @@ def check() -> None:
         "true",
     ]
     process = shut_in(inner, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    assert process.stderr is not None
     said = process.stderr.read().decode("utf-8", "replace")
     process.stderr.close()
     if process.wait():

@@ -17,6 +17,7 @@ import xml.etree.ElementTree as ET
 import zipfile
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
 from ..errors import LabError
 from .untrusted_files import open_regular
@@ -225,7 +226,7 @@ def _untar(archive: pathlib.Path, source: pathlib.Path, limit: float, staged: St
         begin = file.read(6)
         file.seek(0)
         reader = next((opened for magic, opened in _READERS if begin.startswith(magic)), None)
-        counted = _Counted(reader(file) if reader else file, 2 * limit + _HEADER)
+        counted: Any = _Counted(reader(file) if reader else file, 2 * limit + _HEADER)
         try:
             tar = tarfile.open(fileobj=counted, mode="r:")
         except tarfile.ReadError:
@@ -234,12 +235,13 @@ def _untar(archive: pathlib.Path, source: pathlib.Path, limit: float, staged: St
             return False
         with tar:
             for entry in tar:
-                if not entry.isfile():
+                content = tar.extractfile(entry) if entry.isfile() else None
+                if content is None:
                     continue
                 place = _inside(source, entry.name, staged.notes)
                 if place is not None:
                     _count(staged, entry.size, limit, entry.name)
-                    with tar.extractfile(entry) as stream:
+                    with content as stream:
                         _write(stream, place, entry.size, entry.mode, entry.name)
         while counted.read(1 << 16):  # what packed it ends with a sum of all
             pass

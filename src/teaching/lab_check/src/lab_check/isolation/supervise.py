@@ -103,9 +103,12 @@ class Program:
             os.setresuid(self._user, self._user, self._user)
 
     def _read(self) -> None:
+        if self.process.stdout is None:
+            return
+        said = self.process.stdout.fileno()
         while True:
             try:
-                data = os.read(self.process.stdout.fileno(), 65536)
+                data = os.read(said, 65536)
             except (OSError, ValueError):
                 return
             if not data:
@@ -129,6 +132,8 @@ class Program:
 
     def write(self, text: str) -> None:
         """To its standard input, as keys."""
+        if self.process.stdin is None:
+            return
         try:
             self.process.stdin.write(text.encode())
             self.process.stdin.flush()

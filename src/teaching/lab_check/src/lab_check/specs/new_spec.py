@@ -116,9 +116,11 @@ def _describe(found: Found, parameter: str, text: str) -> None:
 def _goal(joint: ET.Element) -> float:
     """A place that it can reach: 0.5, or half of its way where that is less."""
     limit = joint.find("limit")
+    if limit is None:
+        return 0.5
     try:
         low, high = float(limit.get("lower", "")), float(limit.get("upper", ""))
-    except (AttributeError, ValueError):
+    except ValueError:
         return 0.5
     if joint.get("type") == "continuous" or low <= 0.5 <= high:
         return 0.5
