@@ -6,7 +6,7 @@ import unittest
 import pytest
 import test_support
 from rosunit import xmlrunner
-from test_support import free_port, wait_until
+from test_support import free_port, never, wait_until
 
 
 def subject(name):
@@ -65,3 +65,10 @@ def test_a_free_port_can_be_taken():
     for kind in (socket.SOCK_STREAM, socket.SOCK_DGRAM):
         with socket.socket(socket.AF_INET, kind) as taken:
             taken.bind(("127.0.0.1", free_port(kind)))
+
+
+def test_what_must_not_come_ends_the_wait_when_it_does():
+    never(lambda: 0, "the end", 0.05)
+    answers = iter([0, None, "there"])
+    with pytest.raises(AssertionError, match="the end came: 'there'"):
+        never(lambda: next(answers), "the end", 5.0)

@@ -18,10 +18,11 @@ PoseTracking::PoseTracking(const ros::NodeHandle& nh,
   , planning_scene_monitor_(planning_scene_monitor)
   , loop_rate_(DEFAULT_LOOP_RATE)
   , configs_(4)
+  , pids_(4)
   , transform_listener_(transform_buffer_)
 {
   readROSParams();
-  makePids();
+  setGains();
   servo_ = std::make_unique<Servo>(nh_, planning_scene_monitor_);
   servo_->start();
   target_pose_sub_ = nh_.subscribe("target_pose", 1, &PoseTracking::targetPoseCallback, this);
@@ -52,11 +53,13 @@ void PoseTracking::readROSParams()
   loop_rate_ = ros::Rate(1.0 / period);
 }
 
-void PoseTracking::makePids()
+void PoseTracking::setGains()
 {
-  pids_.clear();
-  for (const PIDConfig& c : configs_)
-    pids_.emplace_back(c.k_p, c.k_i, c.k_d, c.windup_limit, -c.windup_limit, true);
+  for (std::size_t i = 0; i < configs_.size(); ++i)
+  {
+    const PIDConfig& c = configs_[i];
+    pids_[i].setGains(c.k_p, c.k_i, c.k_d, c.windup_limit, -c.windup_limit, true);
+  }
 }
 
 // ---------------------------------------------------------------- a motion
@@ -64,6 +67,7 @@ void PoseTracking::makePids()
 PoseTrackingStatusCode PoseTracking::moveToPose(const Eigen::Vector3d& positional_tolerance, const double angular_tolerance,
                                                 const double target_pose_timeout)
 {
+  const std::lock_guard<std::mutex> lock(motion_mtx_);
   stop_requested_ = false;
   const ros::Time start = ros::Time::now();
   while (ros::ok() && !stop_requested_ && isRecent(start, target_pose_timeout) &&
@@ -104,7 +108,8 @@ PoseTrackingStatusCode PoseTracking::moveToPose(const Eigen::Vector3d& positiona
 bool PoseTracking::haveRecentTargetPose(double timeout) const
 {
   const std::lock_guard<std::mutex> lock(target_pose_mtx_);
-  return isRecent(target_pose_.header.stamp, timeout);
+  // Simulated time begins at zero, which is also the stamp of no target.
+  return !target_pose_.header.stamp.isZero() && isRecent(target_pose_.header.stamp, timeout);
 }
 
 void PoseTracking::updateLinkPose()
@@ -220,6 +225,7 @@ void PoseTracking::updatePIDConfig(const double x_proportional_gain, const doubl
                                    const double angular_integral_gain, const double angular_derivative_gain)
 {
   stopMotion();
+  const std::lock_guard<std::mutex> lock(motion_mtx_);  // it has ended
   const double gains[4][3] = { { x_proportional_gain, x_integral_gain, x_derivative_gain },
                                { y_proportional_gain, y_integral_gain, y_derivative_gain },
                                { z_proportional_gain, z_integral_gain, z_derivative_gain },
@@ -230,7 +236,7 @@ void PoseTracking::updatePIDConfig(const double x_proportional_gain, const doubl
     configs_[i].k_i = gains[i][1];
     configs_[i].k_d = gains[i][2];
   }
-  makePids();
+  setGains();
   doPostMotionReset();
 }
 

@@ -41,15 +41,19 @@ def tip(q):
     return rotation, position + rotation @ [0, 0, 0.04]
 
 
-def condition(q):
-    """Condition number of the Jacobian of the tip, by differences."""
+def jacobian(q):
+    """Of the tip, by differences: rows are its velocity, m/s, and its rate, rad/s."""
     columns = []
     rotation, position = tip(q)
     for step in 1e-6 * np.eye(6):
         turned, moved = tip(q + step)
         spin = (turned - rotation) @ rotation.T / 1e-6
         columns.append([*(moved - position) / 1e-6, spin[2, 1], spin[0, 2], spin[1, 0]])
-    return np.linalg.cond(np.transpose(columns))
+    return np.transpose(columns)
+
+
+def condition(q):
+    return np.linalg.cond(jacobian(q))
 
 
 def twist(linear=(0, 0, 0), angular=(0, 0, 0), frame="base_link"):
@@ -80,6 +84,7 @@ class Arm:
         self.clock = rospy.Publisher("/clock", Clock, queue_size=10)
         self.states = rospy.Publisher("/joint_states", JointState, queue_size=10)
         self.node, self.subscribers, self.publishers = "", [], {}
+        self.follows, self.velocity = True, np.zeros(6)
 
     def lead(self, node, speeds=False):
         """From now on what this node says is followed: positions of trajectories, or the speeds of arrays."""
@@ -104,15 +109,19 @@ class Arm:
 
     def take(self, message):
         self.commands.append(message)
+        if not self.follows:
+            return
         if self.speeds:
-            self.q = self.q + np.array(message.data) * PERIOD  # each holds for its period
+            self.velocity = np.array(message.data)
+            self.q = self.q + self.velocity * PERIOD  # each holds for its period
         else:
+            self.velocity = np.array(message.points[0].velocities)
             self.q = np.array(message.points[0].positions)
 
     def tick(self):
         self.now += round(PERIOD * 1e9)
         stamp = rospy.Time(0, self.now)
-        state = JointState(name=[*JOINTS, "finger_joint"], position=[*self.q, 0.0])
+        state = JointState(name=[*JOINTS, "finger_joint"], position=[*self.q, 0.0], velocity=[*self.velocity, 0.0])
         state.header.stamp = stamp
         self.states.publish(state)
         self.clock.publish(Clock(stamp))

@@ -12,6 +12,6 @@ Each case of a test is looked at, whatever became of those before it::
 from .angles import heading
 from .cases import TestCase
 from .network import free_port
-from .waiting import wait_until
+from .waiting import never, wait_until
 
-__all__ = ["TestCase", "free_port", "heading", "wait_until"]
+__all__ = ["TestCase", "free_port", "heading", "never", "wait_until"]

@@ -22,3 +22,16 @@ def wait_until(condition: Callable[[], T], what: str = "", timeout: float = 60.0
                 f"waited {timeout:g} s in vain for {what or getattr(condition, '__name__', 'a condition')}; the last answer was {answer!r}"
             )
         time.sleep(interval)
+
+
+def never(condition: Callable[[], object], what: str, seconds: float, interval: float = 0.01) -> None:
+    """Ask ``condition()`` every ``interval`` s for so long: it must not come true. What is wrong would do so within that time.
+
+    :raises AssertionError: it does; the message says ``what`` came
+    """
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        answer = condition()
+        if answer:
+            raise AssertionError(f"{what} came: {answer!r}")
+        time.sleep(interval)

@@ -61,7 +61,7 @@ public:
   // From another thread.
   void stopMotion();
 
-  // Stops, then takes these gains.
+  // Stops, waits until moveToPose() has ended, then takes these gains.
   void updatePIDConfig(const double x_proportional_gain, const double x_integral_gain, const double x_derivative_gain,
                        const double y_proportional_gain, const double y_integral_gain, const double y_derivative_gain,
                        const double z_proportional_gain, const double z_integral_gain, const double z_derivative_gain,
@@ -81,7 +81,7 @@ public:
 
 private:
   void readROSParams();
-  void makePids();
+  void setGains();
   bool isRecent(const ros::Time& stamp, double timeout) const { return (ros::Time::now() - stamp).toSec() < timeout; }
   bool haveRecentTargetPose(double timeout) const;
   void updateLinkPose();
@@ -97,6 +97,7 @@ private:
   ros::Rate loop_rate_;
   std::vector<PIDConfig> configs_;          // x, y, z, angle
   std::vector<control_toolbox::Pid> pids_;  // as configs_
+  std::mutex motion_mtx_;                   // held by a motion
   Eigen::Isometry3d link_pose_ = Eigen::Isometry3d::Identity();
   ros::Time link_pose_stamp_;
   mutable std::mutex target_pose_mtx_;

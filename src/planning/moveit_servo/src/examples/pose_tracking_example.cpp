@@ -17,6 +17,8 @@ int main(int argc, char** argv)
   moveit_servo::PoseTracking tracker(nh, monitor);
   ros::Publisher targets = nh.advertise<geometry_msgs::PoseStamped>("target_pose", 1, true);
   const ros::Subscriber status = printStatus(nh, tracker.servo_->getParameters().status_topic);
+  while (ros::ok() && targets.getNumSubscribers() == 0)
+    ros::WallDuration(0.01).sleep();
 
   geometry_msgs::TransformStamped now;
   tracker.getCommandFrameTransform(now);
