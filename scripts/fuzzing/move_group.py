@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 from pathlib import Path
+from typing import Any
 
 from fuzzing import seeds
 from fuzzing.findings import Found
@@ -14,6 +15,46 @@ ROBOT = Path("src/planning/moveit_ros_planning/test/robot")
 GROUPS = ("manipulator", "hand")
 JOINTS = [f"joint_{number}" for number in range(1, 7)]
 _HOME = [0.0, -0.6, 1.6, 0.0, 1.0, 0.0]
+
+
+def industrial_requests() -> list[dict[str, Any]]:
+    """MotionPlanRequests as fields: each industrial motion to a pose, and to joint values; circles by both of their points."""
+    point = {"header": {"frame_id": "world"}, "link_name": "hand", "weight": 1.0}
+    turn = {**point, "orientation": {"x": 0.0, "y": 0.8415, "z": 0.0, "w": 0.5403}}
+    turn.update({f"absolute_{axis}_axis_tolerance": 0.01 for axis in "xyz"})
+
+    def region(*at: float) -> dict[str, Any]:
+        pose = {"position": dict(zip("xyz", at)), "orientation": {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}}
+        return {"primitives": [{"type": 2, "dimensions": [0.001]}], "primitive_poses": [pose]}
+
+    x, z = 0.2626, 0.8138  # of the hand at home
+    goals = [
+        {"position_constraints": [{**point, "constraint_region": region(x, 0.1, z)}], "orientation_constraints": [turn]},
+        {
+            "joint_constraints": [
+                {"joint_name": name, "position": value + 0.1, "tolerance_above": 1e-4, "tolerance_below": 1e-4, "weight": 1.0}
+                for name, value in zip(JOINTS, _HOME)
+            ]
+        },
+    ]
+    start = {"is_diff": True, "joint_state": {"name": JOINTS, "position": _HOME, "velocity": [0.0] * len(JOINTS)}}
+    ways = [("PTP", {}), ("LIN", {})]
+    for name, at in (("interim", (x, 0.05, z + 0.05)), ("center", (x, 0.05, z + 0.02))):
+        ways.append(("CIRC", {"name": name, "position_constraints": [{**point, "constraint_region": region(*at)}]}))
+    return [
+        {
+            "pipeline_id": "pilz_industrial_motion_planner",
+            "planner_id": planner,
+            "group_name": GROUPS[0],
+            "start_state": start,
+            "goal_constraints": [goal],
+            "path_constraints": way,
+            "max_velocity_scaling_factor": 0.1,
+            "max_acceleration_scaling_factor": 0.1,
+        }
+        for planner, way in ways
+        for goal in goals
+    ]
 
 
 class MoveGroup(Server):

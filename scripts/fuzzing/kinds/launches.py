@@ -20,6 +20,8 @@ _SCRIPTS = {
     "gazebo_ros": ("gzserver", "spawn_model", "gz"),
     "building_editor": ("build_world",),
     "controller_manager": ("spawner", "unspawner", "controller_manager", "controller_group"),
+    "urdfdom_py": ("display_urdf",),
+    "rosmon": ("rosmon",),
 }
 _FILES = ["empty_world.launch", "shapes_world.launch", "range_world.launch", "elevator_world.launch"]
 _PROGRAM_CODES = (0, 1, 2, 255)
@@ -58,6 +60,7 @@ class LaunchKind(Kind):
         Path("model.sdf").write_bytes(seeds.models()["unit_box.sdf"])
         Path("test.world").write_bytes(seeds.worlds()["shapes.world"])
         Path("plan.yaml").write_text("walls: [{from: [0, 0], to: [2, 0]}]\n")
+        Path("none.launch").write_text('<launch><arg name="robot" default=""/><param name="x" value="$(anon x)"/></launch>')
         Path("controllers.yaml").write_text("a: {type: x/Y}\n")
         Image.new("L", (9, 9)).save("plan.png")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import io
 import json
+import struct
 from collections.abc import Iterator
 from pathlib import Path
 from random import Random
@@ -57,6 +58,7 @@ class MeshKind(Kind):
         }
         self._files[".obj"], self._files[".mtl"] = [_OBJ], [_MTL]
         self._files[".stl"] += [_ascii_stl(), _ascii_stl().upper(), b" ".join(_ascii_stl().split())]
+        self._files[".stl"] += [_solid_binary_stl(), _solid_binary_stl() + b"made by a printer", _solid_binary_stl()[:-70]]
         self._collada = xml_cases.XmlMutator(self._files[".dae"])
         for mode, size, form in (
             ("L", 9, "PNG"),
@@ -196,3 +198,11 @@ def _with(told: dict, files: dict[str, str]) -> bytes:
 def _ascii_stl() -> bytes:
     facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex {} 1 {}\nendloop\nendfacet\n"
     return ("solid s\n" + "".join(facet.format(i, i % 3) for i in range(8)) + "endsolid s\n").encode()
+
+
+def _solid_binary_stl() -> bytes:
+    """Binary, though it begins with the word of the text format."""
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    facets = b"".join(struct.pack("<12fH", 0, 0, 0, *(x for corner in face for x in corners[corner]), 0) for face in faces)
+    return b"solid cone".ljust(80) + struct.pack("<I", len(faces)) + facets

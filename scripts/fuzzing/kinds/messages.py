@@ -204,6 +204,28 @@ class PlanningKind(MessageKind):
         self._simulation = move_group.MoveGroup(folder, number)
         self._broken = False
 
+    def _fields(self, random: Random, kind: type, extreme: float) -> dict[str, Any]:
+        if getattr(kind, "_type", "") == "moveit_msgs/MotionPlanRequest" and random.random() < 0.5:
+            return self._industrial(random, extreme)
+        return super()._fields(random, kind, extreme)
+
+    def _industrial(self, random: Random, extreme: float) -> dict[str, Any]:
+        """A request for PTP, LIN or CIRC that can be planned, but for what is changed in it."""
+        request = json.loads(json.dumps(random.choice(move_group.industrial_requests())))
+        for _ in range(random.choice((0, 1, 1, 2, 4))):
+            path = random.choice([path for path in tree_cases.places(request) if path])
+            holder, value = tree_cases.value_at(request, path[:-1]), tree_cases.value_at(request, path)
+            if isinstance(value, list):
+                holder[path[-1]] = random.choice(([], value * 2))
+            elif isinstance(value, bool):
+                holder[path[-1]] = not value
+            elif isinstance(value, str):
+                holder[path[-1]] = self._string(random, str(path[-1]), extreme)
+            elif isinstance(value, float):
+                holder[path[-1]] = value + random.choice((0.01, -0.1, random.choice(values.NUMBERS)))
+        request["allowed_planning_time"] = 0.2
+        return request
+
     def _value(self, random: Random, name: str, slot: str, extreme: float) -> Any:
         if name == "allowed_planning_time":  # more is what was asked for, and no fault
             return random.choice((0.0, 0.05, 0.2, -1.0, float("nan")))

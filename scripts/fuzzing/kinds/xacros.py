@@ -27,6 +27,7 @@ _SNIPPETS = b"""<snippets xmlns:xacro="http://www.ros.org/wiki/xacro">
 <link name="$(optenv NO_SUCH a b)"/><link name="$(bogus x)"/><link name="$(dirname)"/>
 <link name="${list(map(lambda x: list(map(lambda y: x, range(90000))), range(90000)))}"/>
 <link name="${[list(map(list, [range(90000)] * 90000)), 1][1]}"/><link name="${str([[0] * 10 ** 6] * 10 ** 6)}"/>
+<link name="$(anon a b)"/><link name="$(anon)"/><link name="${filter(None, [1])}"/><link name="${list(filter(lambda x: x, range(10**9)))}"/>
 <link name="${sorted(range(9), key=lambda x: -x)}"/>
 <link name="${(lambda f: f(f, 40))(lambda f, n: n if n &lt; 2 else f(f, n - 1) + f(f, n - 2))}"/>
 <xacro:macro name="twice"><xacro:m2/><xacro:m2/></xacro:macro><xacro:macro name="m2"><xacro:m/><xacro:m/></xacro:macro><xacro:twice/></in>
