@@ -9,9 +9,10 @@ import rospy
 import rostest
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 from moveit_commander import MoveGroupCommander, MoveItCommanderException, RobotCommander
-from moveit_msgs.msg import Constraints, JointConstraint, MotionPlanRequest, RobotState
+from moveit_msgs.msg import Constraints, JointConstraint, MotionPlanRequest, PositionIKRequest, RobotState
 from moveit_msgs.msg import MoveItErrorCodes as Codes
-from moveit_msgs.srv import GetMotionPlan, GetPositionFK
+from moveit_msgs.srv import GetMotionPlan, GetPositionFK, GetPositionIK
+from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 from tf2_ros import StaticTransformBroadcaster
 
@@ -128,6 +129,32 @@ class Mobile(unittest.TestCase):
             turned = self.arm.get_current_joint_values()[5]
             self.assertAlmostEqual(np.cos(turned - target), 1.0, delta=1e-4)
         self.assertRaises(MoveItCommanderException, self.arm.set_joint_value_target, [9.0] + HOME[1:])
+
+    def test_kinematics_lines_and_memory_of_a_joint_that_has_turned_far(self):
+        names = self.arm.get_active_joints()
+        for turned in (9.0, -4.0):
+            start = RobotState(is_diff=True, joint_state=JointState(name=names, position=[*HOME[:5], turned]))
+            there = rospy.ServiceProxy("compute_fk", GetPositionFK)(Header(frame_id="world"), ["hand"], start).pose_stamped[0]
+            asked = PositionIKRequest(group_name="manipulator", robot_state=start, pose_stamped=there, timeout=rospy.Duration(1.0))
+            found = rospy.ServiceProxy("compute_ik", GetPositionIK)(asked)
+            self.assertEqual(found.error_code.val, Codes.SUCCESS)
+            found = rospy.ServiceProxy("compute_fk", GetPositionFK)(Header(frame_id="world"), ["hand"], found.solution)
+            np.testing.assert_allclose(vector(found.pose_stamped[0].pose), vector(there.pose), atol=1e-3)
+            down = there.pose
+            down.position.z -= 0.05
+            self.arm.set_pose_reference_frame("world")
+            self.arm.set_start_state(start)
+            path, share = self.arm.compute_cartesian_path([down], 0.01, 0.0)
+            self.arm.set_start_state_to_current_state()
+            self.arm.set_pose_reference_frame("odom")
+            rows = np.array([point.positions for point in path.joint_trajectory.points])
+            self.assertEqual(share, 1.0)
+            self.assertAlmostEqual(np.cos(rows[0, 5] - turned), 1.0, delta=1e-6)
+            self.assertLess(np.abs(np.diff(rows, axis=0)).max(), 0.2)
+            self.arm.remember_joint_values("spun", [*HOME[:5], turned])
+            self.arm.set_named_target("spun")
+            self.assertTrue(self.arm.go())
+            self.assertAlmostEqual(np.cos(self.arm.get_current_joint_values()[5] - turned), 1.0, delta=1e-4)
 
     def test_a_value_within_the_tolerance_of_a_limit_is_taken(self):
         """As upstream: bounds are asked with the goal's joint tolerance."""
