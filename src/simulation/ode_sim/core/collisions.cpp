@@ -4,6 +4,7 @@
 
 #include "geometry.hpp"
 #include "phases.hpp"
+#include "ridges.hpp"
 
 namespace ode_sim {
 
@@ -94,6 +95,15 @@ void find_pairs(Scene& scene, StepState& state) {
   });
 }
 
+// The faceted mesh of a cylinder, where the cylinder is; else the shape's geom.
+dGeomID faceted_geom(const Shape& shape) {
+  if (!shape.faceted) return shape.geom;
+  const dReal* p = dGeomGetPosition(shape.geom);
+  dGeomSetPosition(shape.faceted, p[0], p[1], p[2]);
+  dGeomSetRotation(shape.faceted, dGeomGetRotation(shape.geom));
+  return shape.faceted;
+}
+
 // ODE has no collider for two cylinders, or a cylinder and a capsule: one of them goes in as a faceted mesh.
 std::pair<dGeomID, dGeomID> geoms_of(const Shape& a, const Shape& b) {
   const int ta = dGeomGetClass(a.geom), tb = dGeomGetClass(b.geom);
@@ -101,11 +111,9 @@ std::pair<dGeomID, dGeomID> geoms_of(const Shape& a, const Shape& b) {
   if (ta == dCylinderClass && (tb == dCylinderClass || tb == dCapsuleClass)) stand_in = &a;
   else if (tb == dCylinderClass && ta == dCapsuleClass) stand_in = &b;
   if (!stand_in || !stand_in->faceted) return {a.geom, b.geom};
-  const dReal* p = dGeomGetPosition(stand_in->geom);
-  dGeomSetPosition(stand_in->faceted, p[0], p[1], p[2]);
-  dGeomSetRotation(stand_in->faceted, dGeomGetRotation(stand_in->geom));
-  if (stand_in == &a) return {stand_in->faceted, b.geom};
-  return {a.geom, stand_in->faceted};
+  const dGeomID faceted = faceted_geom(*stand_in);
+  if (stand_in == &a) return {faceted, b.geom};
+  return {a.geom, faceted};
 }
 
 constexpr int kMostFound = 250;
@@ -146,13 +154,25 @@ int collide_as_gazebo(const Scene& scene, const Shape& a, const Shape& b, dGeomI
   return n;
 }
 
+// Of a height map and what stands on it, normals towards `a`. :returns: how many
+int contacts_on_ridges(const Shape& a, const Shape& b, dContactGeom* found, int most) {
+  const Shape &map = a.field ? a : b, &other = a.field ? b : a;
+  if (!map.field || other.field || other.infinite) return 0;
+  const int n = ridge_contacts(map, other, found, most);
+  if (&map == &a)
+    for (int i = 0; i < n; ++i)
+      for (dReal& x : found[i].normal) x = -x;
+  return n;
+}
+
 int find_contacts(Scene& scene, const Shape& a, const Shape& b, dContactGeom* found) {
   if (scene.separations.apart(a, b)) return 0;
   try {
     const auto [ga, gb] = geoms_of(a, b);
     if (scene.settings.like_gazebo) return std::min(collide_as_gazebo(scene, a, b, ga, gb, found), kMostFound);
-    const int n = std::min(dCollide(ga, gb, kMostFound, found, sizeof found[0]), kMostFound);
-    return n == 0 ? missed_contacts(ga, gb, found) : n;
+    int n = std::min(dCollide(ga, gb, kMostFound, found, sizeof found[0]), kMostFound);
+    if (n == 0) n = missed_contacts(ga, gb, found);
+    return n + contacts_on_ridges(a, b, found + n, kMostFound - n);
   } catch (const OdeFailure& failure) {
     const Model &ma = *a.link->model, &mb = *b.link->model;
     scene.messages.report(std::string(failure.what()) + "; they do not touch in this step",

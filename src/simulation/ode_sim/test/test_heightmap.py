@@ -6,7 +6,21 @@ import numpy as np
 import ode_sim
 import pytest
 from ode_sim import math3
-from ode_sim.description.model import Box, Collision, DescriptionError, Heightmap, Link, Model, Pose, Sphere, Surface, Visual
+from ode_sim.description.model import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    DescriptionError,
+    Heightmap,
+    Link,
+    Mesh,
+    Model,
+    Pose,
+    Sphere,
+    Surface,
+    Visual,
+)
 from ode_sim.heightmap import load_heights, thinned
 
 SIZE = (20.0, 10.0, 1200.0)
@@ -125,6 +139,92 @@ def test_the_ridge_that_rays_see_carries(tmp_path, grey, height):
         world.spawn(Model("ball", Pose((0.1, 0.05, height + above)), (ball,)))
         world.step(1)
         assert (len(world.contacts()) > 0) == touches
+
+
+def cube_of_triangles(folder):
+    """An STL file of 0.4 m x 0.4 m x 0.4 m."""
+    corners = 0.2 * np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+    lines = ["solid cube"]
+    for a, b, c, d in ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)):
+        for face in ((a, b, c), (a, c, d)):
+            lines += [
+                "facet normal 0 0 0",
+                "outer loop",
+                *(f"vertex {x} {y} {z}" for x, y, z in corners[list(face)]),
+                "endloop",
+                "endfacet",
+            ]
+    (folder / "cube.stl").write_text("\n".join([*lines, "endsolid cube"]))
+    return Mesh(str(folder / "cube.stl"), str(folder / "cube.stl"))
+
+
+SHAPES = {  # and how far below its middle it ends, m
+    "ball": (lambda folder: Sphere(0.2), Pose(), 0.2),
+    "box": (lambda folder: Box((0.4, 0.4, 0.4)), Pose(), 0.2),
+    "capsule": (lambda folder: Capsule(0.2, 0.4), Pose(), 0.4),
+    "drum": (lambda folder: Cylinder(0.2, 0.4), Pose(), 0.2),
+    "wheel across": (lambda folder: Cylinder(0.2, 0.4), math3.from_rpy(0, 0, 0, 0, np.pi / 2, 0), 0.2),
+    "wheel along": (lambda folder: Cylinder(0.2, 0.4), math3.from_rpy(0, 0, 0, np.pi / 2, 0, 0), 0.2),
+    "mesh": (cube_of_triangles, Pose(), 0.2),
+}
+
+
+def settled(world, shape, turned, at, steps=1500):
+    """Height of a thing without friction that is let go 5 cm above where it will rest."""
+    world.spawn(Model("thing", Pose(at), (Link("l", collisions=(Collision("c", turned, shape, Surface(mu=0.0)),)),)))
+    world.step(steps)
+    return world.models["thing"].pose.p
+
+
+@pytest.mark.parametrize("height", (0.05, 0.5, 2.0))
+@pytest.mark.parametrize("name", SHAPES)
+def test_what_stands_exactly_on_a_ridge_is_carried_by_it(tmp_path, name, height):
+    """A ridge along y, 1 m wide at each side of its foot; it stands and falls by the middle alone, in balance."""
+    make, turned, low = SHAPES[name]
+    grey = np.zeros((5, 5))
+    grey[:, 2] = 65535
+    world, _ = terrain(tmp_path, grey, (4.0, 4.0, height), Pose())
+    p = settled(world, make(tmp_path), turned, (0.0, 0.3, height + low + 0.05))
+    assert p == pytest.approx((0.0, 0.3, height + low), abs=2e-3)
+
+
+def test_a_peak_carries_a_ball_and_two_ridges_a_plank(tmp_path):
+    grey = np.zeros((5, 5))
+    grey[2, 2] = 65535
+    world, _ = terrain(tmp_path, grey, (4.0, 4.0, 0.3), Pose())
+    assert settled(world, Sphere(0.1), Pose(), (0.0, 0.0, 0.45))[2] == pytest.approx(0.4, abs=2e-3)
+    grey = np.zeros((5, 5))
+    grey[:, [1, 3]] = 65535
+    world, _ = terrain(tmp_path, grey, (4.0, 4.0, 0.5), Pose())
+    assert settled(world, Box((2.4, 0.2, 0.1)), Pose(), (0.1, 0.3, 0.6))[2] == pytest.approx(0.55, abs=2e-3)
+
+
+def test_a_ridge_of_a_turned_map_carries(tmp_path):
+    """Turned by 0.8 rad about z, so that the ridge runs slantwise."""
+    grey = np.zeros((5, 5))
+    grey[:, 2] = 65535
+    pose = math3.from_rpy(1.0, 2.0, 0.5, 0.0, 0.0, 0.8)
+    world, _ = terrain(tmp_path, grey, (4.0, 4.0, 0.5), pose)
+    at = math3.compose(pose, Pose((0.0, 0.3, 0.5 + 0.25))).p
+    assert settled(world, Sphere(0.2), Pose(), at) == pytest.approx((at[0], at[1], 0.5 + 0.7), abs=2e-3)
+
+
+@pytest.mark.parametrize("aside", (0.0, 0.01, -0.03, 0.06))
+def test_a_ball_near_a_ridge_touches_its_edge_or_its_slope_once(tmp_path, aside):
+    """A ball of 0.1 m that is 2 mm deep, over slopes of 0.5 m in 1 m: within 0.1 sin(atan 0.5) = 0.045 m of the edge it is that."""
+    grey = np.zeros((5, 5))
+    grey[:, 2] = 65535
+    world, _ = terrain(tmp_path, grey, (4.0, 4.0, 0.5), Pose())
+    steep = np.array((0.5 * np.sign(aside), 0.0, 1.0)) / 1.25**0.5
+    up = steep if abs(aside) > 0.045 else np.array((aside / 0.098, 0.0, (1 - (aside / 0.098) ** 2) ** 0.5))
+    middle = np.array((0.0, 0.3, 0.5)) + 0.098 * up
+    middle[[0, 2]] += (aside - middle[0]) * np.array((1.0, -0.5 * np.sign(aside)))  # along the slope
+    world.spawn(Model("thing", Pose(tuple(middle)), (Link("l", gravity=False, collisions=(Collision("c", Pose(), Sphere(0.1)),)),)))
+    world.step(1)
+    (contact,) = world.contacts()
+    assert abs(contact["normal"] @ up) == pytest.approx(1.0, abs=1e-3)
+    assert contact["depth"] == pytest.approx(0.002, abs=1e-4)
+    assert contact["position"] == pytest.approx(middle - 0.098 * up, abs=0.005)
 
 
 @pytest.mark.slow
