@@ -7,6 +7,7 @@ import motion
 import numpy as np
 import pytest
 import robots
+from test_support.waiting import wait_until
 
 HOME = [0.3, -1.2, 1.4, -0.9, 1.1, 0.5]
 AWAY = [-1.2, -1.6, 1.1, -0.5, 0.9, -1.0]
@@ -275,8 +276,9 @@ def test_cancel_ends_a_long_search_at_once(scene, model):
     thread = threading.Thread(
         target=lambda: done.append(motion.plan(scene, request(model, planner="RRTstar", seed=None, planning_time=300.0), token))
     )
+    begin = time.process_time()
     thread.start()
-    time.sleep(0.3)
+    wait_until(lambda: time.process_time() - begin > 0.2, "a search that is under way")
     spent = time.process_time()
     token.cancel()
     thread.join(60)

@@ -1,8 +1,6 @@
 #!/usr/bin/env python3
 """move_group plans with a compiled planner and a compiled request adapter of another package."""
 
-import time
-
 import actionlib
 import rospy
 import rostest
@@ -10,6 +8,7 @@ import test_support
 from actionlib_msgs.msg import GoalStatus
 from moveit_msgs.msg import Constraints, JointConstraint, MotionPlanRequest, MoveGroupAction, MoveGroupGoal, MoveItErrorCodes
 from moveit_msgs.srv import GetMotionPlan, QueryPlannerInterfaces
+from test_support.waiting import wait_until
 
 JOINTS, GOAL = ("shoulder", "elbow", "lift", "wrist"), (0.5, 0.8, -0.1, 0.4)
 
@@ -68,8 +67,9 @@ class Planner(test_support.TestCase):
         self.assertTrue(client.wait_for_server(rospy.Duration(20)))
         goal = MoveGroupGoal(request=request(planner="sleep"))
         goal.planning_options.plan_only = True
-        client.send_goal(goal)
-        time.sleep(0.5)
+        states = []
+        client.send_goal(goal, feedback_cb=lambda feedback: states.append(feedback.state))
+        wait_until(lambda: "PLANNING" in states, "planning")
         client.cancel_goal()
         self.assertTrue(client.wait_for_result(rospy.Duration(10)))
         self.assertEqual(client.get_state(), GoalStatus.PREEMPTED)

@@ -7,6 +7,8 @@
 
 #include <atomic>
 #include <cmath>
+#include <ctime>
+#include <functional>
 #include <memory>
 #include <thread>
 
@@ -178,7 +180,9 @@ TEST(Pipeline, terminateEndsASearch)
   std::thread end([]() {
     while (!pipeline().isActive())
       ros::WallDuration(0.01).sleep();
-    ros::WallDuration(0.5).sleep();
+    const std::clock_t start = std::clock();
+    while (std::clock() - start < CLOCKS_PER_SEC / 4)  // of the processor: the search is under way
+      ros::WallDuration(0.01).sleep();
     pipeline().terminate();
   });
   EXPECT_FALSE(pipeline().generatePlan(homeScene(), request, response));
@@ -286,10 +290,12 @@ public:
     server_.start();
   }
   ~Controller() { over_ = true; }
+  int goals() const { return goals_; }
 
 private:
   void move(const control_msgs::FollowJointTrajectoryGoal& goal)
   {
+    ++goals_;
     const auto& last = goal.trajectory.points.back();
     const ros::Time end = ros::Time::now() + last.time_from_start;
     while (ros::Time::now() < end)
@@ -306,8 +312,16 @@ private:
       server_.setSucceeded();
   }
   std::atomic<bool> over_{ false };
+  std::atomic<int> goals_{ 0 };  // that it has begun
   Server server_;
 };
+
+bool comesTrue(const std::function<bool()>& condition)
+{
+  for (int i = 0; i < 6000 && !condition(); ++i)
+    ros::WallDuration(0.01).sleep();
+  return condition();
+}
 
 TEST(Execution, controllersBehindActions)
 {
@@ -339,16 +353,18 @@ TEST(Execution, controllersBehindActions)
   EXPECT_EQ(execution.executeAndWait(), Status::ABORTED);
   EXPECT_TRUE(execution.getTrajectories().empty());
   moved(0.5, 20.0);
+  int goals = controller->goals();
   execution.execute();
   EXPECT_EQ(execution.getLastExecutionStatus(), Status::RUNNING);
-  ros::WallDuration(0.2).sleep();
+  EXPECT_TRUE(comesTrue([&] { return controller->goals() > goals; }));
   EXPECT_EQ(execution.getCurrentExpectedTrajectoryIndex().first, 0);
   execution.processEvent("stop");
   EXPECT_EQ(execution.getLastExecutionStatus(), Status::PREEMPTED);
   // A controller that ends in motion.
   moved(0.5, 60.0);
+  goals = controller->goals();
   execution.execute();
-  ros::WallDuration(0.2).sleep();
+  EXPECT_TRUE(comesTrue([&] { return controller->goals() > goals; }));
   controller.reset();
   EXPECT_EQ(execution.waitForExecution(), Status::ABORTED);
 }

@@ -16,6 +16,7 @@ from moveit_msgs.srv import ApplyPlanningScene, GetPlanningScene, GetStateValidi
 from octomap_msgs.msg import OctomapWithPose
 from sensor_msgs.msg import CameraInfo, Image, PointCloud2, PointField
 from std_srvs.srv import Empty
+from test_support.hearing import deliver
 
 PATIENCE = 30.0  # wall s
 HOME = [0.0, -0.6, 1.6, 0.0, 1.0, 0.0]
@@ -215,11 +216,9 @@ class Octomap(unittest.TestCase):
         half, unknown = self.depth(0.5), self.depth(0.5)
         half.data, unknown.encoding = half.data[:1000], "rgb8"
         for message in (bad, no_fields, overhang, lost, PointCloud2()):
-            self.cloud.publish(message)
-            time.sleep(0.15)
+            deliver(self.cloud, message)
         for message in (half, unknown, Image()):
-            self.image.publish(message)
-            time.sleep(0.15)
+            deliver(self.image, message)
         self.see(wall(0.6, 0.5, 0.5), (0.6, 0.5, 0.5))
         self.assertTrue(self.valid())
 

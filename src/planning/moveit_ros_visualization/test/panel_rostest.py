@@ -24,6 +24,7 @@ from moveit_msgs.srv import GetPlanningScene, GetPlanningSceneRequest, GetPositi
 from rqt_testing.desktop import Desktop
 from rviz_desktop import run_rviz
 from sensor_msgs.msg import JointState, Joy
+from test_support.hearing import received
 from visualization_msgs.msg import InteractiveMarkerFeedback, InteractiveMarkerInit
 
 MARKERS = "rviz_moveit_motion_planning_display/robot_interaction_interactive_marker_topic/"
@@ -98,6 +99,17 @@ class Panel(unittest.TestCase):
         """Joint values of the goal, from the tab Joints."""
         return [float(self.rviz.text("joint_value_" + name).split()[0]) for name in JOINTS]
 
+    def at_rest(self, value):
+        """What ``value()`` gives when it gives the same three times."""
+        seen = []
+
+        def resting():
+            seen.append(value())
+            return len(seen) > 2 and seen[-1] == seen[-2] == seen[-3]
+
+        self.rviz.wait(resting, "a goal at rest")
+        return seen[-1]
+
     def marker(self):
         """The marker at the goal's hand."""
         markers = rospy.wait_for_message(MARKERS + "update_full", InteractiveMarkerInit, 10).markers
@@ -113,8 +125,14 @@ class Panel(unittest.TestCase):
     def test_2_saved_properties_stay(self):
         self.rviz.click("save_config")
         self.rviz.wait(lambda: os.path.exists(self.config + ".saved"), "saved file")
-        time.sleep(0.5)
-        before, after = (yaml.safe_load(open(self.config + end))["Visualization Manager"]["Displays"][0] for end in ("", ".saved"))
+
+        def display(end):
+            try:
+                return yaml.safe_load(open(self.config + end))["Visualization Manager"]["Displays"][0]
+            except (yaml.YAMLError, TypeError, KeyError):  # half of it is written
+                return None
+
+        before, after = display(""), self.rviz.wait(lambda: display(".saved"), "a whole file")
 
         def compare(old, new, path):
             for key, value in old.items():
@@ -177,10 +195,10 @@ class Panel(unittest.TestCase):
             seen.append(goal())
         self.rviz.wait(lambda: max(abs(a - b) for a, b in zip(goal(), start)) > 0.05, "goal that follows")
         self.assertLess(max(abs(a - b) for one, two in zip(seen, seen[1:]) for a, b in zip(one, two)), 0.3, "no leap of a joint")
-        time.sleep(0.5)
-        reachable = goal()
+        self.rviz.wait(lambda: received(publisher, 30), "the last pose to come")
+        reachable = self.at_rest(goal)
         to(5.0)
-        time.sleep(0.5)
+        self.rviz.wait(lambda: received(publisher, 31), "the pose out of reach to come")
         self.assertTrue(all(math.isfinite(value) for value in goal()))
         to(-0.09)
         self.rviz.wait(lambda: max(abs(a - b) for a, b in zip(goal(), reachable)) < 0.02, "goal that follows again")
@@ -331,8 +349,17 @@ class Panel(unittest.TestCase):
         goals = []
         subscriber = rospy.Subscriber("move_group/goal", MoveGroupActionGoal, goals.append)
         self.rviz.wait(subscriber.get_num_connections, "action client")
-        time.sleep(2.5)  # the panel looks at the file once a second
-        self.choose("path_constraints_combo_box", "anywhere")
+
+        def offered():
+            self.rviz.click("path_constraints_combo_box")
+            if self.rviz.ask("entry", "anywhere"):
+                return True
+            self.desktop.keys("Escape")
+            return False
+
+        self.rviz.wait(offered, "the constraints to be offered")  # the panel looks at the file once a second
+        self.rviz.click_text("anywhere")
+        self.rviz.wait(lambda: self.rviz.text("path_constraints_combo_box") == "anywhere", "the constraints to be chosen")
         self.choose("goal_state_combo_box", "left" if off(HOME) < 0.1 else "home")
         self.rviz.click("plan_button")
         self.result("Time: ")

@@ -66,10 +66,8 @@ class Lockstep(PluginWorld):
             )
             self.assertEqual(counter.counts(), {PICTURES: 60, TRUTH: 2000})
 
-    def test_a_subscriber_that_stands_still_is_waited_for_and_told_of(self):
-        stuck = Counter(self, 0, PICTURES)
-        os.kill(stuck.process.pid, signal.SIGSTOP)
-        self.addCleanup(os.kill, stuck.process.pid, signal.SIGCONT)
+    def held_up(self):
+        """A thread that makes steps, which a subscriber holds up, and what they have given in the end."""
         done = []
         with Ear("/rosout", Log) as log:
             stepping = threading.Thread(target=lambda: done.append(self._step(1500).success), daemon=True)
@@ -80,6 +78,13 @@ class Lockstep(PluginWorld):
                 ),
                 "line about the subscriber",
             )
+        return stepping, done
+
+    def test_a_subscriber_that_stands_still_is_waited_for_and_told_of(self):
+        stuck = Counter(self, 0, PICTURES)
+        os.kill(stuck.process.pid, signal.SIGSTOP)
+        self.addCleanup(os.kill, stuck.process.pid, signal.SIGCONT)
+        stepping, done = self.held_up()
         self.assertTrue(self._get_model_state("watcher", "").success)  # whoever waits for an answer gets it
         self.assertEqual(done, [])
         os.kill(stuck.process.pid, signal.SIGCONT)
@@ -91,10 +96,7 @@ class Lockstep(PluginWorld):
     def test_a_subscriber_that_ends_is_not_waited_for(self):
         gone = Counter(self, 0, PICTURES)
         os.kill(gone.process.pid, signal.SIGSTOP)
-        done = []
-        stepping = threading.Thread(target=lambda: done.append(self._step(1500).success), daemon=True)
-        stepping.start()
-        rospy.rostime.wallsleep(1.0)  # it may be waited for by now; both must end well
+        stepping, done = self.held_up()
         gone.process.kill()
         stepping.join(60)
         self.assertEqual(done, [True])

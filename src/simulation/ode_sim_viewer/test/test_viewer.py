@@ -436,14 +436,19 @@ def test_what_is_typed_without_a_pause_is_one_step(monkeypatch):
 
 
 def test_a_redo_that_comes_at_once_waits_for_the_undo():
-    history, begun, log = History(), threading.Event(), []
+    history, begun, overtaken, log = History(), threading.Event(), threading.Event(), []
 
     def back():
         begun.set()
-        time.sleep(0.2)
+        overtaken.wait(0.2)
         log.append("back")
 
-    history.do("x", lambda: log.append("forth"), back)
+    def forth():
+        overtaken.set()
+        log.append("forth")
+
+    history.do("x", forth, back)
+    overtaken.clear()
     hand = threading.Thread(target=history.undo)
     hand.start()
     begun.wait(5.0)

@@ -13,6 +13,7 @@ from control_msgs.msg import FollowJointTrajectoryActionGoal
 from controller_manager_tests.client import ManagerClient
 from geometry_msgs.msg import Pose
 from moveit_msgs.msg import MoveItErrorCodes
+from test_support.waiting import wait_until
 
 JOINTS = ["shoulder_pan_joint", "shoulder_lift_joint", "elbow_joint", "wrist_1_joint", "wrist_2_joint", "wrist_3_joint"]
 CLOSE = 0.01  # rad between where the arm was sent and where it is
@@ -82,7 +83,8 @@ class PlanningExecution(unittest.TestCase):
         self.assertEqual(done, [False])
         stopped = self.arm.get_current_joint_values()
         self.assertLess(stopped[0], 1.0)
-        rospy.sleep(0.7)
+        end = rospy.Time.now() + rospy.Duration(0.7)  # of simulated time, in which it would go on
+        wait_until(lambda: rospy.Time.now() > end, "the time")
         np.testing.assert_allclose(self.arm.get_current_joint_values(), stopped, atol=2e-3, err_msg="it was still moving")
 
     def test_what_is_out_of_reach_fails_and_moves_nothing(self):
