@@ -3,6 +3,7 @@
 
 import sys
 
+import ros2_side  # noqa: F401 - chooses the domain
 from ros1_bridge.link import prefix
 from ros1_bridge.node import dynamic_bridge
 

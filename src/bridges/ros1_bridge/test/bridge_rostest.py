@@ -2,9 +2,6 @@
 """Real nodes of both sides with the bridge between them; skipped where ROS 2 is not installed."""
 
 import io
-import json
-import os
-import subprocess
 import threading
 import time
 import unittest
@@ -18,55 +15,23 @@ from control_msgs.msg import (
     FollowJointTrajectoryFeedback,
     FollowJointTrajectoryGoal,
     FollowJointTrajectoryResult,
+    GripperCommand,
+    GripperCommandAction,
+    GripperCommandFeedback,
+    GripperCommandGoal,
+    GripperCommandResult,
 )
 from geometry_msgs.msg import TransformStamped
-from ros1_bridge.link import HINT, environment, prefix
+from ros1_bridge.link import HINT, prefix
+from ros2_side import PATIENCE, Other, wait
 from rosgraph_msgs.msg import Clock, Log
 from sensor_msgs.msg import Image, JointState
 from std_msgs.msg import Float64, String
 from std_srvs.srv import SetBool, SetBoolResponse
+from test_support import never
+from test_support.hearing import heard
 
-PATIENCE = 30.0  # s of wall time
 NUMBERS = [0.1, -1e-300, 1e300, 2.0 / 3.0]
-
-
-def wait(condition, what):
-    end = time.monotonic() + PATIENCE
-    while time.monotonic() < end:
-        value = condition()
-        if value:
-            return value
-        time.sleep(0.05)
-    raise AssertionError(f"{what} did not come")
-
-
-class Other:
-    """The node of ROS 2."""
-
-    def __init__(self):
-        here = os.path.join(os.path.dirname(os.path.realpath(__file__)), "node_of_ros2.py")
-        folder = prefix()
-        self.process = subprocess.Popen(
-            [folder / "bin" / "python", here], env=environment(folder), stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-        )
-        self.told = []
-        threading.Thread(target=self._read, daemon=True).start()
-        wait(lambda: self.told, "ROS 2's node")
-
-    def _read(self):
-        for line in self.process.stdout:
-            self.told.append(json.loads(line))
-
-    def do(self, what, **words):
-        self.process.stdin.write(json.dumps({"do": what, **words}) + "\n")
-        self.process.stdin.flush()
-
-    def heard(self, topic):
-        return [bytes.fromhex(one["data"]) for one in self.told if one.get("heard") == topic]
-
-    def answer(self, **key):
-        ((name, value),) = key.items()
-        return wait(lambda: [one for one in self.told if one.get(name) == value], f"{name} {value}")[-1]
 
 
 @unittest.skipIf(prefix() is None, HINT)
@@ -117,8 +82,8 @@ class Bridge(unittest.TestCase):
         wait(lambda: self.other.heard("/both") or send(lambda: theirs.publish("one")), "the text in ROS 2")
         publish = lambda: self.other.do("publish", topic="/both", data=two)
         wait(lambda: [one for one in mine if one.data == "two"] or send(publish), "the text in ROS 1")
-        time.sleep(1.0)  # wall time, in which an echo would make them more and more
-        self.assertLessEqual(max(len(self.other.heard("/both")), len(mine)), len(sent))
+        echoed = lambda: max(len(self.other.heard("/both")), len(mine)) > len(sent)
+        never(echoed, "an echo", 1.0)  # which would make them more and more
 
     def test_clock_pictures_and_what_is_latched(self):
         clock, picture = rospy.Publisher("/clock", Clock, queue_size=1), rospy.Publisher("/camera/image_raw", Image, queue_size=1)
@@ -155,14 +120,14 @@ class Bridge(unittest.TestCase):
 
     def test_actions_both_ways(self):
         def execute(goal):
-            end = goal.trajectory.points[-1].time_from_start.to_sec()
-            self.goal = goal
-            for _ in range(int(end * 10)):
+            """Until it is cancelled, or has been heard of three times if it is short."""
+            long, self.goal = goal.trajectory.points[-1].time_from_start.to_sec() > 10, goal
+            while long or len(self.other.progress("/arm/follow")) < 3:
                 if server.is_preempt_requested():
                     server.set_preempted(FollowJointTrajectoryResult(error_string="stopped"))
                     return
                 server.publish_feedback(FollowJointTrajectoryFeedback())
-                time.sleep(0.1)
+                time.sleep(0.05)
             server.set_succeeded(FollowJointTrajectoryResult(error_code=0, error_string="arrived"))
 
         server = actionlib.SimpleActionServer("/arm/follow", FollowJointTrajectoryAction, execute, auto_start=False)
@@ -172,25 +137,63 @@ class Bridge(unittest.TestCase):
         self.assertEqual((answer["status"], answer["code"], answer["text"]), (4, 0, "arrived"))  # 4: STATUS_SUCCEEDED of action_msgs
         self.assertGreater(answer["feedback"], 2)
         self.assertEqual((self.goal.trajectory.joint_names, list(self.goal.trajectory.points[0].positions)), (list("abcd"), NUMBERS))
-        self.other.told.clear()
-        self.other.do("goal", name="/arm/follow", positions=NUMBERS, joints=list("abcd"), seconds=50, cancel=True)
-        answer = self.other.answer(ended="/arm/follow")
-        self.assertEqual((answer["status"], answer["text"]), (5, "stopped"))  # 5: STATUS_CANCELED
+        for when in ("moving", "at once", "at once", "at once"):
+            self.other.told.clear()
+            self.other.do("goal", name="/arm/follow", positions=NUMBERS, joints=list("abcd"), seconds=50, cancel=when)
+            answer = self.other.answer(ended="/arm/follow")
+            self.assertEqual(answer["status"], 5)  # STATUS_CANCELED
+            if when == "moving":
+                self.assertEqual(answer["text"], "stopped")
         self.other.do("serve_action", name="/theirs")
         client = actionlib.SimpleActionClient("/theirs", FollowJointTrajectoryAction)
         self.assertTrue(client.wait_for_server(rospy.Duration(PATIENCE)))
         client.send_goal_and_wait(FollowJointTrajectoryGoal())
         self.assertEqual((client.get_state(), client.get_result().error_code, client.get_result().error_string), (3, -3, "of ROS 2"))
 
+    def test_a_gripper_both_ways(self):
+        def grip(goal):
+            server.publish_feedback(GripperCommandFeedback(position=0.5 * goal.command.position))
+            server.set_succeeded(GripperCommandResult(goal.command.position, goal.command.max_effort, True, False))
+
+        server = actionlib.SimpleActionServer("/hand/gripper_cmd", GripperCommandAction, grip, auto_start=False)
+        server.start()
+        self.other.do("grip", name="/hand/gripper_cmd", position=0.25, effort=2.0 / 3.0)
+        answer = self.other.answer(gripped="/hand/gripper_cmd")
+        self.assertEqual((answer["status"], answer["result"]), (4, [0.25, 2.0 / 3.0, True, False]))
+        self.other.do("serve_grip", name="/their_hand")
+        client = actionlib.SimpleActionClient("/their_hand", GripperCommandAction)
+        self.assertTrue(client.wait_for_server(rospy.Duration(PATIENCE)))
+        client.send_goal_and_wait(GripperCommandGoal(GripperCommand(0.125, 7.0)))
+        result = client.get_result()
+        self.assertEqual((client.get_state(), result.position, result.effort, result.reached_goal), (3, 0.125, 7.0, True))
+
+    def test_a_goal_that_is_cancelled_at_once(self):
+        """Also before the server of ROS 2 has been found."""
+        self.other.do("serve_action", name="/slow", until_cancelled=True)
+        client = actionlib.SimpleActionClient("/slow", FollowJointTrajectoryAction)
+        self.assertTrue(client.wait_for_server(rospy.Duration(PATIENCE)))
+        for _ in range(5):
+            client.send_goal(FollowJointTrajectoryGoal())
+            client.cancel_goal()
+            self.assertTrue(client.wait_for_result(rospy.Duration(PATIENCE)))
+            # PREEMPTED, RECALLED; LOST where the client takes a status of before the goal for its loss
+            self.assertIn(client.get_state(), (2, 8, 9))
+        begun, over = (lambda: self.other.count(begun="/slow")), (lambda: self.other.count(over="/slow"))
+        wait(lambda: begun() == over(), "the end of all goals in ROS 2")
+        client.send_goal(FollowJointTrajectoryGoal())  # what was cancelled before does not end the next
+        before = wait(lambda: begun() > over() and begun(), "a goal that goes on")
+        client.cancel_goal()
+        wait(lambda: over() == before, "its end")
+
     def test_a_wrong_type_is_said_once(self):
         lines = []
-        rospy.Subscriber("/rosout", Log, lambda m: lines.append(m.msg) if "/unlike" in m.msg or "std_msgs/Int32" in m.msg else None)
+        log = rospy.Subscriber("/rosout", Log, lambda m: lines.append(m.msg) if "/unlike" in m.msg or "std_msgs/Int32" in m.msg else None)
+        wait(lambda: heard([log]), "the log")
         publisher = rospy.Publisher("/unlike", String, queue_size=1)
         self.other.do("hear", topic="/unlike", kind="Int32")
         wait(lambda: lines, "the line")
         publisher.publish("x")
-        time.sleep(2.0)  # wall time: four looks at the graph
-        self.assertEqual(len(lines), 1, lines)
+        never(lambda: len(lines) > 1, "the line again", 2.0)  # in four looks at the graph
 
     def test_latency(self):
         """Printed, not judged."""

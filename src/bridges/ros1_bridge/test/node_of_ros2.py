@@ -7,8 +7,9 @@ import time
 
 import rclpy
 from builtin_interfaces.msg import Duration
-from control_msgs.action import FollowJointTrajectory
-from rclpy.action import ActionClient, ActionServer
+from control_msgs.action import FollowJointTrajectory, GripperCommand
+from rclpy.action import ActionClient, ActionServer, CancelResponse
+from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from rclpy.serialization import serialize_message
@@ -21,11 +22,13 @@ from trajectory_msgs.msg import JointTrajectoryPoint
 
 KINDS = {kind.__name__: kind for kind in (Clock, Float64, Image, Int32, JointState, String, TFMessage)}
 LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+SAYING = threading.Lock()
 PROFILES = {"": QoSProfile(depth=100), "latched": LATCHED, "sensor": qos_profile_sensor_data}
 
 
 def say(**words):
-    print(json.dumps(words), flush=True)
+    with SAYING:  # threads of the executor say things at one time, and print writes the end of a line by itself
+        print(json.dumps(words), flush=True)
 
 
 class Node:
@@ -66,19 +69,26 @@ class Node:
         answer = client.call(SetBool.Request(data=value))
         say(called=name, success=answer.success, message=answer.message)
 
-    def goal(self, name, positions, joints, seconds, cancel=False):
+    def goal(self, name, positions, joints, seconds, cancel=""):
+        """:param cancel: "moving" or "at once"; "" for not at all"""
         client = ActionClient(self.node, FollowJointTrajectory, name)
         goal = FollowJointTrajectory.Goal()
         goal.trajectory.joint_names = joints
         goal.trajectory.points = [JointTrajectoryPoint(positions=positions, time_from_start=Duration(sec=seconds))]
         client.wait_for_server(20.0)
-        feedback = []
+        feedback, told = [], threading.Event()
         done = threading.Event()
-        sent = client.send_goal_async(goal, feedback_callback=feedback.append)
+
+        def tell(message):
+            feedback.append(message)
+            say(progress=name)
+            told.set()
+
+        sent = client.send_goal_async(goal, feedback_callback=tell)
         sent.add_done_callback(lambda _: done.set())
         done.wait(20.0)
         if cancel:
-            time.sleep(0.5)
+            told.wait(20.0 if cancel == "moving" else 0.0)
             sent.result().cancel_goal_async()
         ended = threading.Event()
         result = sent.result().get_result_async()
@@ -87,15 +97,44 @@ class Node:
         answer = result.result()
         say(ended=name, status=answer.status, code=answer.result.error_code, text=answer.result.error_string, feedback=len(feedback))
 
-    def serve_action(self, name):
+    def serve_action(self, name, until_cancelled=False):
         def execute(handle):
+            say(begun=name)
             feedback = FollowJointTrajectory.Feedback(joint_names=handle.request.trajectory.joint_names)
             handle.publish_feedback(feedback)
-            time.sleep(0.5)
-            handle.succeed()
+            while until_cancelled and not handle.is_cancel_requested:
+                time.sleep(0.01)
+            (handle.canceled if until_cancelled else handle.succeed)()
+            say(over=name)
             return FollowJointTrajectory.Result(error_code=-3, error_string="of ROS 2")
 
-        self.kept.append(ActionServer(self.node, FollowJointTrajectory, name, execute))
+        self.kept.append(
+            ActionServer(
+                self.node,
+                FollowJointTrajectory,
+                name,
+                execute,
+                cancel_callback=lambda _: CancelResponse.ACCEPT,
+                callback_group=ReentrantCallbackGroup(),
+            )
+        )
+
+    def grip(self, name, position, effort):
+        client = ActionClient(self.node, GripperCommand, name)
+        goal = GripperCommand.Goal()
+        goal.command.position, goal.command.max_effort = position, effort
+        client.wait_for_server(20.0)
+        answer = client.send_goal(goal)
+        result = answer.result
+        say(gripped=name, status=answer.status, result=[result.position, result.effort, result.stalled, result.reached_goal])
+
+    def serve_grip(self, name):
+        def execute(handle):
+            command = handle.request.command
+            handle.succeed()
+            return GripperCommand.Result(position=command.position, effort=command.max_effort, reached_goal=True)
+
+        self.kept.append(ActionServer(self.node, GripperCommand, name, execute))
 
 
 def main():
@@ -104,7 +143,7 @@ def main():
     for line in sys.stdin:
         words = json.loads(line)
         run = getattr(node, words.pop("do"))
-        threading.Thread(target=run, kwargs=words, daemon=True).start() if run.__name__ in ("call", "goal") else run(**words)
+        threading.Thread(target=run, kwargs=words, daemon=True).start() if run.__name__ in ("call", "goal", "grip") else run(**words)
 
 
 if __name__ == "__main__":

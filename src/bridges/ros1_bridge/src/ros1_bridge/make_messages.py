@@ -22,6 +22,7 @@ ALWAYS = ("action_msgs", "builtin_interfaces", "service_msgs", "unique_identifie
 RUNTIME = ("rosidl_runtime_c", "rosidl_typesupport_c", "rcutils")
 INTROSPECTION = "introspection_c"
 BOOTSTRAPPED = {"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"}  # the wheels' start-up hook would start Python again for its libraries
+PARTS = ("py", "fastrtps_c", "c")  # folders that the generators write
 FASTRTPS = ("rosidl_typesupport_fastrtps_c", "rosidl_typesupport_fastrtps_cpp", "fastcdr", "rmw")
 
 
@@ -36,14 +37,23 @@ class Package:
 
     def generate(self, out: Path) -> Path:
         """Sources, below a folder that is to be on the path of headers."""
-        self._rosidl(out / "raw", self.files, "-t", "c", "-t", "py", "-ts", "c", "-ts", "fastrtps_c", "-ts", "introspection_c")
-        for part in ("py", "fastrtps_c", "c"):
+        self._rosidl(out / "raw", self.files)
+        for part in PARTS:
             shutil.copytree(out / "raw" / part, out / "include" / self.name, dirs_exist_ok=True)
+        # Of a message and an action of one name the generators describe the action twice.
+        actions = {file.stem for file in self.files if file.parts[0] == "action"}
+        for file in self.files:
+            if file.stem in actions and file.parts[0] != "action":
+                self._rosidl(out / "alone" / file.stem, [file])
+                detail = Path(file.parts[0], "detail")
+                for made in (out / "alone" / file.stem).glob(f"*/{detail}/*"):
+                    shutil.copy(made, out / "include" / self.name / detail)
         for header in (out / "raw" / INTROSPECTION).rglob("*.h"):  # its sources have names of others
             shutil.copy(header, out / "include" / self.name / header.relative_to(out / "raw" / INTROSPECTION))
         return out / "include"
 
-    def _rosidl(self, out: Path, files: list[Path], *words: str) -> None:
+    def _rosidl(self, out: Path, files: list[Path]) -> None:
+        words = ("-t", "c", "-t", "py", "-ts", "c", "-ts", "fastrtps_c", "-ts", "introspection_c")
         script = "import sys; from rosidl_cli.cli import main; sys.exit(main())"
         lib = f"{self.prefix}/lib"
         subprocess.run(

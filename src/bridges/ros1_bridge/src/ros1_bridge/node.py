@@ -17,7 +17,7 @@ import rosservice
 
 from ros1_bridge.errors import BridgeError, Ros2Missing
 from ros1_bridge.link import HINT, Link, prefix
-from ros1_bridge.pairs import Pairs
+from ros1_bridge.pairs import Pairs, service_class
 from ros1_bridge.services import ActionOfRos1, ActionOfRos2, Calls, ServiceOfRos1, ServiceOfRos2, actions_of_ros1, of_an_action
 from ros1_bridge.settings import Options, SettingError, allowed, entries, options, quality
 from ros1_bridge.topics import ToRos1, ToRos2
@@ -214,17 +214,20 @@ class Bridge:
             words = quality(entry["qos"], partial(warn, about=f"{name}: ")) if "qos" in entry else None
             self.to_ros2[name] = ToRos2(name, pair, self.link, self.pairs, words, entry["queue_size"])
             self.to_ros1[name] = ToRos1(name, pair, self.link, self.pairs, {}, words or self.to_ros2[name].words, entry["queue_size"])
+        # By where calls come from and go to: what is named in services_1_to_2 is a server of ROS 2, with its type of ROS 2.
+        patience = rospy.get_param("ros1_bridge/parameter_bridge/service_execution_timeout", 5)
         for entry in entries(names[1], services_1_to_2, "service", warn):
-            name, one = rospy.resolve_name(entry["service"]), self.pairs.of_ros2("srv", entry["type"]) or entry["type"]
+            name, one = rospy.resolve_name(entry["service"]), self.pairs.of_ros2("srv", entry["type"])
+            found = self.pairs.service(one, entry["type"]) if one else None
+            if found:
+                self.of_ros2[name] = ServiceOfRos2(name, str(one), found, self.calls, float(patience))
+        for entry in entries(names[2], services_2_to_1, "service", warn):
+            name, one = rospy.resolve_name(entry["service"]), entry["type"]
+            if service_class(one) is None:  # of ROS 2, though it should be of ROS 1
+                one = self.pairs.of_ros2("srv", one) or one
             found = self.pairs.service(one)
             if found:
                 self.of_ros1[name] = ServiceOfRos1(name, one, found, self.link)
-        patience = rospy.get_param("ros1_bridge/parameter_bridge/service_execution_timeout", 5)
-        for entry in entries(names[2], services_2_to_1, "service", warn):
-            name, one = rospy.resolve_name(entry["service"]), self.pairs.of_ros2("srv", entry["type"]) or entry["type"]
-            found = self.pairs.service(one)
-            if found:
-                self.of_ros2[name] = ServiceOfRos2(name, one, found, self.calls, float(patience))
 
     def print_pairs(self) -> None:
         known = {f"{one.split('/')[0]}/{one.rpartition('/')[2]}": one.split("/")[1] for one in self.link.ask("known")}

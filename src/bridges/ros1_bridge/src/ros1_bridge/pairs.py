@@ -92,6 +92,10 @@ class Pairs:
                 reasons: list[str] = []
                 allowed = candidates(of_ros1)
                 for two in [of_ros2] if of_ros2 is not None else allowed:
+                    same = (key[0], of_ros1, two)
+                    if self._found.get(same) is not None:  # looked for before, with its type of ROS 2 or without: a bridge stays as it is
+                        self._found[key] = self._found[same]
+                        break
                     try:
                         if two not in allowed:
                             raise MappingError(f"{of_ros1} of ROS 1 and {two} of ROS 2 are no pair")
@@ -99,6 +103,7 @@ class Pairs:
                     except MappingError as error:
                         reasons.append(str(error))
                     if self._found[key] is not None:
+                        self._found[same] = self._found[key]
                         break
                 else:
                     reason = f": {reasons[0]}" if reasons else ""

@@ -28,6 +28,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 
 LOOK = 0.25  # s between looks at the graph
 THREADS = 16  # services and actions of ROS 1 that are waited for at one time
+FOUND = 10.0  # s until a server that the graph has shown must be connected
 BULK = 65536  # bytes from which data goes as a piece of its own
 
 
@@ -92,6 +93,9 @@ class Peer:
         self._gids: set = set()  # of our own publishers
         self._waiting: dict[int, queue.Queue] = {}  # for answers of ROS 1
         self._goals: dict[int, Any] = {}
+        self._sent: dict[int, bool] = {}  # goals that a server here has not answered yet, and whether they are canceled already
+        self._early: set[bytes] = set()  # goals for ROS 1 that were canceled before they were handed on
+        self._goal_lock = threading.Lock()
         self._number = 0
 
     # -------------------------------------------------------------------------------------------- the line
@@ -130,9 +134,15 @@ class Peer:
             self._number += 1
             number = self._number
         self._waiting[number] = queue.Queue()
+        canceled = False
         if goal is not None:
-            self._goals[number] = goal
+            with self._goal_lock:
+                self._goals[number] = goal
+                canceled = goal[0].goal_id.uuid.tobytes() in self._early
+                self._early.discard(goal[0].goal_id.uuid.tobytes())
         self.tell(word, number, *words, data=data)
+        if canceled:
+            self.tell("cancel", number)
         try:
             return self._waiting[number].get()
         finally:
@@ -278,6 +288,13 @@ class Peer:
 
         self._others["server", name] = self.node.create_service(kind, name, answer, callback_group=self._group)
 
+    def _reached(self, wait: Callable[..., bool], work: Callable[[], Any], missing: Callable[[], Any]) -> None:
+        """``work()`` as soon as a client has its server, ``missing()`` when it gets none; the line goes on meanwhile."""
+        if wait(timeout_sec=0.0):
+            work()
+            return
+        threading.Thread(target=lambda: work() if wait(timeout_sec=FOUND) else missing(), daemon=True).start()
+
     def do_call(self, number: int, name: str, type_name: str, data: Any) -> None:
         """A service that is here, for a client of ROS 1."""
         kind = kind_of(type_name, "srv")
@@ -285,12 +302,13 @@ class Peer:
         if key not in self._others:
             self._others[key] = self.node.create_client(kind, name, callback_group=self._group)
         client = self._others[key]
-        if not client.wait_for_service(timeout_sec=1.0):
-            self.tell("done", number, f"no node of ROS 2 offers {name}")
-            return
-        client.call_async(deserialize_message(bytes(data), kind.Request)).add_done_callback(
-            lambda done: self.tell("done", number, None, data=serialize_message(done.result()))
-        )
+
+        def call() -> None:
+            client.call_async(deserialize_message(bytes(data), kind.Request)).add_done_callback(
+                lambda done: self.tell("done", number, None, data=serialize_message(done.result()))
+            )
+
+        self._reached(client.wait_for_service, call, lambda: self.tell("done", number, f"no node of ROS 2 offers {name}"))
 
     # -------------------------------------------------------------------------------------------- actions
 
@@ -306,9 +324,13 @@ class Peer:
             return deserialize_message(data, kind.Result) if data else kind.Result()
 
         def cancel(handle: Any) -> Any:
-            for number, (other, _) in list(self._goals.items()):
-                if other.goal_id.uuid.tolist() == handle.goal_id.uuid.tolist():
-                    self.tell("cancel", number)
+            ours = handle.goal_id.uuid.tobytes()
+            with self._goal_lock:
+                numbers = [number for number, (other, _) in self._goals.items() if other.goal_id.uuid.tobytes() == ours]
+                if not numbers:
+                    self._early.add(ours)
+            for number in numbers:
+                self.tell("cancel", number)
             return CancelResponse.ACCEPT
 
         self._others["action_server", name] = ActionServer(
@@ -336,19 +358,21 @@ class Peer:
         if key not in self._others:
             self._others[key] = ActionClient(self.node, kind, name, callback_group=self._group)
         client = self._others[key]
-        if not client.wait_for_server(timeout_sec=2.0):
-            self.tell("end", number, "rejected")
-            return
+        self._sent[number] = False
 
         def feedback(message: Any) -> None:
             self.tell("progress", number, data=serialize_message(message.feedback))
 
         def accepted(future: Any) -> None:
             handle = future.result()
+            with self._goal_lock:
+                canceled = self._sent.pop(number)
+                self._goals[number] = (handle, kind)
             if not handle.accepted:
-                self.tell("end", number, "rejected")
+                missing()
                 return
-            self._goals[number] = (handle, kind)
+            if canceled:
+                handle.cancel_goal_async()
             handle.get_result_async().add_done_callback(ended)
 
         def ended(future: Any) -> None:
@@ -357,10 +381,22 @@ class Peer:
             words = {4: "succeeded", 5: "canceled"}
             self.tell("end", number, words.get(answer.status, "aborted"), data=serialize_message(answer.result))
 
-        client.send_goal_async(deserialize_message(bytes(data), kind.Goal), feedback_callback=feedback).add_done_callback(accepted)
+        def send() -> None:
+            goal = deserialize_message(bytes(data), kind.Goal)
+            client.send_goal_async(goal, feedback_callback=feedback).add_done_callback(accepted)
+
+        def missing() -> None:
+            self._sent.pop(number, None)
+            self._goals.pop(number, None)
+            self.tell("end", number, "rejected")
+
+        self._reached(client.wait_for_server, send, missing)
 
     def do_cancel_goal(self, number: int, _: Any) -> None:
-        found = self._goals.get(number)
+        with self._goal_lock:
+            if number in self._sent:
+                self._sent[number] = True
+            found = self._goals.get(number)
         if found is not None:
             found[0].cancel_goal_async()
 

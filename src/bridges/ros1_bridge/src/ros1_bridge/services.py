@@ -109,11 +109,18 @@ class ActionOfRos1:
 
     def __init__(self, name: str, of_ros1: str, found: tuple[str, Pair, Pair, Pair], link: Link) -> None:
         self.name, self.type, self._link = name, of_ros1, link
-        two, self._goal, self._result, self._feedback = found
+        self._two, self._goal, self._result, self._feedback = found
         self._client = actionlib.ActionClient(name, action_spec(of_ros1))
         self._goals: dict[int, Any] = {}
-        self._lock = threading.RLock()
-        link.tell("serve_action", name, two)
+        self._lock, self._closed = threading.RLock(), False
+        threading.Thread(target=self._offer, daemon=True).start()
+
+    def _offer(self) -> None:
+        """Once the server hears us: a goal that is sent before is lost."""
+        connected = self._client.wait_for_server()
+        with self._lock:
+            if connected and not self._closed:
+                self._link.tell("serve_action", self.name, self._two)
 
     def send(self, number: int, data: Any) -> None:
         try:
@@ -148,7 +155,9 @@ class ActionOfRos1:
         self._link.tell("result", number, words.get(status, "aborted"), data=data)
 
     def close(self) -> None:
-        self._link.tell("forget", "action_server", self.name)
+        with self._lock:
+            self._closed = True
+            self._link.tell("forget", "action_server", self.name)
         self._client.stop()
 
 
