@@ -268,7 +268,6 @@ class Ends(test_support.TestCase):
             server.simulator()
             server.end(signal.SIGKILL)
         with Server("again", "-u", BENCH) as server:
-            rospy.rostime.wallsleep(0)
             sim = server.simulator()
             self.assertEqual(sim.world().model_names, ["ground_plane", "crate", "swing"])
             self.assertTrue(sim.step(3).success)
