@@ -168,19 +168,24 @@ class ActionOfRos2:
         self.name, self.type, self._link = name, of_ros1, link
         self._two, self._goal, self._result, self._feedback = found
         self._goals: dict[int, Any] = {}
+        self._lock = threading.RLock()
         self._server = actionlib.ActionServer(name, action_spec(of_ros1), self._accept, self._cancel, auto_start=False)
         self._server.start()
 
     def _accept(self, handle: Any) -> None:
-        handle.set_accepted()
-        number = self._link.number()
-        self._goals[number] = handle
-        self._link.tell("send_goal", number, self.name, self._two, data=self._goal.to_ros2(bytes_of(handle.get_goal())))
+        with self._lock:
+            handle.set_accepted()
+            number = self._link.number()
+            self._goals[number] = handle
+            self._link.tell("send_goal", number, self.name, self._two, data=self._goal.to_ros2(bytes_of(handle.get_goal())))
+            if handle.get_goal_status().status == GoalStatus.PREEMPTING:  # its cancel came before
+                self._link.tell("cancel_goal", number)
 
     def _cancel(self, handle: Any) -> None:
-        for number, other in list(self._goals.items()):
-            if other.get_goal_id().id == handle.get_goal_id().id:
-                self._link.tell("cancel_goal", number)
+        with self._lock:
+            for number, other in list(self._goals.items()):
+                if other.get_goal_id().id == handle.get_goal_id().id:
+                    self._link.tell("cancel_goal", number)
 
     def progress(self, number: int, data: Any) -> bool:
         handle = self._goals.get(number)
