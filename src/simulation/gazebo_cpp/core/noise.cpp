@@ -1,6 +1,8 @@
 #include <gazebo/sensors/Noise.hh>
 
-#include <cmath>
+#include <random>
+
+#include "sensor_noise.hpp"
 
 namespace gazebo
 {
@@ -16,7 +18,9 @@ double number(const sdf::ElementPtr& sdf, const char* tag) { return sdf->HasElem
 
 NoisePtr NoiseFactory::NewNoiseModel(sdf::ElementPtr sdf, const std::string&)
 {
-  const std::string type = sdf && sdf->HasAttribute("type") ? sdf->Get<std::string>("type") : "none";
+  // An attribute, or for rays an element.
+  const std::string type =
+      sdf && (sdf->HasAttribute("type") || sdf->HasElement("type")) ? sdf->Get<std::string>("type") : "none";
   NoisePtr noise;
   if (type == "gaussian" || type == "gaussian_quantized")
     noise.reset(new GaussianNoiseModel);
@@ -34,7 +38,7 @@ void Noise::Load(sdf::ElementPtr sdf)
   mean_ = number(sdf, "mean"), stddev_ = number(sdf, "stddev");
   bias_mean_ = number(sdf, "bias_mean"), bias_stddev_ = number(sdf, "bias_stddev");
   walk_stddev_ = number(sdf, "dynamic_bias_stddev"), walk_time_ = number(sdf, "dynamic_bias_correlation_time");
-  precision_ = type_ == GAUSSIAN_QUANTIZED ? number(sdf, "precision") : 0;
+  precision_ = number(sdf, "precision");
 }
 
 void Noise::Seed(const std::string& name)
@@ -62,21 +66,16 @@ double Noise::Apply(double value, double dt)
 
 double Noise::ApplyImpl(double value, double dt)
 {
+  namespace law = ode_sim::noise;
   if (!drawn_)
   {
     drawn_ = true;
-    if (bias_stddev_ > 0)
-      bias_ = (bias_mean_ + bias_stddev_ * draw()) * (draw() < 0 ? -1 : 1);
+    if (bias_mean_ != 0 || bias_stddev_ != 0)
+      bias_ = law::drawn_bias(bias_mean_, bias_stddev_, draw(), std::generate_canonical<double, 53>(random_));
   }
-  if (walk_stddev_ > 0 && walk_time_ > 0 && dt > 0)  // first-order Gauss-Markov process
-  {
-    const double sigma = walk_stddev_ * std::sqrt(-walk_time_ / 2 * std::expm1(-2 * dt / walk_time_));
-    bias_ = std::exp(-dt / walk_time_) * bias_ + sigma * draw();
-  }
-  value += bias_ + mean_;
-  if (stddev_ > 0)
-    value += stddev_ * draw();
-  return precision_ > 0 ? std::round(value / precision_) * precision_ : value;
+  if (law::wanders(walk_stddev_, walk_time_, dt))
+    bias_ = law::wandered_bias(bias_, walk_stddev_, walk_time_, dt, draw());
+  return law::measured(value, bias_, mean_, stddev_, precision_, stddev_ != 0 ? draw() : 0);
 }
 
 }  // namespace sensors

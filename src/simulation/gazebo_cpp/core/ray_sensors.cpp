@@ -172,7 +172,7 @@ bool RaySensor::UpdateImpl(bool)
         else if (range <= RangeMin())
           range = -infinity;
         else if (noise)
-          range = std::clamp(noise->Apply(range, sinceLast()), RangeMin(), RangeMax());
+          range = std::clamp(noise->Apply(range), RangeMin(), RangeMax());
         scan_.add_ranges(range);
         scan_.add_intensities(reported(retros, row, column, true));
       }

@@ -147,5 +147,6 @@ PYBIND11_MODULE(_core, m) {
   bind_links(m);
   bind_joints(m);
   bind_models(m);
+  bind_noise(m);
   bind_world(m);
 }

@@ -1,6 +1,7 @@
 """The physics core, written in C++ (core/). Vectors are 3-tuples, poses 7-tuples (x y z qx qy qz qw): SI units, world axes."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +13,12 @@ _Inertia = tuple[float, float, float, float, float, float]  # ixx iyy izz ixy ix
 ode_configuration: str
 layout: str  # of the headers it was built with
 FARTHEST: float
+
+# Of <noise>, see core/sensor_noise.hpp; `measured` takes numbers or arrays of one shape.
+def drawn_bias(mean: float, stddev: float, normal: float, uniform: float) -> float: ...
+def wanders(stddev: float, time: float, dt: float) -> bool: ...
+def wandered_bias(bias: float, stddev: float, time: float, dt: float, normal: float) -> float: ...
+def measured(value: Any, bias: Any, mean: Any, stddev: Any, precision: Any, normal: Any) -> Any: ...
 
 class Surface:
     mu: float

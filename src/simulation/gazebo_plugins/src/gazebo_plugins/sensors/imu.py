@@ -6,8 +6,6 @@ rest), the sensor's includes the reaction to gravity (+9.8 along z at rest).
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from gazebo_ros import SdfElement
 from gazebo_ros.plugin import ModelPlugin, SensorPlugin
@@ -18,6 +16,7 @@ from sensor_msgs.msg import Imu
 from std_srvs.srv import Empty, EmptyResponse
 
 from gazebo_plugins.ros_side import Noise, Topics, diagonal, find_link, required, subscribed
+from gazebo_plugins.sensors.noise import SdfNoise, axis_noise
 
 
 class Differentiator:
@@ -79,36 +78,6 @@ class ImuPlugin(ModelPlugin):
         self.topics.close()
 
 
-class AxisNoise:
-    """SDF's ``<noise>`` of one axis: value + bias + N(mean, stddev), the bias drawn once, optionally wandering."""
-
-    def __init__(self, sdf: SdfElement | None, rng):
-        noise = sdf.child("noise") if sdf else None
-        self._rng = rng
-        get = noise.get if noise else (lambda tag, default: default)
-        active = noise is not None and (noise.attrib.get("type") or get("type", "none")) != "none"
-        self.mean = get("mean", 0.0) if active else 0.0
-        self.sigma = get("stddev", 0.0) if active else 0.0
-        self.bias = 0.0
-        bias_sigma = get("bias_stddev", 0.0)
-        if active and bias_sigma:
-            self.bias = (get("bias_mean", 0.0) + bias_sigma * rng.standard_normal()) * (1 if rng.random() < 0.5 else -1)
-        self.walk_sigma = get("dynamic_bias_stddev", 0.0) if active else 0.0
-        self.walk_time = get("dynamic_bias_correlation_time", 0.0)
-        self.precision = get("precision", 0.0) if active else 0.0
-
-    def __call__(self, value: float, dt: float) -> float:
-        """:param dt: seconds since the last value"""
-        if self.walk_sigma and self.walk_time > 0.0 and dt > 0.0:  # first-order Gauss-Markov process
-            decay = math.exp(-dt / self.walk_time)
-            sigma = self.walk_sigma * math.sqrt(-self.walk_time / 2 * math.expm1(-2 * dt / self.walk_time))
-            self.bias = decay * self.bias + sigma * self._rng.standard_normal()
-        value += self.bias + self.mean
-        if self.sigma:
-            value += self.sigma * self._rng.standard_normal()
-        return round(value / self.precision) * self.precision if self.precision > 0.0 else value
-
-
 class ImuSensor(SensorPlugin):
     """Rates and accelerations in the sensor frame; orientation in the world frame, or relative to the first one."""
 
@@ -118,7 +87,7 @@ class ImuSensor(SensorPlugin):
         rng = server.world.rng(sensor.scoped_name)
         imu = SdfElement(sensor.description.element).child("imu")
         groups = [imu and imu.child(tag) for tag in ("angular_velocity", "linear_acceleration")]
-        self.axis_noise = [[AxisNoise(group and group.child(axis), rng) for axis in "xyz"] for group in groups]
+        self.axis_noise = [[SdfNoise(axis_noise(group, axis), rng) for axis in "xyz"] for group in groups]
         sigma = sdf.get("gaussianNoise", 0.0)
         self.noise = Noise(rng, sigma)
         self.offset = math3.quat_from_rpy(*sdf.get("rpyOffset", (0.0, 0.0, 0.0)))

@@ -16,6 +16,7 @@ from sensor_msgs.msg import ChannelFloat32, LaserScan, PointCloud
 from sensor_msgs.msg import Range as RangeMsg
 
 from gazebo_plugins.ros_side import Topics, subscribed, told_namespace
+from gazebo_plugins.sensors.noise import SdfNoise
 
 _MOST_RAYS = 1_000_000
 
@@ -63,7 +64,7 @@ class RayFan:
         if ray is None:
             raise PluginError(f"sensor {sensor.scoped_name} of type '{sensor.type}' has no <ray> block")
         self.world, self.sensor = server.world, sensor
-        scan, limits, noise = ray.child("scan"), ray.child("range"), ray.child("noise")
+        scan, limits = ray.child("scan"), ray.child("range")
         self.horizontal = _Scan(scan and scan.child("horizontal"), 640)
         self.vertical = _Scan(scan and scan.child("vertical"), 1)
         self.min = limits.get("min", 0.0) if limits else 0.0
@@ -72,9 +73,7 @@ class RayFan:
             raise PluginError(f"sensor {sensor.scoped_name}: <range> min {self.min:g} must be below max {self.max:g}")
         if self.horizontal.samples * self.vertical.samples > _MOST_RAYS:
             raise PluginError(f"sensor {sensor.scoped_name}: more than {_MOST_RAYS} rays")
-        self.mean = noise.get("mean", 0.0) if noise else 0.0
-        self.sigma = noise.get("stddev", 0.0) if noise else 0.0
-        self._rng = server.world.rng(sensor.scoped_name)
+        self._noise = SdfNoise(ray.child("noise"), server.world.rng(sensor.scoped_name), usual="gaussian")
         self.directions_S = _directions(self.horizontal.rays(), self.vertical.rays())
 
     def reported_directions(self) -> np.ndarray:
@@ -103,9 +102,8 @@ class RayFan:
         ranges = self._resample(np.clip(ranges, self.min, self.max) if clipped else ranges)
         intensities = self._resample(retro, nearest=True)
         far, near = ranges >= self.max, ranges <= self.min
-        if self.sigma or self.mean:  # of what is in range, and it stays there
-            noise = self.mean + self.sigma * self._rng.standard_normal(len(ranges))
-            ranges = np.where(far | near, ranges, np.clip(ranges + noise, self.min, self.max))
+        if self._noise.active:  # of what is in range, and it stays there
+            ranges = np.where(far | near, ranges, np.clip(self._noise(ranges), self.min, self.max))
         if not clipped:
             ranges = np.where(far, np.inf, np.where(near, -np.inf, ranges))
         return ranges, intensities

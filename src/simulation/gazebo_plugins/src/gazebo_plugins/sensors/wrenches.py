@@ -12,7 +12,7 @@ from node_signals.rates import Spaced
 from ode_sim import math3
 
 from gazebo_plugins.ros_side import Noise, Topics, find_joint, find_link, required, subscribed
-from gazebo_plugins.sensors.imu import AxisNoise
+from gazebo_plugins.sensors.noise import SdfNoise, axis_noise
 
 
 class Scale:
@@ -28,7 +28,7 @@ class Scale:
         self.frame = block.text_or("frame", "child") if block else "child"
         self.sign = -1.0 if block and block.text_or("measure_direction", "") == "parent_to_child" else 1.0
         groups = [block and block.child(tag) for tag in ("force", "torque")]
-        self.noise = [[AxisNoise(group and group.child(axis), rng) for axis in "xyz"] for group in groups]
+        self.noise = [[SdfNoise(axis_noise(group, axis), rng) for axis in "xyz"] for group in groups]
         joint.feedback()  # asks the engine to compute it from now on
 
     @property

@@ -217,7 +217,7 @@ def connect(address: str):
         raise ClusterError("--address needs Ray, which is not there: scripts/setup --teaching, then source devel/setup.bash") from None
     import logging
 
-    quiet = {"log_to_driver": False, "logging_level": logging.ERROR}
+    quiet: dict[str, Any] = {"log_to_driver": False, "logging_level": logging.ERROR}
     # Ray notes the command line, and fails on a submission's name in it that is no UTF-8. It would print the log of each node that died.
     ray._private.utils.get_entrypoint_name = lambda: "lab_check grade"
     ray._private.worker.print_to_stdstream = lambda *_, **__: None
