@@ -3,6 +3,7 @@
 import contextlib
 import gzip
 import http.client
+import io
 import socket
 import threading
 import time
@@ -14,6 +15,7 @@ from ode_sim import World, math3
 from ode_sim.description import model as d
 from ode_sim.description.sdf_writer import model_text
 from ode_sim.math3 import Pose
+from PIL import Image
 
 viser = pytest.importorskip("viser")
 
@@ -163,10 +165,17 @@ def test_models_are_drawn_and_follow(page):
 
 def test_the_colour_behind_all_is_the_scenes_or_its_skys(page, monkeypatch):
     seen = []
-    monkeypatch.setattr(drawing, "plain_png", lambda colour: seen.append(colour) or b"")
-    for scene in (d.Scene(background=(1.0, 0.0, 0.0, 1.0)), d.Scene(sky=True)):
+    monkeypatch.setattr(drawing, "fading_png", lambda *colours: seen.append(colours) or b"")
+    for scene in (d.Scene(background=(1.0, 0.0, 0.0, 1.0)), d.Scene(sky=True), d.Scene()):
         page.drawing.update(replace(page.world, scene=scene))
-    assert seen == [(255, 0, 0), (140, 178, 230)]
+    assert seen[0] == ((255, 0, 0), (255, 0, 0))
+    for (red, _, blue), horizon in seen[1:]:
+        assert blue > red and min(horizon) > red  # a sky is blue, and lighter at the horizon
+
+
+def test_the_picture_behind_all_fades_from_above_to_the_horizon():
+    image = np.asarray(Image.open(io.BytesIO(drawing.fading_png((0, 50, 100), (200, 200, 200))))).astype(int)[:, 0]
+    assert tuple(image[0]) == (0, 50, 100) and (image[len(image) // 2 :] == 200).all() and (np.diff(image, axis=0) >= 0).all()
 
 
 def test_what_stands_still_is_not_sent(page):
@@ -243,7 +252,7 @@ def test_one_page_may_hold_the_controls(page):
 
 
 def test_pick_move_copy_delete_undo(page):
-    client, world = Client(), panel(page, "WorldPanel")
+    client, world = Client(), panel(page, "PickedPanel")
     page.selection.select("box")
     world._properties.position._impl.value = (4.0, 0.0, 2.0)
     use(world._properties.position, client)
@@ -265,8 +274,9 @@ def test_pick_move_copy_delete_undo(page):
 
 def test_a_click_on_what_has_just_gone_counts_when_it_comes_back(page, monkeypatch):
     """The page of a browser is always a little behind: its buttons must not have gone under the hand."""
-    client, world = Client(), panel(page, "WorldPanel")
-    row = world._rows[("box", "box", "", "")]
+    client, world = Client(), panel(page, "PickedPanel")
+    tree = panel(page, "WorldPanel")
+    row = tree._rows[("box", "box", "", "")]
     page.simulation.delete("box")
     wait(page, lambda: page.world.model("box") is None)
     assert not row.visible
@@ -275,18 +285,18 @@ def test_a_click_on_what_has_just_gone_counts_when_it_comes_back(page, monkeypat
     assert page.selection.model == "" and world._properties is None and not client.told
     page.simulation.insert("box", model_text(shape_model("box", d.Box())), Pose())
     wait(page, lambda: page.selection.model == "box")
-    assert world._rows[("box", "box", "", "")] is row and row.visible and world._properties.mass.value == 1.0
+    assert tree._rows[("box", "box", "", "")] is row and row.visible and world._properties.mass.value == 1.0
     page.selection.select()
     page.simulation.delete("box")
     wait(page, lambda: page.world.model("box") is None)
     now = time.monotonic()
     monkeypatch.setattr(time, "monotonic", lambda: now + 100.0)
-    world.on_frame(page.frame)
-    assert ("box", "box", "", "") not in world._rows and not world._hidden
+    tree.on_frame(page.frame)
+    assert ("box", "box", "", "") not in tree._rows and not tree._hidden
 
 
 def test_a_copy_right_after_the_undo_of_a_delete_waits_for_the_world_to_tell_of_it(page, monkeypatch):
-    client, world, simulation = Client(), panel(page, "WorldPanel"), page.simulation
+    client, world, simulation = Client(), panel(page, "PickedPanel"), page.simulation
     newest, turns = simulation.frame, []
     page.selection.select("box")
     now = time.monotonic()
@@ -316,7 +326,7 @@ def test_a_job_that_stumbles_does_not_take_the_others_along():
 
 
 def test_mass_and_light_are_set(page):
-    client, world = Client(), panel(page, "WorldPanel")
+    client, world = Client(), panel(page, "PickedPanel")
     page.selection.select("box")
     use(world._properties.mass, client, 4.0)
     now = page.simulation.link_properties("box", "link")
@@ -327,7 +337,7 @@ def test_mass_and_light_are_set(page):
 
 
 def test_a_refusal_is_told_to_the_page_that_asked(page):
-    client, world = Client(), panel(page, "WorldPanel")
+    client, world = Client(), panel(page, "PickedPanel")
     use(world._edit, client, "Delete")
     assert client.told == ["Pick a model or light first: click on it, or on its name in the tree."]
     physics = panel(page, "PhysicsPanel")

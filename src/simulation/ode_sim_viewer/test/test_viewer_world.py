@@ -177,7 +177,7 @@ def test_roads_are_drawn_and_hidden_with_the_rest():
 
 
 def test_colour_and_friction_are_changed_and_saved(page):
-    client, world = Client(), panel(page, "WorldPanel")
+    client, world = Client(), panel(page, "PickedPanel")
     page.selection.select("box", "link")
     use(world._properties.colour, client, (255, 0, 0, 128))
     wait(page, lambda: page.world.model("box").description.links[0].visuals[0].material.diffuse == (1.0, 0.0, 0.0, 1.0))

@@ -48,6 +48,20 @@ def _quoted(text):
     return f'"{text}"' if "'" in text else f"'{text}'"
 
 
+#: What is on the page, by XPath, and else an entry of its menus, by clicks on title and entry.
+_CHOOSE = """
+const all = document.evaluate(arguments[1], document, null, XPathResult.ORDERED_NODE_SNAPSHOT_TYPE, null);
+for (let i = 0; i < all.snapshotLength; i++) if (all.snapshotItem(i).checkVisibility()) return "seen";
+if (document.getElementById("splash")) return "";
+for (const title of document.querySelectorAll("#menus button")) {
+  title.click();
+  for (const entry of document.querySelectorAll(".menu:not([hidden]) button"))
+    if (entry.firstElementChild.textContent === arguments[0]) { entry.click(); return "chosen"; }
+  title.click();
+}
+return "";"""
+
+
 class Browser:
     """One window with the page at ``address``; a context manager."""
 
@@ -191,13 +205,45 @@ class Browser:
         wait(pressed, f"a click on {what}")
 
     def click(self, label):
-        """A button or tab of that label."""
+        """A button, tool or tab of that label; what is not on the page is looked for in its menus."""
+        seen = f"{self._named(label)}[not(@role='menuitem' or @role='menuitemcheckbox')]"
+        if self._there(label, seen) == "seen":
+            self._press(seen, f"button {label}")
+
+    def _there(self, label, seen):
+        """Wait until it is "seen" (XPath) on the page, or a menu has it, which then was "chosen" from it."""
+        return wait(lambda: self.driver.execute_script(_CHOOSE, label, seen), f"{label} on the page or in its menus")
+
+    def link(self, name):
+        """The row of a link in the tree; its model may have the same name."""
+        self._press(f"{self._named(name)}[.//*[contains(@class, 'icon-tabler-point')]]", f"link {name}")
+
+    @staticmethod
+    def _named(label):
+        """Of a button; a tool has a picture, and its name for who hears the page."""
         quoted = _quoted(label)
-        self._press(f"//button[normalize-space(.)={quoted}]|//*[@role='tab'][normalize-space(.)={quoted}]", f"button {label}")
+        return f"//button[normalize-space(.)={quoted} or @aria-label={quoted}]"
+
+    def _from_menu(self, label, seen):
+        """Choose an entry as a hand does, unless something that ``seen`` (XPath) finds is on the page; whether it was there."""
+        return self.driver.execute_script(
+            """
+            const all = document.evaluate(arguments[1], document, null, XPathResult.ORDERED_NODE_SNAPSHOT_TYPE, null);
+            for (let i = 0; i < all.snapshotLength; i++) if (all.snapshotItem(i).checkVisibility()) return false;
+            for (const title of document.querySelectorAll("#menus button")) {
+              title.click();
+              for (const entry of document.querySelectorAll(".menu:not([hidden]) button"))
+                if (entry.firstElementChild.textContent === arguments[0]) { entry.click(); return true; }
+              title.click();
+            }
+            return false;""",
+            label,
+            seen,
+        )
 
     def button(self, label):
         """A button of that label, where a tab has it as well."""
-        self._press(f"//button[not(@role='tab')][normalize-space(.)='{label}']", f"button {label}")
+        self._press(f"//button[not(@role)][normalize-space(.)='{label}']", f"button {label}")
 
     def put_away(self, words):
         """The notice with these words, once it is there; a click on one that still slides in may miss it."""
@@ -216,8 +262,10 @@ class Browser:
         wait(away, f"the notice {words} is gone")
 
     def check(self, label):
-        """The box of that label."""
-        self._press(self._input(label, "checkbox"), f"box {label}")
+        """The box of that label, also one that a tool or a menu shows."""
+        tool = f"{self._named(label)}[@aria-pressed]"
+        if self._there(label, f"//label[normalize-space(.)={_quoted(label)}]|{tool}") == "seen":
+            self._press(f"{self._input(label, 'checkbox')}|{tool}", f"box {label}")
 
     def unfold(self, label):
         """A folder of that label."""
@@ -248,7 +296,7 @@ class Browser:
             """
             arguments[0].scrollIntoView({block: "center"});
             const r = arguments[0].getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2];""",
-            self._find(f"//button[normalize-space(.)='{label}']", f"button {label}"),
+            self._find(self._named(label), f"button {label}"),
         )
 
     def value(self, label):
@@ -271,7 +319,7 @@ class Browser:
     @staticmethod
     def _input(label, kind="", part=1):
         only = f"[@type='{kind}']" if kind else "[not(@type='hidden')]"  # a slider has one that is not seen
-        return f"//label[normalize-space(.)='{label}']/following::*[self::input or self::textarea]{only}[{part}]"
+        return f"//label[normalize-space(.)={_quoted(label)}]/following::*[self::input or self::textarea]{only}[{part}]"
 
     # ------------------------------------------------------------------------------------------ the scene
 

@@ -72,7 +72,7 @@ class Sensors(Session):
         page = self.page
         page.click("Play")
         wait(lambda: not paused(), "play")
-        page.click("View")
+        page.click("Scene")
         page.check("Grid")  # off: its lines are as thick as the page finds time for
         page.fill("Arrow for 1 N (m)", 0.1)  # out of the bodies on which the forces act
         page.click("Sensors")

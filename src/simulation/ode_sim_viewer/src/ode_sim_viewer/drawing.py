@@ -20,6 +20,11 @@ from ode_sim_viewer.simulation import Frame, ModelRecord, WorldRecord
 _MOST_TEXTURE = 1024  # pixels along a side that a page is sent
 _STILL = 1e-6  # m, and of a quaternion's parts: what moves less is not sent
 _FULL = math.pi  # three.js divides by it: a light of this intensity shows a surface in its own colour
+_SKY_ROWS = 128  # of the picture behind all
+_SKY = ((0.44, 0.62, 0.86), (0.87, 0.92, 0.97))  # above, at the horizon
+_HAZE = ((0.60, 0.68, 0.77), (0.86, 0.88, 0.90))  # where the world says nothing: Gazebo's grey, with an above
+_FROM_ABOVE, _FROM_BELOW = 1.25, 0.6  # of the ambient light: what stands on a floor of its own colour is seen by its sides
+_LAMP = d.Light("", "directional", diffuse=(0.6, 0.6, 0.6, 1.0), direction=(0.3, 0.5, -0.8), cast_shadows=True)  # of a world without one
 _GRID_LIFT = 0.002  # m, so that the grid is seen on a ground plane
 
 
@@ -38,16 +43,17 @@ def rgb255(colour) -> tuple[int, int, int]:
     return red, green, blue
 
 
-def plain_png(colour: tuple[int, int, int]) -> bytes:
-    """A picture of two by two pixels."""
+def fading_png(above: tuple[int, int, int], below: tuple[int, int, int]) -> bytes:
+    """A picture of one column that goes from one colour to another; all of its lower part has the second, which is the horizon's."""
 
     def chunk(kind: bytes, data: bytes) -> bytes:
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
-    rows = (b"\0" + 2 * bytes(colour)) * 2
+    shares = [min(1.0, row / (_SKY_ROWS / 2)) for row in range(_SKY_ROWS)]
+    rows = b"".join(b"\0" + bytes(round(a + share * (b - a)) for a, b in zip(above, below)) for share in shares)
     return (
         b"\x89PNG\r\n\x1a\n"
-        + chunk(b"IHDR", struct.pack(">IIBBBBB", 2, 2, 8, 2, 0, 0, 0))
+        + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, _SKY_ROWS, 8, 2, 0, 0, 0))
         + chunk(b"IDAT", zlib.compress(rows))
         + chunk(b"IEND", b"")
     )
@@ -284,20 +290,30 @@ class Drawing:
         for handle in self._lights:
             take_away(handle)
         shadows = world.scene.shadows and self.shadows
-        self._lights = [self._scene.add_light_ambient("/light_ambient", color=rgb255(world.scene.ambient), intensity=_FULL)]
-        for number, light in enumerate(world.lights):
+        self._lights = [self._ambient(world.scene.ambient)]
+        for number, light in enumerate(world.lights or (() if carried else (_LAMP,))):
             self._lights.append(self._lamp(f"/light{number}", light, shadows))
         for number, (row, light) in enumerate(carried):
             frame = next((m.links[row] for m in self._models.values() if row in m.links), None)
             if frame is not None:
                 self._lights.append(self._lamp(f"{frame.name}/light{number}", light, False))
-        self._background(rgb255(world.scene.behind_all))
+        self._background(world.scene)
 
-    def _background(self, colour: tuple[int, int, int]) -> None:
+    def _ambient(self, colour: d.Rgba) -> Any:
+        """Gazebo's comes from everywhere, which makes one patch of grey of a grey post and its floor in a world without a lamp."""
+        above, below = (rgb255([part * share for part in colour[:3]]) for share in (_FROM_ABOVE, _FROM_BELOW))
+        return self._scene.add_light_hemisphere(
+            "/light_ambient", sky_color=above, ground_color=below, intensity=_FULL, position=(0.0, 0.0, 1.0)
+        )
+
+    def _background(self, scene: d.Scene) -> None:
         """viser's own way would load OpenCV to write this picture, half a second before anything is seen."""
         from viser._messages import BackgroundImageMessage
 
-        self._scene._websock_interface.queue_message(BackgroundImageMessage(format="png", rgb_data=plain_png(colour), depth_data=None))
+        usual = d.Scene()
+        colours = _SKY if scene.sky else _HAZE if scene.background == usual.background else (scene.behind_all,) * 2
+        picture = fading_png(rgb255(colours[0]), rgb255(colours[1]))
+        self._scene._websock_interface.queue_message(BackgroundImageMessage(format="png", rgb_data=picture, depth_data=None))
 
     def _lamp(self, node: str, light: d.Light, shadows: bool):
         common = dict(color=rgb255(light.diffuse), cast_shadow=shadows and light.cast_shadows)

@@ -80,7 +80,6 @@ class Page:
         self._begun = time.monotonic()
         self._settled = self._begun + _SETTLING
         self.server.gui.configure_theme(control_width="medium", show_logo=False, show_share_button=False)
-        self.server.gui.main_panel.dock_right()
         self.server.gui.set_panel_label(title)
         self.eyes = Eyes(self.server)
         self.pull = Pull(self)
@@ -91,7 +90,7 @@ class Page:
         self.selection = Selection(self)
         self.resizing = Resizing(self)
         self.panels: list[Panel] = []
-        self._tabs: Any = None
+        self.commands: Any = None  # the folder of controls that are not seen
         self._later: Callable[[], Sequence[type]] | None = later
         self._build([*STANDARD, *panels])
         self.server.on_client_connect(self._on_connect)
@@ -278,16 +277,16 @@ class Page:
             f(panel)
 
     def _build(self, kinds: Sequence[type[Panel]]) -> None:
+        """The frame knows the three by their order: what it presses, the tree, the lists."""
         gui = self.server.gui
-        for kind in kinds:
-            if not kind.title:  # above the tabs
-                self.panels.append(kind(self))
-        self._tabs = gui.add_tab_group()
-        self._add_tabs([kind for kind in kinds if kind.title])
+        self.commands = gui.add_folder("Commands")
+        self._upper, self._lower = gui.add_tab_group(), gui.add_tab_group()
+        self._add_panels(kinds)
 
-    def _add_tabs(self, kinds: Sequence[type[Panel]]) -> None:
+    def _add_panels(self, kinds: Sequence[type[Panel]]) -> None:
         for kind in kinds:
-            with self._tabs.add_tab(kind.title):
+            tabs = self._upper if kind.upper else self._lower
+            with tabs.add_tab(kind.title) if kind.title else self.commands:
                 self.panels.append(kind(self))
 
     def _complete(self) -> None:
@@ -296,7 +295,7 @@ class Page:
             return
         kinds, self._later = self._later(), None
         count = len(self.panels)
-        self._add_tabs(kinds)
+        self._add_panels(kinds)
         for panel in self.panels[count:]:
             if self._absent:
                 panel.on_absent()

@@ -12,10 +12,12 @@ from ode_sim_viewer.simulation import Frame, WorldRecord
 class Panel:
     """Made inside its tab: the constructor adds what it shows to ``page.server.gui``.
 
-    :cvar title: of the tab; '' = above the tabs
+    :cvar title: of the tab; '' = no tab: controls that are not seen, which the tools and menus of the frame press
+    :cvar upper: beside the tree of the world, else among the lists below it
     """
 
     title = ""
+    upper = False
 
     def __init__(self, page: Any):
         self.page = page

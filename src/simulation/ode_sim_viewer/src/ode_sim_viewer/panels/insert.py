@@ -20,6 +20,7 @@ _NONE = "(no model on the model path)"
 
 class InsertPanel(Panel):
     title = "Insert"
+    upper = True
 
     def __init__(self, page: Any):
         super().__init__(page)

@@ -13,7 +13,7 @@ _VIEWS = {"Front": (1.0, 0.0, 0.15), "Left": (0.0, 1.0, 0.15), "Top": (0.01, 0.0
 
 
 class ViewPanel(Panel):
-    title = "View"
+    title = "Scene"
 
     def __init__(self, page: Any):
         super().__init__(page)
