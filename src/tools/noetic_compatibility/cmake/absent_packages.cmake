@@ -72,7 +72,6 @@ _noetic_absent("It is no package of catkin: find it by itself, without COMPONENT
 _noetic_absent("It is no package of catkin, on Noetic neither: take it out of COMPONENTS, and write find_package(OpenCV) beside it."
   opencv opencv2 opencv3)
 _noetic_absent("${_noetic_built}." stage stage_ros)
-_noetic_absent("${_noetic_built} (ros-visualization/rqt_moveit)." rqt_moveit)
 _noetic_absent("${_noetic_built} (ros-visualization/rqt_robot_dashboard)." rqt_robot_dashboard)
 _noetic_absent("${_noetic_built} (OTL/rqt_ez_publisher)." rqt_ez_publisher)
 _noetic_absent("${_noetic_built} (stonier/rqt_py_trees)." rqt_py_trees)

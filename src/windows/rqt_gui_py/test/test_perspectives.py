@@ -303,7 +303,7 @@ def test_a_perspective_with_another_name_of_a_plugin_opens_it_with_its_settings(
 @pytest.mark.parametrize(
     "saved, told",
     [
-        ("rqt_moveit/Moveit", "no package of this workspace has it. It is not supplied here .* (ros-visualization/rqt_moveit); rqt --list"),
+        ("rqt_ez_publisher/Ez", "no package of this workspace has it. It is not supplied here .* (OTL/rqt_ez_publisher); rqt --list"),
         ("rqt_of_mine/Plugin", "no package of this workspace has it. Is it built in your workspace, and that sourced"),
         ("rqt_edit/Other", "the package rqt_edit has no such plugin, but rqt_edit/Plugin; "),
     ],

@@ -55,7 +55,7 @@ class TopicWidget(QWidget):
         self._rows: dict[str, tuple] = {}  # topic -> (item, TopicInfo)
         self.tree = TopicTree()
         self.tree.setObjectName("topics_tree_widget")
-        EmptyText(self.tree, "There are no topics yet: start a node.")
+        self.empty_text = EmptyText(self.tree, "There are no topics yet: start a node.")
         self.tree.setColumnCount(len(COLUMNS))
         self.tree.setHeaderLabels(COLUMNS)
         self.tree.setSortingEnabled(True)

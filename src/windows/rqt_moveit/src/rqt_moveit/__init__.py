@@ -1,0 +1,1 @@
+"""Whether MoveIt is there, for rqt."""
