@@ -1,0 +1,171 @@
+"""Pictures of the documentation, each by its name: what is run, clicked and kept."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import io
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "scripts" / "benchmarks"), str(ROOT / "src" / "windows" / "gzclient" / "test")]
+from browser import Browser, missing, wait  # noqa: E402
+from run import master  # noqa: E402
+
+SIZE = (1280, 900)  # of the browser's window, bars included
+WIDTH = 1000  # pixels of a picture
+FIELD = 0.9  # rad, of the page's eye
+HOUSE = "aws-robomaker-small-house-world"
+# of mbot_gazebo's room.world, between the middles of its walls
+CORNERS = ((-2.75, -2.45), (5.6, -2.45), (5.6, 2.4), (-0.75, 2.4), (-0.75, 0.05), (-5.6, 0.05), (-5.6, -1.8), (-5.6, -2.4))
+
+
+class Trouble(Exception):
+    """One line for who called."""
+
+
+@contextlib.contextmanager
+def running(environment: dict[str, str], *words: str, **options: Any) -> Iterator[subprocess.Popen]:
+    process = subprocess.Popen(words, env=environment, text=True, start_new_session=True, stderr=subprocess.DEVNULL, **options)
+    try:
+        yield process
+    finally:
+        os.killpg(process.pid, signal.SIGINT)
+        process.wait(60)
+
+
+@contextlib.contextmanager
+def window(*launched: str, models: str = "") -> Iterator[Any]:
+    """The simulator's window over what is launched, in a home folder of its own.
+
+    :param models: a folder of models for it
+    """
+    with master() as found, tempfile.TemporaryDirectory() as home, contextlib.ExitStack() as stack:
+        environment = {name: value for name, value in found.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        environment.update(HOME=home, GAZEBO_MODEL_PATH=models)
+        stack.enter_context(running(environment, *launched, stdout=subprocess.DEVNULL))
+        client = stack.enter_context(running(environment, "gzclient", "--port", "0", "--shadows", stdout=subprocess.PIPE))
+        assert client.stdout is not None
+        page = stack.enter_context(Browser(client.stdout.readline().split()[-1], size=SIZE, frames=0))
+        page.see("real-time factor", seconds=180.0)
+        yield page
+
+
+def gzclient(page: Any) -> None:
+    """The mobile robot's room; its robot is picked."""
+    page.click("mbot")
+    page.see("Position (m)")
+
+
+def gzclient_building(page: Any) -> None:
+    """The same room, drawn in the building editor."""
+    page.click("Building")
+    page.check("Edit a building")
+    at_rest(page)
+    page.unfold("Snap")
+    page.fill("Length (m)", 0.05)
+
+    def at(x: float, y: float, z: float = 0.0) -> Any:  # seen from above, as the editor looks
+        return page.pixel((x, y, z), (0.0, -0.01, 13.0), (0.0, 0.0, 0.0), FIELD)
+
+    page.mouse(at(*CORNERS[0]), at(*CORNERS[1]), drag=True)
+    page.see("1 wall on 1 level")
+    for corner in (*CORNERS[1:], CORNERS[0]):
+        page.mouse(at(*corner))
+    page.see("8 walls on 1 level")
+    page.choose("Tool", "Door")
+    page.mouse(at(0.0, -2.45, 2.5))
+    page.see("Picked: door")
+    page.choose("Tool", "Window")
+    page.mouse(at(2.5, 2.4, 2.5))
+    page.see("Picked: window")
+
+
+def gzclient_house(page: Any) -> None:
+    """A house of others from above, unmodified: needs --house, a copy of aws-robotics/aws-robomaker-small-house-world."""
+    page.see("more: search", seconds=180.0)
+    page.click("Scene")
+    page.click("Show all")
+    at_rest(page)
+    page.click("Top")
+
+
+#: name -> what is launched, what is clicked
+NAMES: dict[str, tuple[tuple[str, ...], Callable[[Any], None]]] = {
+    "gzclient": (("roslaunch", "mbot_gazebo", "view_mbot_gazebo_room.launch", "gui:=false"), gzclient),
+    "gzclient_building": (("roslaunch", "mbot_gazebo", "view_mbot_gazebo_room.launch", "gui:=false"), gzclient_building),
+    "gzclient_house": (("rosrun", "gazebo_ros", "gzserver", "worlds/small_house.world"), gzclient_house),
+}
+
+
+def shot(page: Any) -> Any:
+    """The page as it is, an image of PIL."""
+    from PIL import Image
+
+    return Image.open(io.BytesIO(page.driver.get_screenshot_as_png())).convert("RGB")
+
+
+def at_rest(page: Any) -> Any:
+    """The page once only the times below it change."""
+    foot = 60
+
+    def still() -> Any:
+        first = shot(page)
+        page.driver.execute_async_script("setTimeout(arguments[0], 1000)")
+        last = shot(page)
+        above = (0, 0, last.width, last.height - foot)
+        return last if first.crop(above).tobytes() == last.crop(above).tobytes() else None
+
+    return wait(still, "a page on which nothing moves any more", 120.0)
+
+
+def make(name: str, house: Path | None, out: Path) -> Path:
+    """:raises Trouble: it cannot be made here."""
+    from PIL import Image
+
+    launched, act = NAMES[name]
+    models = ""
+    if act is gzclient_house:
+        if house is None or not (house / launched[-1]).is_file():
+            raise Trouble(f"{name} shows a world of others: give its folder with --house (git clone .../aws-robotics/{HOUSE})")
+        launched, models = (*launched[:-1], str(house / launched[-1])), str(house / "models")
+    with window(*launched, models=models) as page:
+        act(page)
+        picture = at_rest(page)
+    file = out / f"{name}.jpg"
+    picture.resize((WIDTH, round(WIDTH * picture.height / picture.width)), Image.Resampling.LANCZOS).save(file, quality=88)
+    return file
+
+
+def main() -> int:
+    listed = "\n".join(f"  {name:20} {act.__doc__}" for name, (_, act) in NAMES.items())
+    parser = argparse.ArgumentParser(
+        prog="scripts/pictures", description=f"{__doc__}\n\n{listed}", formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("names", nargs="*", metavar="NAME", help="default: all that need nothing from outside")
+    parser.add_argument("--house", type=Path, help=f"folder of {HOUSE}")
+    parser.add_argument("--out", type=Path, default=ROOT / "docs" / "pictures", help="folder (default docs/pictures)")
+    options = parser.parse_args()
+    unknown = [name for name in options.names if name not in NAMES]
+    if unknown or missing():
+        why = f"there is no picture {unknown[0]}; there are {', '.join(NAMES)}" if unknown else f"not installed: {missing()}"
+        print(f"scripts/pictures: {why}", file=sys.stderr)
+        return 2
+    for name in options.names or [name for name in NAMES if name != "gzclient_house" or options.house]:
+        try:
+            print(make(name, options.house, options.out))
+        except (Trouble, AssertionError) as error:
+            print(f"scripts/pictures: {name}: {error}", file=sys.stderr)
+            return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
