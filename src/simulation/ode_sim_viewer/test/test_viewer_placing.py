@@ -6,10 +6,13 @@ import types
 
 import numpy as np
 import pytest
+from ode_sim.description import model as d
+from ode_sim.description.sdf_writer import model_text
 
 pytest.importorskip("viser")
 
 from ode_sim_viewer.pointer import on_plane, ray_of  # noqa: E402
+from ode_sim_viewer.shapes import shape_model  # noqa: E402
 from viewer_page import Client, page, panel, position, use, wait  # noqa: E402, F401
 
 FROM_ABOVE = types.SimpleNamespace(position=(0.0, 0.0, 10.0), wxyz=(0.0, 1.0, 0.0, 0.0), fov=1.0, aspect=2.0)
@@ -107,3 +110,24 @@ def test_ctrl_snaps_and_escape_leaves(page):
         end()
         seen(page, lambda: not page.server.scene._scene_pointer_cb)
         assert not ghosts(page) and not insert._state.content.count("Sphere")
+
+
+def test_the_models_of_the_path_are_rows_that_a_search_narrows(page, tmp_path, monkeypatch):
+    file = tmp_path / "model.sdf"
+    file.write_text(model_text(shape_model("crate", d.Box())))
+    paths = {f"chair_{number:02}": str(tmp_path / "gone.sdf") for number in range(60)} | {"crate": str(file)}
+    monkeypatch.setattr(page.simulation, "model_names", lambda: paths)
+    hand, insert = Hand(), panel(page, "InsertPanel")
+    insert.on_models()
+    seen(page, lambda: list(insert._rows) == [f"chair_{number:02}" for number in range(40)])
+    assert "21 more" in insert._rest.content
+    use(insert._search, hand, "cra")
+    seen(page, lambda: list(insert._rows) == ["crate"])
+    assert not insert._rest.visible
+    use(insert._by_hand, hand, False)
+    use(insert._rows["crate"], hand)
+    wait(page, lambda: page.world.model("crate") is not None)
+    use(insert._search, hand, "chair_07")
+    seen(page, lambda: list(insert._rows) == ["chair_07"])
+    use(insert._rows["chair_07"], hand)
+    assert "gone.sdf" in hand.told[-1]

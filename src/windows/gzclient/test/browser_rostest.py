@@ -274,8 +274,8 @@ class Clicks(Session):
     def test_3_insert(self):
         page = self.page
         page.click("Insert")
-        page.choose("Model", "cafe_table")
-        page.click("Insert model")
+        page.fill("Search", "cafe_ta")
+        page.click("cafe_table")
         page.see("click where it shall stand")
         page.hover(page.canvas(0.4, 0.7))
         page.see("cafe_table at")  # under the pointer, before the click

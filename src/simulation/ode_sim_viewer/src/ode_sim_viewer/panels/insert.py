@@ -15,10 +15,13 @@ from ode_sim_viewer.placing import Thing
 from ode_sim_viewer.shapes import Simple, shape_model
 from ode_sim_viewer.simulation import Refused, WorldRecord
 
-_NONE = "(no model on the model path)"
+_MOST_ROWS = 40
+_ICON, _COLOUR = "box", "gray"  # of a row; the frame draws such buttons as rows
 
 
 class InsertPanel(Panel):
+    """A click on a model of the list puts it into the world; so do the tools with a shape or a light."""
+
     title = "Insert"
     upper = True
 
@@ -26,24 +29,26 @@ class InsertPanel(Panel):
         super().__init__(page)
         self._models: dict[str, str] = {}
         self._asked = False
-        self._by_hand = self.gui.add_checkbox(
-            "Put it down with the mouse",
-            True,
-            hint="it hangs at the pointer, and a click in the scene puts it down (Ctrl: "
-            "on whole metres); without, it goes to the place below at once",
-        )
-        self._place = self.gui.add_vector3("Place (m)", (0.0, 0.0, 0.0), step=0.1, hint="on the ground: z is the lower end")
-        self._shapes = self.gui.add_button_group("Shape", ("Box", "Sphere", "Cylinder"))
-        self._lights = self.gui.add_button_group("Light", ("Point", "Spot", "Sun"))
         self._search = self.gui.add_text("Search", "", hint="of models whose name has this in it")
-        self._chosen = self.gui.add_dropdown("Model", (_NONE,))
-        self._insert = self.gui.add_button("Insert model")
         self._state = self.gui.add_html(note(""))
+        self._list = self.gui.add_folder("Models")
+        self._rows: dict[str, Any] = {}
+        self._rest: Any = None  # how many more there are
+        with self.gui.add_folder("Where it goes"):
+            self._by_hand = self.gui.add_checkbox(
+                "Put it down with the mouse",
+                True,
+                hint="it hangs at the pointer, and a click in the scene puts it down (Ctrl: "
+                "on whole metres); without, it goes to the place below at once",
+            )
+            self._place = self.gui.add_vector3("Place (m)", (0.0, 0.0, 0.0), step=0.1, hint="on the ground: z is the lower end")
+        with page.commands:
+            self._shapes = self.gui.add_button_group("Shape", ("Box", "Sphere", "Cylinder"))
+            self._lights = self.gui.add_button_group("Light", ("Point", "Spot", "Sun"))
         page.placing.say = lambda line: setattr(self._state, "content", note(line))
         self._shapes.on_click(lambda event: page.attempt(event, lambda: self._shape(event)))
         self._lights.on_click(lambda event: page.attempt(event, lambda: self._light(event)))
-        self._insert.on_click(lambda event: page.attempt(event, lambda: self._model(event)))
-        self._search.on_update(lambda event: self._narrow())
+        self._search.on_update(lambda event: page.later(self._narrow))
         self._by_hand.on_update(lambda event: page.later(page.placing.end))
 
     def on_world(self, world: WorldRecord) -> None:
@@ -57,11 +62,31 @@ class InsertPanel(Panel):
 
     def _look(self) -> None:
         self._models = self.simulation.model_names()
-        self._narrow()
+        self.page.later(self._narrow)
 
     def _narrow(self) -> None:
+        """List the models whose name fits. Drawing thread."""
         wanted = self._search.value.lower()
-        self._chosen.options = tuple(sorted(name for name in self._models if wanted in name.lower())) or (_NONE,)
+        fitting = sorted(name for name in self._models if wanted in name.lower())
+        shown = fitting[:_MOST_ROWS]
+        for name in [name for name in self._rows if name not in shown]:
+            self._rows.pop(name).remove()
+        if self._rest is not None:
+            self._rest.remove()
+        with self._list:
+            for number, name in enumerate(shown):
+                if name not in self._rows:
+                    self._rows[name] = self._row(name)
+                self._rows[name].order = float(number)
+            more = "" if fitting else "no model of the model path has this in its name"
+            if len(fitting) > _MOST_ROWS:
+                more = f"and {len(fitting) - _MOST_ROWS} more: search"
+            self._rest = self.gui.add_html(note(more), order=1e6, visible=bool(more))
+
+    def _row(self, name: str) -> Any:
+        button = self.gui.add_button(name, color=_COLOUR, icon=_ICON)
+        button.on_click(lambda event: self.page.attempt(event, lambda: self._model(event, name)))
+        return button
 
     def _put(self, event: Any, thing: Thing) -> None:
         if self._by_hand.value:
@@ -89,10 +114,9 @@ class InsertPanel(Panel):
         }[kind]
         self._put(event, Thing(light.name, light_text(light), Pose((0.0, 0.0, 1.0 if kind != "Sun" else 10.0))))
 
-    def _model(self, event: Any) -> None:
-        name = self._chosen.value
+    def _model(self, event: Any, name: str) -> None:
         if name not in self._models:
-            raise Refused("No model is chosen; GAZEBO_MODEL_PATH says where models are looked for.")
+            raise Refused(f"{name} is not on the model path any more; GAZEBO_MODEL_PATH says where models are looked for.")
         try:
             with open(self._models[name], encoding="utf-8") as stream:
                 text = stream.read()
