@@ -18,6 +18,7 @@ class Client:
 
     def __init__(self, client_id=1):
         self.client_id = client_id
+        self.camera = types.SimpleNamespace(aspect=1.6)
         self.told = []
         self.files = {}
 

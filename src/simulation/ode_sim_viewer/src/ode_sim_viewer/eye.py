@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
@@ -16,14 +16,17 @@ _FLAT = 2.5  # times as wide as high: a room
 _FILLED = 0.85  # of the view
 _WIDEST = 40.0  # m: in a larger world the eye looks at what can move
 _USUAL = np.array([[-2.0, -2.0, 0.0], [2.0, 2.0, 1.0]])  # an empty world: the ground around the origin
-_ASPECT = 1.4  # of the part of a page that the controls leave free
+_ASPECT = 1.4  # of the usual page's scene, its width by its height; what fits into it is also seen in a wider one
 _SAME = 0.02  # of the distance: the eye is where it was put
 
 View = tuple[np.ndarray, np.ndarray]  # place of the eye and of what it looks at, (3,) m
 
 
-def view_of(still: np.ndarray, moving: np.ndarray) -> View:
-    """:param still, moving: (N, 3) corners in the world, m, of what cannot and what can move."""
+def view_of(still: np.ndarray, moving: np.ndarray, aspect: float = _ASPECT) -> View:
+    """
+    :param still, moving: (N, 3) corners in the world, m, of what cannot and what can move
+    :param aspect: of the scene, its width by its height
+    """
     corners = np.concatenate([still, moving])
     corners = corners[(np.abs(corners) < 1e5).all(axis=1)]
     if not len(corners):
@@ -38,9 +41,8 @@ def view_of(still: np.ndarray, moving: np.ndarray) -> View:
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
     seen = (corners - middle) @ np.stack([right, np.cross(away, right), away]).T
     slope = math.tan(FIELD / 2) * _FILLED
-    distance = max(
-        float((np.abs(seen[:, 1]) / slope + seen[:, 2]).max()), float((np.abs(seen[:, 0]) / (slope * _ASPECT) + seen[:, 2]).max()), 0.3
-    )
+    across = slope * min(aspect, _ASPECT)
+    distance = max(float((np.abs(seen[:, 1]) / slope + seen[:, 2]).max()), float((np.abs(seen[:, 0]) / across + seen[:, 2]).max()), 0.3)
     return middle + distance * away, middle
 
 
@@ -67,17 +69,33 @@ class Eyes:
 
     def __init__(self, server: Any):
         self._server = server
-        self._view: View | None = None
+        self._view_at: Callable[[float], View] | None = None
+        self._fitted: set[int] = set()  # pages
         server.initial_camera.fov = FIELD
 
-    def look(self, view: View) -> None:
-        """From now on new pages look so; those that still look as they were told before, too."""
-        before, self._view = self._view, view
-        self._server.initial_camera.position, self._server.initial_camera.look_at = view
+    def look(self, view_at: Callable[[float], View]) -> None:
+        """From now on new pages look so; those that still look as they were told before, too.
+
+        :param view_at: the view of a scene that is so many times as wide as high
+        """
+        before, self._view_at = self._view_at, view_at
+        self._server.initial_camera.position, self._server.initial_camera.look_at = view_at(_ASPECT)
         for client in self._server.get_clients().values():
-            camera = client.camera
-            if before is None or self._as_told(camera, before):
-                put_eye(client, view[0], view[1])
+            self._tell(client, before)
+
+    def fit(self) -> None:
+        """Narrow pages that have just begun, as all do, look from farther away. Once for each: viser has its own say as they come."""
+        for number, client in self._server.get_clients().items():
+            if self._view_at is None or number in self._fitted or client.camera.aspect >= _ASPECT:
+                continue
+            if self._as_told(client.camera, self._view_at(_ASPECT)):
+                self._fitted.add(number)
+                put_eye(client, *self._view_at(client.camera.aspect))
+
+    def _tell(self, client: Any, before: Callable[[float], View] | None) -> None:
+        camera, now = client.camera, self._view_at
+        if now is not None and (before is None or any(self._as_told(camera, before(aspect)) for aspect in (camera.aspect, _ASPECT))):
+            put_eye(client, *now(camera.aspect))
 
     @staticmethod
     def _as_told(camera: Any, view: View) -> bool:

@@ -205,6 +205,7 @@ class Page:
         if self._begun and time.monotonic() > self._begun + _PATIENCE:
             self._begun = 0.0
             self._count()  # if nobody came in; who comes in just now is counted by another thread
+        self.eyes.fit()
         frame = self.simulation.frame()
         if frame is None:
             if not self._absent:
@@ -249,7 +250,8 @@ class Page:
             self.drawing.move(frame)
             if time.monotonic() < self._settled:
                 corners = self.drawing.corners(frame)
-                self.eyes.look(view_of(*corners) if world.view is None else view_from(world.view, *corners))
+                eye = world.view
+                self.eyes.look(lambda aspect: view_of(*corners, aspect) if eye is None else view_from(eye, *corners))
         self.overlays.update(world)
         self.selection.update(world)
         self._each(lambda panel: panel.on_world(world))

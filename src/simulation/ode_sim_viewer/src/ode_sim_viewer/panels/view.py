@@ -55,7 +55,8 @@ class ViewPanel(Panel):
 
     def _on_all(self, event: Any) -> None:
         if event.client is not None and self.page.frame is not None:
-            place, target = view_of(*self.page.drawing.corners(self.page.frame))
+            still, moving = self.page.drawing.corners(self.page.frame)
+            place, target = view_of(still, moving, event.client.camera.aspect)
             put_eye(event.client, place, target)
 
     def _on_view(self, event: Any) -> None:
