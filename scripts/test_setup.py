@@ -157,6 +157,17 @@ def test_a_build_that_failed_and_that_of_the_demo_are_no_whole_build(machine):
     assert machine.run().returncode == 0 and machine.builds() == 4
 
 
+@pytest.mark.parametrize("options", ["ON", "OFF"])
+def test_what_the_demo_built_without_libraries_is_configured_anew_though_catkin_has_forgotten_its_options(machine, options):
+    clone = machine.folder / "clone"
+    cache = clone / "build/controller_manager/CMakeCache.txt"
+    cache.parent.mkdir(parents=True)
+    cache.write_text(f"NOETIC_LABS_COMPILED_PLUGINS:BOOL={options}\n")
+    machine.play("catkin", f'echo "$@" > {machine.folder}/words; mkdir -p {clone}/devel')
+    assert machine.run().returncode == 0
+    assert ("--force-cmake" in (machine.folder / "words").read_text().split()) == (options == "OFF")
+
+
 @pytest.mark.parametrize("arguments", [["--demo"], []])
 def test_nothing_is_installed_while_the_build_is_at_work(machine, arguments):
     machine.play(
