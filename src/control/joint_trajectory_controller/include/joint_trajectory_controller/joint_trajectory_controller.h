@@ -38,8 +38,10 @@ namespace joint_trajectory_controller
 /// \tparam SegmentImpl such as trajectory_interface::QuinticSplineSegment<double>
 /// \tparam HardwareInterface has a HardwareInterfaceAdapter
 ///
-/// Commands come in threads of roscpp. They and update() hold one lock, which a derived class that writes an update() of its own
-/// does without: then a trajectory may change between two of its statements, but never a trajectory that it has already taken.
+/// Commands come in threads of roscpp, one after the other. A long trajectory is joined while update() goes on: what both change is
+/// held for a few pointers, and for no message that is sent or received. The control loop calls starting, stopping, update,
+/// updateStates, publishState, preemptActiveGoal and setHoldPosition; a derived class that writes an update() of its own does without the
+/// lock: then a trajectory may change between two of its statements, but never a trajectory that it has already taken.
 template <class SegmentImpl, class HardwareInterface>
 class JointTrajectoryController : public controller_interface::Controller<HardwareInterface>
 {
@@ -54,7 +56,9 @@ public:
   void update(const ros::Time& time, const ros::Duration& period) override;
 
 private:
-  std::recursive_mutex lock_;  // recursive, as what derived classes call in update() locks as well; first, to be destroyed last
+  // Recursive, as what derived classes call locks as well; first, to be destroyed last. Who takes both takes commands_lock_ first.
+  std::recursive_mutex commands_lock_;  // of the threads that bring commands; update() never takes it
+  std::recursive_mutex lock_;           // of what update() and commands change
 
 protected:
   struct TimeData
@@ -150,6 +154,13 @@ private:
   /// For derived classes: in every update, before commands are written.
   virtual void updateFuncExtensionPoint(const Trajectory& /*curr_traj*/, const TimeData& /*time_data*/) {}
 
+  /// What a new trajectory is joined to.
+  struct Moment
+  {
+    TrajectoryPtr running;
+    TimeData last;
+  };
+
   bool readParameters();
   bool readJoints(HardwareInterface* hw, const ros::NodeHandle& root_nh);
   void advertise();
@@ -158,10 +169,19 @@ private:
   void abort(int code, const std::string& why);
   void setActionFeedback();
   void monitorGoal(const ros::TimerEvent& event);
+  std::string look(bool is_goal, Moment* now);
+  TrajectoryPtr join(const trajectory_msgs::JointTrajectory& msg, Moment& now, const RealtimeGoalHandlePtr& gh,
+                     std::string* error_string);
+  bool replace(const TrajectoryPtr& running, const TrajectoryPtr& joined);
+  bool follow(const RealtimeGoalHandlePtr& goal, unsigned int stops);
 
   std::vector<bool> angular_;  // their errors are the short way round; those of prismatic joints are plain differences
   RealtimeGoalHandlePtr monitored_goal_;
-  bool known_ = false;  // whether the hardware has said where all joints are
+  std::mutex feedback_lock_;    // of the active goal's feedback: update() does without where it is being sent
+  bool known_ = false;          // whether the hardware has said where all joints are
+  bool commanding_ = false;     // a command of this class is at work, of commands_lock_
+  bool between_goals_ = false;  // its trajectory is followed already and its goal not yet: nothing is judged
+  unsigned int stops_ = 0;      // how often the controller was stopped
 };
 
 }  // namespace joint_trajectory_controller

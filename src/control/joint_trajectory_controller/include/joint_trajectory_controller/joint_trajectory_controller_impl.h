@@ -164,7 +164,7 @@ JOINT_TRAJECTORY_CONTROLLER(void)::advertise()
       controller_nh_, "follow_joint_trajectory", [this](GoalHandle goal) { goalCB(goal); },
       [this](GoalHandle goal) { cancelCB(goal); }, false);
   action_server_->start();
-  // One for all goals: to replace it would mean to wait for its callback, which waits for the lock.
+  // One for all goals: to replace it would mean to wait for its callback.
   goal_handle_timer_ = controller_nh_.createTimer(action_monitor_period_, &JointTrajectoryController::monitorGoal, this);
   query_state_service_ = controller_nh_.advertiseService("query_state", &JointTrajectoryController::queryStateService, this);
 }
@@ -191,6 +191,7 @@ JOINT_TRAJECTORY_CONTROLLER(void)::starting(const ros::Time& time)
 JOINT_TRAJECTORY_CONTROLLER(void)::stopping(const ros::Time& /*time*/)
 {
   const std::lock_guard<std::recursive_mutex> locked(lock_);
+  ++stops_;
   preemptActiveGoal();
 }
 
@@ -213,7 +214,7 @@ JOINT_TRAJECTORY_CONTROLLER(void)::update(const ros::Time& time, const ros::Dura
   TrajectoryPtr trajectory;
   curr_trajectory_box_.get(trajectory);
   updateStates(now.uptime, trajectory.get());
-  if (rt_active_goal_ && supervise(*trajectory, now.uptime.toSec()) && successful_joint_traj_.all())
+  if (rt_active_goal_ && !between_goals_ && supervise(*trajectory, now.uptime.toSec()) && successful_joint_traj_.all())
   {
     const RealtimeGoalHandlePtr goal = rt_active_goal_;
     rt_active_goal_.reset();
@@ -353,7 +354,8 @@ JOINT_TRAJECTORY_CONTROLLER(void)::publishState(const ros::Time& time)
 
 JOINT_TRAJECTORY_CONTROLLER(void)::setActionFeedback()
 {
-  if (!rt_active_goal_)
+  const std::unique_lock<std::mutex> free(feedback_lock_, std::try_to_lock);
+  if (!rt_active_goal_ || !free.owns_lock())
     return;
   internal::fill(*rt_active_goal_->preallocated_feedback_, time_data_.readFromRT()->time, desired_state_, current_state_,
                  state_error_);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 
 #include <actionlib/server/action_server.h>
 #include <ros/timer.h>
@@ -39,7 +40,11 @@ public:
   void setCanceled(ResultConstPtr result = ResultConstPtr()) { end(End::CANCELED, result); }
   void setSucceeded(ResultConstPtr result = ResultConstPtr()) { end(End::SUCCEEDED, result); }
 
-  void setFeedback(FeedbackConstPtr feedback = FeedbackConstPtr()) { feedback_ = feedback; }
+  void setFeedback(FeedbackConstPtr feedback = FeedbackConstPtr())
+  {
+    const std::lock_guard<std::mutex> locked(mutex_);
+    feedback_ = feedback;
+  }
 
   bool valid() { return gh_.getGoal() != nullptr; }
 
@@ -52,15 +57,26 @@ public:
     const Status status = gh_.getGoalStatus();
     const bool preempting = status.status == Status::PREEMPTING;
     const bool open = status.status == Status::ACTIVE || preempting;
-    const Result result = result_ ? *result_ : Result();
-    if (end_ == End::ABORTED && open)
+    End how;
+    ResultConstPtr last_words;
+    FeedbackConstPtr feedback;
+    {
+      const std::lock_guard<std::mutex> locked(mutex_);
+      const bool fits = end_ == End::CANCELED ? preempting : open;
+      how = fits && !told_ ? end_ : End::NOT_YET;
+      told_ = told_ || how != End::NOT_YET;
+      last_words = result_;
+      feedback = feedback_;
+    }
+    const Result result = last_words ? *last_words : Result();
+    if (how == End::ABORTED)
       gh_.setAborted(result);
-    else if (end_ == End::CANCELED && preempting)
+    else if (how == End::CANCELED)
       gh_.setCanceled(result);
-    else if (end_ == End::SUCCEEDED && open)
+    else if (how == End::SUCCEEDED)
       gh_.setSucceeded(result);
-    if (feedback_ && status.status == Status::ACTIVE)
-      gh_.publishFeedback(*feedback_);
+    if (feedback && status.status == Status::ACTIVE)
+      gh_.publishFeedback(*feedback);
   }
 
 private:
@@ -74,13 +90,16 @@ private:
 
   void end(End how, const ResultConstPtr& result)
   {
+    const std::lock_guard<std::mutex> locked(mutex_);
     if (end_ != End::NOT_YET)
       return;
     result_ = result;
     end_ = how;
   }
 
+  std::mutex mutex_;  // held for the copies of pointers alone
   End end_ = End::NOT_YET;
+  bool told_ = false;
   ResultConstPtr result_;
   FeedbackConstPtr feedback_;
 };
