@@ -45,8 +45,8 @@ JOINT_TRAJECTORY_CONTROLLER(std::string)::look(bool is_goal, Moment* now)
   return std::string();
 }
 
-JOINT_TRAJECTORY_CONTROLLER(typename JointTrajectoryController<SegmentImpl, HardwareInterface>::TrajectoryPtr)::
-    join(const trajectory_msgs::JointTrajectory& msg, Moment& now, const RealtimeGoalHandlePtr& gh, std::string* error_string)
+JOINT_TRAJECTORY_CONTROLLER(typename JointTrajectoryController<SegmentImpl, HardwareInterface>::TrajectoryPtr)::join(
+    const trajectory_msgs::JointTrajectory& msg, Moment& now, const RealtimeGoalHandlePtr& gh, std::string* error_string)
 {
   ros::Time next_uptime = now.last.uptime + now.last.period;
   InitJointTrajectoryOptions<Trajectory> options;
