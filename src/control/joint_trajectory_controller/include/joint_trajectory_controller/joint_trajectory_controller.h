@@ -174,6 +174,7 @@ private:
                      std::string* error_string);
   bool replace(const TrajectoryPtr& running, const TrajectoryPtr& joined);
   bool follow(const RealtimeGoalHandlePtr& goal, unsigned int stops);
+  void judgeAgain();
 
   std::vector<bool> angular_;  // their errors are the short way round; those of prismatic joints are plain differences
   RealtimeGoalHandlePtr monitored_goal_;

@@ -128,6 +128,13 @@ JOINT_TRAJECTORY_CONTROLLER(bool)::follow(const RealtimeGoalHandlePtr& goal, uns
   return true;
 }
 
+/// A derived class may refuse what this one has taken already.
+JOINT_TRAJECTORY_CONTROLLER(void)::judgeAgain()
+{
+  const std::lock_guard<std::recursive_mutex> locked(lock_);
+  between_goals_ = false;
+}
+
 JOINT_TRAJECTORY_CONTROLLER(void)::trajectoryCommandCB(const JointTrajectoryConstPtr& msg)
 {
   const std::lock_guard<std::recursive_mutex> one_at_a_time(commands_lock_);
@@ -139,6 +146,7 @@ JOINT_TRAJECTORY_CONTROLLER(void)::trajectoryCommandCB(const JointTrajectoryCons
     follow(RealtimeGoalHandlePtr(), stops);
   }
   commanding_ = false;
+  judgeAgain();
 }
 
 JOINT_TRAJECTORY_CONTROLLER(void)::goalCB(GoalHandle gh)
@@ -168,7 +176,10 @@ JOINT_TRAJECTORY_CONTROLLER(void)::goalCB(GoalHandle gh)
       problem.empty() && updateTrajectoryCommand(JointTrajectoryConstPtr(asked, &asked->trajectory), goal, &problem);
   commanding_ = false;
   if (!taken)
+  {
+    judgeAgain();
     return reject(Result::INVALID_GOAL, problem);
+  }
   preemptActiveGoal();
   gh.setAccepted();
   if (follow(goal, stops))
