@@ -27,6 +27,7 @@ import logging
 import os
 import select
 import signal
+import socket
 import sys
 import threading
 import time
@@ -128,23 +129,25 @@ def _end_when_starved_at_start() -> None:
 
     def look(record: logging.LogRecord) -> bool:
         text = record.getMessage()
-        if text.startswith("unable to start TCPROS server") and _starved(RuntimeError(text)):
+        if text.startswith("unable to start TCPROS server") and starved(RuntimeError(text)):
             _end_starved("can't start new thread")
         return True
 
     def at_end(reason: str) -> None:
-        if _starved(RuntimeError(reason)):
+        if starved(RuntimeError(reason)):
             _end_starved(reason)
 
     rospy.core.add_preshutdown_hook(at_end)
     logging.getLogger("rosout").addFilter(look)
 
 
-def _starved(error: BaseException | None) -> bool:
+def starved(error: BaseException | None) -> bool:
     """Whether the system has refused memory, a thread or a file."""
     text = str(error)
     return (
         isinstance(error, MemoryError)
+        or isinstance(error, socket.gaierror)
+        and error.errno == socket.EAI_MEMORY
         or isinstance(error, OSError)
         and error.errno in (errno.ENOMEM, errno.EMFILE, errno.ENFILE)
         or isinstance(error, RuntimeError)
@@ -169,10 +172,10 @@ def _watch_for_starvation() -> None:
     main, thread = sys.excepthook, threading.excepthook
 
     def in_main(kind, error, trace) -> None:
-        _end_starved(error) if _starved(error) else main(kind, error, trace)
+        _end_starved(error) if starved(error) else main(kind, error, trace)
 
     def in_thread(args) -> None:
-        if _starved(args.exc_value):
+        if starved(args.exc_value):
             _end_starved(args.exc_value)
         elif not _over(args.exc_value):
             thread(args)

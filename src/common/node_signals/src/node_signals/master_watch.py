@@ -17,6 +17,8 @@ import rosgraph
 import rospy
 from rospy.impl.registration import RegManager, get_registration_listeners, get_service_manager, get_topic_manager
 
+from node_signals.bounded_calls import Transport
+
 _PERIOD = 1.0  # s
 _TIMEOUT = 5.0  # s that the master gets to answer
 _TROUBLE = (OSError, xmlrpc.client.Error, HTTPException, rosgraph.MasterException)
@@ -35,13 +37,6 @@ def on_return(f: Callable[[], None]) -> None:
 def watch() -> None:
     """Look after this node's registrations for the rest of its life. Call it once, after ``rospy.init_node``."""
     threading.Thread(target=_Watch().run, name="master watch", daemon=True).start()
-
-
-class _Transport(xmlrpc.client.Transport):
-    def make_connection(self, host):
-        connection = super().make_connection(host)
-        connection.timeout = _TIMEOUT
-        return connection
 
 
 class _Watch:
@@ -77,7 +72,7 @@ class _Watch:
 
     def _call(self, calls: list[tuple[str, tuple]]) -> list:
         """Answers (code, text, value) to several calls, made in one."""
-        multi = xmlrpc.client.MultiCall(xmlrpc.client.ServerProxy(self._uri, _Transport()))
+        multi = xmlrpc.client.MultiCall(xmlrpc.client.ServerProxy(self._uri, Transport(_TIMEOUT)))
         for method, arguments in calls:
             getattr(multi, method)(self._name, *arguments)
         return list(multi())  # type: ignore[call-overload]  # what it returns has __getitem__ alone

@@ -19,7 +19,7 @@ import ode_sim
 import rosgraph
 import rospkg
 import rospy
-from node_signals import master_watch, orphans, verbose
+from node_signals import bounded_calls, master_watch, orphans, verbose
 from ode_sim.description import DescriptionError, Problem, ResourceFinder, load_world
 from ode_sim.description import model as d
 from rospy.names import load_mappings
@@ -145,7 +145,7 @@ class _Ending:
 
 def _wait_for_master(ending: _Ending) -> None:
     warned = False
-    while not rosgraph.is_master_online() and not ending.requested:
+    while not bounded_calls.master_answers("/gzserver") and not ending.requested:
         if not warned:
             print(f"gzserver: no ROS master at {rosgraph.get_master_uri()}; waiting for one (start roscore)", file=sys.stderr, flush=True)
             warned = True

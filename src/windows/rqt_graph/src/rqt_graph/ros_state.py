@@ -11,6 +11,7 @@ from http.client import HTTPException
 from typing import Any
 
 import rosgraph
+from node_signals.bounded_calls import Transport
 from qt_gui.errors import WindowError
 from rosgraph.names import canonicalize_name
 
@@ -59,7 +60,7 @@ def read() -> State:
     """
     uri = rosgraph.get_master_uri()
     try:
-        master = xmlrpc.client.ServerProxy(uri, _Transport(5.0))
+        master = xmlrpc.client.ServerProxy(uri, Transport(5.0))
         multi: Any = xmlrpc.client.MultiCall(master)
         multi.getSystemState("/rqt_graph")
         multi.getTopicTypes("/rqt_graph")
@@ -96,7 +97,7 @@ def _bus_info(uri):
     if uri is None:
         return DEAD  # it went between two questions
     try:
-        node: Any = xmlrpc.client.ServerProxy(uri, _Transport(_TIMEOUT))
+        node: Any = xmlrpc.client.ServerProxy(uri, Transport(_TIMEOUT))
         code, _, info = node.getBusInfo("/rqt_graph")
         return info if code == 1 and isinstance(info, list) else WONKY
     except (ConnectionRefusedError, socket.gaierror):
@@ -115,17 +116,6 @@ def _note(state, names, node, entry) -> None:
         state.active.add((node, topic, out))
         if other in state.nodes:
             state.connections.add((node, topic, other) if out else (other, topic, node))
-
-
-class _Transport(xmlrpc.client.Transport):
-    def __init__(self, timeout):
-        super().__init__()
-        self._timeout = timeout
-
-    def make_connection(self, host):
-        connection = super().make_connection(host)
-        connection.timeout = self._timeout
-        return connection
 
 
 def service_types(services: list[str]) -> dict[str, str]:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import socket
 from typing import Any, NamedTuple
 from xmlrpc.client import Error as XmlRpcError
-from xmlrpc.client import ServerProxy, Transport
+from xmlrpc.client import ServerProxy
 
 import rosgraph
+from node_signals.bounded_calls import Transport
 
 NODES = ("/move_group",)
 PARAMETERS = ("/robot_description", "/robot_description_semantic")
@@ -25,16 +26,9 @@ class Presence(NamedTuple):
     parameters: dict[str, str]
 
 
-class _Transport(Transport):
-    def make_connection(self, host):
-        connection = super().make_connection(host)
-        connection.timeout = _TIMEOUT
-        return connection
-
-
 def _why_no_node(master: rosgraph.Master, name: str) -> str:
     try:
-        node: Any = ServerProxy(master.lookupNode(name), transport=_Transport())
+        node: Any = ServerProxy(master.lookupNode(name), transport=Transport(_TIMEOUT))
     except rosgraph.MasterError:
         return f"{name} is not registered at the master: start the launch file of a MoveIt configuration, such as its demo.launch"
     try:

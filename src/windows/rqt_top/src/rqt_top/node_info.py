@@ -6,12 +6,13 @@ import socket
 from typing import Any, NamedTuple
 from urllib.parse import urlparse
 from xmlrpc.client import Error as XmlRpcError
-from xmlrpc.client import ServerProxy, Transport
+from xmlrpc.client import ServerProxy
 
 import psutil
 import rosgraph
 import rosgraph.network
 import rosnode
+from node_signals.bounded_calls import Transport
 
 _TIMEOUT = 1.0  # s: a node that is stopped must not hold up the others
 
@@ -34,13 +35,6 @@ def _is_here(host: str) -> bool:
         return socket.gethostbyname(host) in ["127.0.0.1", "127.0.1.1", *rosgraph.network.get_local_addresses()]
     except OSError:
         return False
-
-
-class _Transport(Transport):
-    def make_connection(self, host):
-        connection = super().make_connection(host)
-        connection.timeout = _TIMEOUT
-        return connection
 
 
 class NodeInfo:
@@ -98,7 +92,7 @@ class NodeInfo:
             host = urlparse(address).hostname or ""
             if not _is_here(host):
                 return None
-            node: Any = ServerProxy(address, transport=_Transport())
+            node: Any = ServerProxy(address, transport=Transport(_TIMEOUT))
             code, _, pid = node.getPid("/rqt_top")
             return psutil.Process(pid) if code == 1 else None
         except (OSError, XmlRpcError, psutil.Error, ValueError):

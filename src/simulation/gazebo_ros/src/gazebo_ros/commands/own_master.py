@@ -9,6 +9,7 @@ import time
 from urllib.parse import urlparse
 
 import rosgraph
+from node_signals.bounded_calls import master_answers
 from node_signals.children import end_with_parent
 
 _START = 10.0  # s for the master to answer
@@ -18,7 +19,7 @@ def start_if_missing() -> None:
     """Start a master at ROS_MASTER_URI, which ends with this process, unless one answers there or elsewhere is meant."""
     uri = rosgraph.get_master_uri()
     place = urlparse(uri)
-    if rosgraph.is_master_online() or not place.port or not rosgraph.network.is_local_address(place.hostname or ""):
+    if master_answers("/gzserver") or not place.port or not rosgraph.network.is_local_address(place.hostname or ""):
         return
     subprocess.Popen(
         ["rosmaster", "--core", "-p", str(place.port)],
@@ -34,5 +35,5 @@ def start_if_missing() -> None:
         flush=True,
     )
     end = time.monotonic() + _START
-    while not rosgraph.is_master_online() and time.monotonic() < end:
+    while not master_answers("/gzserver") and time.monotonic() < end:
         time.sleep(0.05)

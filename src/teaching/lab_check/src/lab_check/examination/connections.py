@@ -10,13 +10,9 @@ from typing import Any
 from xml.parsers.expat import ExpatError
 
 import rosgraph
+from node_signals.bounded_calls import Transport
 
-
-class _Transport(xmlrpc.client.Transport):
-    def make_connection(self, host):
-        connection = super().make_connection(host)
-        connection.timeout = 2.0
-        return connection
+_TIMEOUT = 2.0  # s that a node gets to answer
 
 
 def nodes() -> set[str]:
@@ -38,7 +34,7 @@ def complete(master: rosgraph.Master, deaf: set[str]) -> bool:
                 wanted.setdefault(node, {})[topic] = len(publishers[topic])
     for node, topics in wanted.items():
         try:
-            proxy = xmlrpc.client.ServerProxy(master.lookupNode(node), transport=_Transport())
+            proxy = xmlrpc.client.ServerProxy(master.lookupNode(node), transport=Transport(_TIMEOUT))
             answer: Any = proxy.getBusInfo("/lab_check")
             entries = answer[2]
             have = Counter(entry[4] for entry in entries if entry[2] == "i" and (len(entry) < 6 or entry[5]))
