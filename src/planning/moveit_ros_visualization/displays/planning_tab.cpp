@@ -7,6 +7,7 @@
 #include <std_msgs/Empty.h>
 #include <std_msgs/String.h>
 
+#include <QAbstractItemView>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -16,7 +17,7 @@
 #include <QPushButton>
 #include <QSpinBox>
 #include <QVBoxLayout>
-#include <boost/filesystem.hpp>
+#include <utility>
 
 #include "context_tab.hpp"
 #include "objects_tab.hpp"
@@ -252,8 +253,12 @@ void PlanningTab::readConstraints() {
   });
 }
 
-// What was chosen stays, as long as it is there.
+// What was chosen stays, as long as it is there. A list from which somebody chooses at this moment is left as it is.
 void PlanningTab::offerConstraints(const std::vector<std::string>& names) {
+  if (constraints_->view()->isVisible()) {
+    to_offer_ = names;
+    return;
+  }
   const QString before = constraints_->currentText();
   constraints_->clear();
   constraints_->addItem(NONE);
@@ -265,13 +270,14 @@ void PlanningTab::offerConstraints(const std::vector<std::string>& names) {
 
 // Other nodes write into the database, too.
 void PlanningTab::update() {
+  if (to_offer_ && !constraints_->view()->isVisible()) offerConstraints(*std::exchange(to_offer_, std::nullopt));
   const ros::WallTime now = ros::WallTime::now();
   if (database_.empty() || (now - looked_).toSec() < 1.0) return;
   looked_ = now;
-  boost::system::error_code error;
-  const std::time_t written = boost::filesystem::last_write_time(database_, error);
+  std::error_code error;
+  const auto written = std::filesystem::last_write_time(database_, error);
   if (error || written == written_) return;
-  if (written_) readConstraints();
+  if (written_ != std::filesystem::file_time_type()) readConstraints();
   written_ = written;
 }
 

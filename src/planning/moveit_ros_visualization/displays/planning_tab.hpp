@@ -6,7 +6,11 @@
 #include <moveit_msgs/MoveGroupAction.h>
 
 #include <atomic>
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "action_call.hpp"
 #include "dock.hpp"
@@ -113,8 +117,9 @@ class PlanningTab : public Tab {
   moveit_msgs::Constraints path_constraints_;
   std::vector<ros::Subscriber> external_topics_;
   ros::Publisher stop_publisher_;
+  std::optional<std::vector<std::string>> to_offer_;  // names of constraints, when the list is closed again
   std::string database_;  // its file
-  std::time_t written_ = 0;
+  std::filesystem::file_time_type written_;
   ros::WallTime looked_;
   std::atomic<int> busy_{0};
   std::atomic<bool> stopped_{false};

@@ -120,6 +120,8 @@ def _entry(text):
     for view in (w for w in QApplication.allWidgets() if w.isVisible() and isinstance(w, QAbstractItemView)):
         found = view.model() and view.model().match(view.model().index(0, 0), 0, text, 1, _ANYWHERE)
         if found:
+            if not view.viewport().rect().contains(view.visualRect(found[0])):  # a list that has grown since it was opened
+                view.scrollTo(found[0])
             return _rect(view.viewport(), view.visualRect(found[0]))
     for widget in (w for w in QApplication.allWidgets() if w.isVisible() and not isinstance(w, QMenu)):
         if isinstance(widget, QWidget) and hasattr(widget, "text") and _plain_text(widget) == text:
