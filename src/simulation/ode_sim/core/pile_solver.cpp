@@ -4,17 +4,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "wide.hpp"
+
 namespace ode_sim::piles {
 
 namespace {
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define ODE_SIM_ALSO_AVX2 __attribute__((target_clones("avx2", "default")))
-#else
-#define ODE_SIM_ALSO_AVX2
-#endif
-
-typedef double Four __attribute__((vector_size(32), aligned(8)));  // allocators know nothing of larger alignments
 
 // Six numbers, along the axes and about them, and two of no use.
 struct Six {

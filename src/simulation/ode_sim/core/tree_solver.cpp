@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "bounded_rows.hpp"
+
 namespace ode_sim::trees {
 
 namespace {
@@ -312,49 +314,32 @@ class Forest {
     return sum;
   }
 
-  std::vector<double> couplings() const {
-    const size_t n = rest_.size();
+  // The rows that are left, as if there were no joints: what these hand on is in the couplings.
+  bounded::Rows rest(const std::vector<Six>& free) const {
     std::vector<Path> paths;
-    for (size_t i : rest_) paths.push_back(path(rows_[i]));
-    std::vector<double> out(n * n);
-    for (size_t i = 0; i < n; ++i)
-      for (size_t k = 0; k <= i; ++k) out[i * n + k] = out[k * n + i] = coupling(paths[i], paths[k]);
+    std::vector<int> place(rows_.size(), -1);
+    for (size_t i : rest_) {
+      place[i] = static_cast<int>(paths.size());
+      paths.push_back(path(rows_[i]));
+    }
+    bounded::Rows out(rest_.size());
+    for (size_t i = 0; i < rest_.size(); ++i) {
+      const Row& r = rows_[rest_[i]];
+      for (size_t k = 0; k <= i; ++k) out.coupling(i, k) = out.coupling(k, i) = coupling(paths[i], paths[k]);
+      out.coupling(i, i) += r.cfm / set_.dt;
+      double wish = wanted(r);
+      if (moves(r.first)) wish -= dot(six(r.l1, r.a1), free[r.first]);
+      if (moves(r.second)) wish -= dot(six(r.l2, r.a2), free[r.second]);
+      out.set(i, {r.lo, r.hi, r.kind >= 0 ? place[r.kind] : -1}, wish);
+    }
     return out;
   }
 
-  // Rounds to and fro over what is left, until it stays.
   void iterate(const std::vector<Six>& free) {
-    const size_t n = rest_.size();
-    std::vector<double> A = couplings(), left(n);
-    for (size_t i = 0; i < n; ++i) {
-      Row& r = rows_[rest_[i]];
-      A[i * n + i] += r.cfm / set_.dt;
-      left[i] = wanted(r);
-      if (moves(r.first)) left[i] -= dot(six(r.l1, r.a1), free[r.first]);
-      if (moves(r.second)) left[i] -= dot(six(r.l2, r.a2), free[r.second]);
-      r.lambda = 0;
-    }
-    const int rounds = std::max(set_.iterations, static_cast<int>(std::min(1000.0, set_.work / (static_cast<double>(n) * n))));
-    for (int round = 0; round < rounds; ++round) {
-      double most = 0;
-      for (size_t k = 0; k < n; ++k) most = std::max(most, relax(round % 2 ? n - 1 - k : k, A, left));
-      if (most < set_.close_enough) break;
-    }
-  }
-
-  // One row; how much its acceleration changed.
-  double relax(size_t i, const std::vector<double>& A, std::vector<double>& left) {
-    const size_t n = rest_.size();
-    Row& r = rows_[rest_[i]];
-    const double own = A[i * n + i];
-    if (!(own > 0)) return 0;
-    double lo = r.lo, hi = r.hi;
-    if (r.kind >= 0) hi = std::abs(r.hi * rows_[r.kind].lambda), lo = -hi;
-    const double now = std::min(std::max(r.lambda + left[i] / own, lo), hi), by = now - r.lambda;
-    if (by == 0) return 0;
-    r.lambda = now;
-    for (size_t k = 0; k < n; ++k) left[k] -= A[i * n + k] * by;
-    return std::abs(by) * own;
+    bounded::Rows rows = rest(free);
+    const double squared = static_cast<double>(rows.count()) * rows.count();
+    rows.solve(std::max(set_.iterations, static_cast<int>(std::min(1000.0, set_.work / squared))), set_.close_enough);
+    for (size_t i = 0; i < rest_.size(); ++i) rows_[rest_[i]].lambda = rows.force(i);
   }
 };
 

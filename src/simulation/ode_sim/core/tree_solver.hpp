@@ -2,8 +2,7 @@
 //
 // Iterations over all rows of a long tree do not get round it in a step: a rover on sixty rollers creeps. Here each joint is eliminated
 // between its child and its parent, from the leaves to the root (as Featherstone's articulated bodies, or Baraff's sparse factors), so
-// that what is left is small and dense: contacts, stops, motors with a limit, and the joints that close loops. Gauss-Seidel goes on over
-// those until they no longer change.
+// that what is left is small and dense: contacts, stops, motors with a limit, and the joints that close loops (bounded_rows.hpp).
 #pragma once
 #include <vector>
 
