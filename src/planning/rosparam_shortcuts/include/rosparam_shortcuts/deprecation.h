@@ -1,0 +1,3 @@
+#pragma once
+
+#define ROSPARAM_SHORTCUTS_DEPRECATED __attribute__((deprecated))
