@@ -3,12 +3,94 @@
 
 #include <moveit/planning_scene/planning_scene.h>
 
+#include <algorithm>
+
 #include "motion/planning_scene.hpp"
 
 namespace collision_detection
 {
 using moveit::core::RobotState;
 using planning_scene::PlanningScene;
+
+namespace
+{
+// The robot without its world.
+motion::PlanningScene aloneScene(const motion::PlanningScene& scene, const motion::AllowedCollisionMatrix& acm)
+{
+  motion::PlanningScene alone(scene);
+  alone.clearObjects();
+  alone.setOctomap(nullptr, motion::Transform::Identity());
+  alone.setAcm(acm);
+  return alone;
+}
+
+// A scene in which all parts of the robot may touch each other: what is left is the world.
+motion::PlanningScene worldScene(const motion::PlanningScene& scene, const RobotState& state,
+                                 const motion::AllowedCollisionMatrix& acm, bool padded)
+{
+  std::vector<std::string> bodies = state.getRobotModel()->getLinkModelNamesWithCollisionGeometry();
+  for (const auto& body : state.core().attached())
+    bodies.push_back(body.first);
+  motion::AllowedCollisionMatrix world_only = acm;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (std::size_t j = i + 1; j < bodies.size(); ++j)
+      world_only.setEntry(bodies[i], bodies[j], motion::AllowedCollisionMatrix::Allowed);
+  motion::PlanningScene world(scene);
+  world.setAcm(world_only);
+  if (!padded)
+  {
+    world.setPadding({});
+    world.setScale({});
+  }
+  return world;
+}
+
+BodyType kindOf(const RobotState& state, const std::string& body)
+{
+  if (state.core().attached().count(body))
+    return BodyTypes::ROBOT_ATTACHED;
+  return state.getRobotModel()->hasLinkModel(body) ? BodyTypes::ROBOT_LINK : BodyTypes::WORLD_OBJECT;
+}
+
+DistanceResultsData dataOf(const RobotState& state, const motion::DistanceResult& found)
+{
+  DistanceResultsData data;
+  data.distance = found.distance;
+  data.link_names[0] = found.body_1;
+  data.link_names[1] = found.body_2;
+  data.nearest_points[0] = found.point_1;
+  data.nearest_points[1] = found.point_2;
+  data.body_types[0] = kindOf(state, found.body_1);
+  data.body_types[1] = kindOf(state, found.body_2);
+  if (found.distance > 0.0)
+    data.normal = (found.point_2 - found.point_1).normalized();
+  return data;
+}
+
+// The nearest pair, then the nearest of the others ...
+void fill(const DistanceRequest& req, DistanceResult& res, const RobotState& state, motion::PlanningScene scene)
+{
+  const std::string group = state.getRobotModel()->hasJointModelGroup(req.group_name) ? req.group_name : "";
+  motion::AllowedCollisionMatrix acm = scene.acm();
+  for (;;)
+  {
+    const motion::DistanceResult found = scene.distance(state.core(), group, req.distance_threshold);
+    if (found.body_1.empty() || found.distance > req.distance_threshold)
+      return;
+    const DistanceResultsData data = dataOf(state, found);
+    if (data.distance < res.minimum_distance.distance)
+      res.minimum_distance = data;
+    res.collision = res.collision || data.distance <= 0.0;
+    if (req.type == DistanceRequestType::GLOBAL)
+      return;
+    res.distances[std::minmax(found.body_1, found.body_2)].push_back(data);
+    if (acm.entry(found.body_1, found.body_2) == motion::AllowedCollisionMatrix::Allowed)
+      return;  // it does not get past this pair
+    acm.setEntry(found.body_1, found.body_2, motion::AllowedCollisionMatrix::Allowed);
+    scene.setAcm(acm);
+  }
+}
+}  // namespace
 
 void CollisionEnv::checkSelfCollision(const CollisionRequest& req, CollisionResult& res, const RobotState& state) const
 {
@@ -68,11 +150,7 @@ double CollisionEnv::distanceSelf(const RobotState& state) const { return distan
 
 double CollisionEnv::distanceSelf(const RobotState& state, const AllowedCollisionMatrix& acm) const
 {
-  motion::PlanningScene alone(scene_.core());
-  alone.clearObjects();
-  alone.setOctomap(nullptr, motion::Transform::Identity());
-  alone.setAcm(acm.core());
-  return alone.distance(state.core(), "", std::numeric_limits<double>::infinity()).distance;
+  return aloneScene(scene_.core(), acm.core()).distance(state.core(), "", std::numeric_limits<double>::infinity()).distance;
 }
 
 double CollisionEnv::distanceRobot(const RobotState& state, bool /*verbose*/) const
@@ -82,22 +160,21 @@ double CollisionEnv::distanceRobot(const RobotState& state, bool /*verbose*/) co
 
 double CollisionEnv::distanceRobot(const RobotState& state, const AllowedCollisionMatrix& acm, bool /*verbose*/) const
 {
-  // All parts of the robot may touch each other: what is left is the world.
-  std::vector<std::string> bodies = scene_.robot_model_->getLinkModelNamesWithCollisionGeometry();
-  for (const auto& body : state.core().attached())
-    bodies.push_back(body.first);
-  motion::AllowedCollisionMatrix world_only = acm.core();
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    for (std::size_t j = i + 1; j < bodies.size(); ++j)
-      world_only.setEntry(bodies[i], bodies[j], motion::AllowedCollisionMatrix::Allowed);
-  motion::PlanningScene scene(scene_.core());
-  scene.setAcm(world_only);
-  if (!padded_)
-  {
-    scene.setPadding({});
-    scene.setScale({});
-  }
-  return scene.distance(state.core(), "", std::numeric_limits<double>::infinity()).distance;
+  return worldScene(scene_.core(), state, acm.core(), padded_)
+      .distance(state.core(), "", std::numeric_limits<double>::infinity())
+      .distance;
+}
+
+void CollisionEnv::distanceSelf(const DistanceRequest& req, DistanceResult& res, const RobotState& state) const
+{
+  const AllowedCollisionMatrix none;
+  fill(req, res, state, aloneScene(scene_.core(), (req.acm ? *req.acm : none).core()));
+}
+
+void CollisionEnv::distanceRobot(const DistanceRequest& req, DistanceResult& res, const RobotState& state) const
+{
+  const AllowedCollisionMatrix none;
+  fill(req, res, state, worldScene(scene_.core(), state, (req.acm ? *req.acm : none).core(), padded_));
 }
 
 const WorldPtr& CollisionEnv::getWorld() { return scene_.world_; }

@@ -15,6 +15,69 @@ namespace core
 namespace
 {
 constexpr char LOGNAME[] = "robot_model.jmg";
+
+void addCoreJoint(const motion::RobotModel& robot, int index, motion::JointModelGroup& group)
+{
+  const motion::JointModel& joint = robot.joints[index];
+  const bool follows = !group.joints.empty() && joint.parent_link == robot.joints[group.joints.back()].child_link;
+  group.is_chain = group.joints.empty() || (group.is_chain && follows);
+  const auto moves_it = [&](int other) {
+    const std::vector<int>& moved = robot.joints[other].descendant_links;
+    return std::find(moved.begin(), moved.end(), joint.child_link) != moved.end();
+  };
+  if (std::none_of(group.joints.begin(), group.joints.end(), moves_it))
+    group.joint_roots.push_back(index);
+  group.joints.push_back(index);
+  group.links.push_back(joint.child_link);
+  if (!joint.active())
+    return;
+  group.active_joints.push_back(index);
+  group.single_variable_joints = group.single_variable_joints && joint.singleVariable();
+  for (int k = 0; k < joint.variable_count; ++k)
+  {
+    group.variables.push_back(joint.first_variable + k);
+    group.variable_names.push_back(joint.variables[k]);
+  }
+}
+
+std::shared_ptr<const motion::JointModelGroup> makeCore(const std::string& name, const std::vector<const JointModel*>& joints,
+                                                        const motion::RobotModel& robot)
+{
+  const auto group = std::make_shared<motion::JointModelGroup>();
+  group->name = name;
+  std::set<int> sorted, updated;
+  for (const JointModel* joint : joints)
+    sorted.insert(joint->getJointIndex());
+  for (int index : sorted)
+  {
+    addCoreJoint(robot, index, *group);
+    if (robot.joints[index].variable_count > 0)
+      updated.insert(robot.joints[index].descendant_links.begin(), robot.joints[index].descendant_links.end());
+  }
+  group->updated_links.assign(updated.begin(), updated.end());
+  group->link_updated.assign(robot.links.size(), 0);
+  for (int link : updated)
+    group->link_updated[link] = 1;
+  if (group->joints.empty())
+    return group;
+  group->base_link = robot.joints[group->joints.front()].parent_link;
+  if (group->is_chain)
+    group->tips = { group->tip_link = robot.joints[group->joints.back()].child_link };
+  return group;
+}
+}  // namespace
+
+JointModelGroup::JointModelGroup(const std::string& name, const srdf::Model::Group& config,
+                                 const std::vector<const JointModel*>& joint_models, const RobotModel* parent_model)
+  : JointModelGroup(makeCore(name, joint_models, *parent_model->core()), config, parent_model)
+{
+}
+
+JointModelGroup::JointModelGroup(const std::shared_ptr<const motion::JointModelGroup>& core, const srdf::Model::Group& config,
+                                 const RobotModel* parent_model)
+  : JointModelGroup(*core, config, parent_model)
+{
+  own_core_ = core;
 }
 
 JointModelGroup::JointModelGroup(const motion::JointModelGroup& core, const srdf::Model::Group& config,

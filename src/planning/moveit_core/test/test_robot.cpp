@@ -66,6 +66,33 @@ TEST(RobotModel, groupsStatesAndEndEffectors)
   EXPECT_EQ(fingers->getActiveVariableCount(), 1u);  // but does not move by itself
 }
 
+// As a task that moves an arm and its hand at once makes one.
+TEST(RobotModel, groupsOfJointsThatNoGroupHasTogether)
+{
+  const RobotModelPtr robot = makeArm();
+  std::vector<const JointModel*> joints = robot->getJointModelGroup("fingers")->getJointModels();
+  for (const JointModel* joint : robot->getJointModelGroup("manipulator")->getJointModels())
+    joints.push_back(joint);
+  const JointModelGroup both("manipulator+fingers", srdf::Model::Group(), joints, robot.get());
+  EXPECT_EQ(both.getName(), "manipulator+fingers");
+  EXPECT_EQ(both.getVariableNames(), (std::vector<std::string>{ "turn", "lift", "bend", "grip", "grip_mirror" }));
+  EXPECT_EQ(both.getActiveJointModelNames(), (std::vector<std::string>{ "turn", "lift", "bend", "grip" }));
+  EXPECT_EQ(both.getCommonRoot()->getName(), "turn");
+  EXPECT_TRUE(both.isLinkUpdated("left"));
+  EXPECT_FALSE(both.isLinkUpdated("base"));
+  EXPECT_FALSE(both.isChain());
+  EXPECT_FALSE(robot->hasJointModelGroup("manipulator+fingers"));
+
+  RobotState state(robot);
+  state.setToDefaultValues();
+  state.setJointGroupPositions(&both, std::vector<double>{ 0.1, 0.2, 0.3, 0.02, 0.02 });
+  EXPECT_EQ(state.getVariablePosition("bend"), 0.3);
+  EXPECT_EQ(state.getVariablePosition("grip_mirror"), 0.02);
+  RobotState other(robot);
+  other.setToDefaultValues();
+  EXPECT_NEAR(state.distance(other, &both), 0.1 + 0.2 + 0.3 + 0.02, 1e-9);
+}
+
 TEST(RobotModel, boundsAreThoseOfTheLibrary)
 {
   const RobotModelPtr model = makeArm();

@@ -65,6 +65,45 @@ TEST(Scene, distancesAreOfWhatWasAskedFor)
   EXPECT_NEAR(env->distanceRobot(state, allowed), 1.93, 1e-6);
 }
 
+// The figures are those of the test before.
+TEST(Scene, distancesOfPairsAreToldByNames)
+{
+  const auto scene = std::make_shared<PlanningScene>(makeArm());
+  scene->getCurrentStateNonConst().setToDefaultValues();
+  ASSERT_TRUE(scene->processCollisionObjectMsg(box("far", 2.0, 0.0, 1.1, 0.1)));
+  ASSERT_TRUE(scene->processCollisionObjectMsg(box("farther", 3.0, 0.0, 1.1, 0.1)));
+  collision_detection::DistanceRequest request;
+  request.acm = &scene->getAllowedCollisionMatrix();
+  request.group_name = "manipulator";
+  request.enableGroup(scene->getRobotModel());
+  collision_detection::DistanceResult result;
+  scene->getCollisionEnv()->distanceRobot(request, result, scene->getCurrentState());
+  EXPECT_NEAR(result.minimum_distance.distance, 1.93, 1e-6);
+  EXPECT_EQ(result.minimum_distance.link_names[1] == "far" ? result.minimum_distance.link_names[0]
+                                                           : result.minimum_distance.link_names[1],
+            "lower");
+  EXPECT_TRUE(result.distances.empty());
+  EXPECT_FALSE(result.collision);
+
+  result.clear();
+  request.type = collision_detection::DistanceRequestType::SINGLE;
+  scene->getCollisionEnv()->distanceRobot(request, result, scene->getCurrentState());
+  EXPECT_EQ(result.distances.size(), 10u);  // each of the five links that have a shape with each of both boxes
+  const auto& pair = result.distances.at({ "farther", "lower" });
+  ASSERT_EQ(pair.size(), 1u);
+  EXPECT_NEAR(pair[0].distance, 2.93, 1e-6);
+
+  result.clear();
+  request.distance_threshold = 1.0;
+  scene->getCollisionEnv()->distanceRobot(request, result, scene->getCurrentState());
+  EXPECT_TRUE(result.distances.empty());
+
+  result.clear();
+  request.type = collision_detection::DistanceRequestType::GLOBAL;
+  scene->getCollisionEnv()->distanceSelf(request, result, scene->getCurrentState());
+  EXPECT_NEAR(result.minimum_distance.distance, 0.47, 0.005);
+}
+
 TEST(Scene, objectsCollideUntilTheyAreAllowedToOrGone)
 {
   const PlanningScenePtr scene = readyScene();

@@ -43,6 +43,11 @@ public:
   double distanceRobot(const moveit::core::RobotState& state, bool verbose = false) const;
   double distanceRobot(const moveit::core::RobotState& state, const AllowedCollisionMatrix& acm, bool verbose = false) const;
 
+  // Of the links of the request's group, each pair once unless the request is GLOBAL. 0 where bodies touch: how deep, and
+  // gradients, are not told.
+  void distanceSelf(const DistanceRequest& req, DistanceResult& res, const moveit::core::RobotState& state) const;
+  void distanceRobot(const DistanceRequest& req, DistanceResult& res, const moveit::core::RobotState& state) const;
+
   const WorldPtr& getWorld();
   const moveit::core::RobotModelConstPtr& getRobotModel() const;
 

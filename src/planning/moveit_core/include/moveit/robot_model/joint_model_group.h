@@ -3,6 +3,7 @@
 #pragma once
 
 #include <boost/function.hpp>
+#include <memory>
 #include <set>
 
 #include <moveit/kinematics_base/kinematics_base.h>
@@ -47,6 +48,9 @@ public:
   };
   using KinematicsSolverMap = std::map<const JointModelGroup*, KinematicsSolver>;
 
+  // Of joints that no group of the SRDF has together. The robot does not know it by its name.
+  JointModelGroup(const std::string& name, const srdf::Model::Group& config, const std::vector<const JointModel*>& joint_models,
+                  const RobotModel* parent_model);
   ~JointModelGroup();
   JointModelGroup(const JointModelGroup&) = delete;
   JointModelGroup& operator=(const JointModelGroup&) = delete;
@@ -202,6 +206,8 @@ public:
 private:
   friend class RobotModel;
   JointModelGroup(const motion::JointModelGroup& core, const srdf::Model::Group& config, const RobotModel* parent_model);
+  JointModelGroup(const std::shared_ptr<const motion::JointModelGroup>& core, const srdf::Model::Group& config,
+                  const RobotModel* parent_model);
   void addJoint(const JointModel* joint);
   void addLinks();
   bool computeIKIndexBijection(const std::vector<std::string>& ik_jnames, std::vector<unsigned int>& joint_bijection) const;
@@ -231,6 +237,7 @@ private:
   std::pair<KinematicsSolver, KinematicsSolverMap> group_kinematics_;
   std::map<std::string, std::map<std::string, double>> default_states_;
   std::vector<std::string> default_states_names_;
+  std::shared_ptr<const motion::JointModelGroup> own_core_;  // of a group that the robot does not know
 };
 }  // namespace core
 }  // namespace moveit

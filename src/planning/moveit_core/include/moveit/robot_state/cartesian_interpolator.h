@@ -7,6 +7,14 @@ namespace moveit
 {
 namespace core
 {
+// How far the link may be off the line half-way between two states, when all joints go evenly from one to the other.
+struct CartesianPrecision
+{
+  double translational = 0.001;  // m
+  double rotational = 0.01;      // rad
+  double max_resolution = 1e-5;  // the shortest step that is tried, as a share of the way
+};
+
 // How far joints may jump between two steps; 0: any. `factor` is times the mean step, the others are rad and m.
 struct JumpThreshold
 {
@@ -25,10 +33,44 @@ struct MaxEEFStep
   double translation, rotation;
 };
 
-// All of them leave `start_state` where they got to.
 class CartesianInterpolator
 {
 public:
+  // ------------------------------------------------------------ with a precision: steps are halved until they are near the line
+  // By a translation; the answer is the distance reached, in m.
+  static double computeCartesianPath(const RobotState* start_state, const JointModelGroup* group,
+                                     std::vector<RobotStatePtr>& traj, const LinkModel* link,
+                                     const Eigen::Vector3d& translation, bool global_reference_frame,
+                                     const MaxEEFStep& max_step, const CartesianPrecision& precision,
+                                     const GroupStateValidityCallbackFn& validCallback = GroupStateValidityCallbackFn(),
+                                     const kinematics::KinematicsQueryOptions& options = kinematics::KinematicsQueryOptions());
+  static double computeCartesianPath(const RobotState* start_state, const JointModelGroup* group,
+                                     std::vector<RobotStatePtr>& traj, const LinkModel* link, const Eigen::Vector3d& direction,
+                                     bool global_reference_frame, double distance, const MaxEEFStep& max_step,
+                                     const CartesianPrecision& precision,
+                                     const GroupStateValidityCallbackFn& validCallback = GroupStateValidityCallbackFn(),
+                                     const kinematics::KinematicsQueryOptions& options = kinematics::KinematicsQueryOptions())
+  {
+    return computeCartesianPath(start_state, group, traj, link, Eigen::Vector3d(distance * direction), global_reference_frame,
+                                max_step, precision, validCallback, options);
+  }
+  // To a pose, and through poses; of a frame `link_offset` away from the link.
+  static double computeCartesianPath(const RobotState* start_state, const JointModelGroup* group,
+                                     std::vector<RobotStatePtr>& traj, const LinkModel* link, const Eigen::Isometry3d& target,
+                                     bool global_reference_frame, const MaxEEFStep& max_step,
+                                     const CartesianPrecision& precision,
+                                     const GroupStateValidityCallbackFn& validCallback = GroupStateValidityCallbackFn(),
+                                     const kinematics::KinematicsQueryOptions& options = kinematics::KinematicsQueryOptions(),
+                                     const Eigen::Isometry3d& link_offset = Eigen::Isometry3d::Identity());
+  static double computeCartesianPath(const RobotState* start_state, const JointModelGroup* group,
+                                     std::vector<RobotStatePtr>& traj, const LinkModel* link,
+                                     const EigenSTL::vector_Isometry3d& waypoints, bool global_reference_frame,
+                                     const MaxEEFStep& max_step, const CartesianPrecision& precision,
+                                     const GroupStateValidityCallbackFn& validCallback = GroupStateValidityCallbackFn(),
+                                     const kinematics::KinematicsQueryOptions& options = kinematics::KinematicsQueryOptions(),
+                                     const Eigen::Isometry3d& link_offset = Eigen::Isometry3d::Identity());
+
+  // ------------------------------------------------------------ with a threshold of jumps; `start_state` is left where they got to
   // By a translation; the answer is the distance reached, in m.
   static double computeCartesianPath(RobotState* start_state, const JointModelGroup* group, std::vector<RobotStatePtr>& traj,
                                      const LinkModel* link, const Eigen::Vector3d& translation, bool global_reference_frame,
