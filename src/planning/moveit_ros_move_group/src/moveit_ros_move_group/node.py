@@ -17,9 +17,10 @@ from moveit_ros_planning.plan_execution import PlanExecution
 from moveit_ros_planning.planning_pipeline import PipelineError
 from moveit_ros_planning.scene_monitor import SceneMonitor
 from moveit_ros_planning.trajectory_execution import TrajectoryExecution
-from plugin_loader import PluginError, find_plugins
+from plugin_loader import PluginClass, PluginError, find_plugins
 
 from .capability import Capability
+from .compiled import CompiledCapabilities
 from .context import Context, Display
 
 _DEFAULT = (
@@ -87,6 +88,7 @@ class MoveGroup:
         )
         self._map_services = [rospy.Service("~load_map", LoadMap, self._load_map), rospy.Service("~save_map", SaveMap, self._save_map)]
         self.capabilities: list[Capability] = []
+        self._compiled: CompiledCapabilities | None = None
         self._load_capabilities()
 
     def _wanted(self) -> list[str]:
@@ -99,22 +101,41 @@ class MoveGroup:
         found, problems = find_plugins("moveit_ros_move_group")
         for problem in problems:
             rospy.logwarn("%s", problem)
-        for name in sorted(self._wanted(), key=_LAST.__contains__):
-            _print(f"{_CYAN}Loading '{name}'...{_PLAIN}")
-            if name not in found:
-                rospy.logerr(
-                    "Exception while loading move_group capability '%s': nobody exports it; there are: %s", name, ", ".join(sorted(found))
-                )
-                continue
-            try:
-                self.capabilities.append(found[name].load()(self.context))
-            except PluginError as error:
-                rospy.logerr("Exception while loading move_group capability '%s': %s", name, error)
-            except Exception as error:  # a third party's capability; the others are still of use
-                rospy.logerr("Exception while loading move_group capability '%s': %s: %s", name, type(error).__name__, one_line(error))
+        wanted = self._wanted()
+        compiled = [name for name in wanted if name in found and found[name].compiled]
+        for name in [name for name in wanted if name not in _LAST and name not in compiled]:
+            self._load(name, found)
+        if compiled:
+            self._start_compiled(compiled)
+        for name in [name for name in wanted if name in _LAST]:
+            self._load(name, found)
         bar = "********************************************************"
         rows = "\n".join(f"*     - {capability.title}" for capability in self.capabilities)
         rospy.loginfo("\n\n%s\n* MoveGroup using: \n%s\n%s\n", bar, rows, bar)
+
+    def _load(self, name: str, found: dict[str, PluginClass]) -> None:
+        _print(f"{_CYAN}Loading '{name}'...{_PLAIN}")
+        if name not in found:
+            rospy.logerr(
+                "Exception while loading move_group capability '%s': nobody exports it; there are: %s", name, ", ".join(sorted(found))
+            )
+            return
+        try:
+            self.capabilities.append(found[name].load()(self.context))
+        except PluginError as error:
+            rospy.logerr("Exception while loading move_group capability '%s': %s", name, error)
+        except Exception as error:  # a third party's capability; the others are still of use
+            rospy.logerr("Exception while loading move_group capability '%s': %s: %s", name, type(error).__name__, one_line(error))
+
+    def _start_compiled(self, names: list[str]) -> None:
+        for name in names:
+            _print(f"{_CYAN}Loading '{name}'...{_PLAIN}")
+        try:
+            self._compiled = CompiledCapabilities(self.context, names)
+        except (OSError, RuntimeError) as error:
+            rospy.logerr("Exception while loading the move_group capabilities %s: %s", ", ".join(names), error)
+        else:
+            self.capabilities += self._compiled.capabilities
 
     def greet(self) -> None:
         """Say that planning can begin."""
@@ -128,6 +149,8 @@ class MoveGroup:
         """Stop the robot and all capabilities."""
         for capability in self.capabilities:
             capability.shutdown()
+        if self._compiled is not None:
+            self._compiled.shutdown()
         if self.context.execution is not None:
             self.context.execution.shutdown()
         self.context.octomap.shutdown()

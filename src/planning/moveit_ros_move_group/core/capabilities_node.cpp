@@ -1,0 +1,227 @@
+// move_group_capabilities: the process beside move_group in which compiled capabilities live; move_group starts and ends it.
+//
+//   move_group_capabilities --move-group NAME --report FD --default PIPELINE [--pipeline NAME]... [--execute] [--debug] CLASS...
+//
+// What has become of each class is written to the file descriptor, a line each: "+CLASS<tab>TITLE" or "-CLASS<tab>WHY".
+#include <moveit_msgs/ApplyPlanningScene.h>
+#include <ros/ros.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <mutex>
+#include <pluginlib/class_loader.hpp>
+#include <string>
+#include <vector>
+
+#include <moveit/move_group/move_group_capability.h>
+#include <moveit/moveit_cpp/moveit_cpp.h>
+
+namespace
+{
+using planning_scene_monitor::PlanningSceneMonitor;
+
+struct Arguments
+{
+  std::string move_group, default_pipeline;
+  std::vector<std::string> pipelines, classes;
+  int report = -1;
+  bool execute = false, debug = false;
+};
+
+Arguments parse(int argc, char** argv)
+{
+  Arguments arguments;
+  for (int i = 1; i < argc; ++i)
+  {
+    const std::string word = argv[i];
+    const auto value = [&]() { return std::string(i + 1 < argc ? argv[++i] : ""); };
+    if (word == "--move-group")
+      arguments.move_group = value();
+    else if (word == "--report")
+      arguments.report = std::stoi(value());
+    else if (word == "--default")
+      arguments.default_pipeline = value();
+    else if (word == "--pipeline")
+      arguments.pipelines.push_back(value());
+    else if (word == "--execute")
+      arguments.execute = true;
+    else if (word == "--debug")
+      arguments.debug = true;
+    else
+      arguments.classes.push_back(word);
+  }
+  return arguments;
+}
+
+class Report
+{
+public:
+  explicit Report(int descriptor) : descriptor_(descriptor) {}
+  ~Report() { ::close(descriptor_); }
+  void line(char sign, const std::string& name, std::string text) const
+  {
+    for (char& letter : text)
+      if (letter == '\n' || letter == '\t')
+        letter = ' ';
+    const std::string all = sign + name + "\t" + text + "\n";
+    if (::write(descriptor_, all.data(), all.size()) < 0)
+      ROS_ERROR("move_group does not listen: %s", all.c_str());
+  }
+
+private:
+  int descriptor_;
+};
+
+// Keeps the scene of the capabilities and move_group's the same.
+class SharedScene
+{
+public:
+  explicit SharedScene(const planning_scene_monitor::PlanningSceneMonitorPtr& monitor) : monitor_(monitor)
+  {
+    // move_group alone listens to objects and publishes the scene.
+    monitor_->stopPublishingPlanningScene();
+    monitor_->stopWorldGeometryMonitor();
+    ros::NodeHandle node("~");
+    to_move_group_ = node.serviceClient<moveit_msgs::ApplyPlanningScene>("apply_planning_scene");
+    monitor_->addUpdateCallback([this](PlanningSceneMonitor::SceneUpdateType type) { changed(type); });
+    from_move_group_ = node.subscribe<moveit_msgs::PlanningScene>(
+        "planning_scene", 1, [this](const moveit_msgs::PlanningSceneConstPtr& scene) { follow(*scene); });
+  }
+
+private:
+  std::vector<std::string> attached() const
+  {
+    std::vector<const moveit::core::AttachedBody*> bodies;
+    const planning_scene_monitor::LockedPlanningSceneRO scene(monitor_);
+    scene->getCurrentState().getAttachedBodies(bodies);
+    std::vector<std::string> names;
+    for (const moveit::core::AttachedBody* body : bodies)
+      names.push_back(body->getName() + "/" + body->getAttachedLinkName());
+    return names;
+  }
+
+  // Whether other bodies are attached than at the last call.
+  bool note()
+  {
+    const std::vector<std::string> now = attached();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const bool other = now != attached_;
+    attached_ = now;
+    return other;
+  }
+
+  void follow(const moveit_msgs::PlanningScene& scene)
+  {
+    following_ = true;
+    monitor_->newPlanningSceneMessage(scene);
+    following_ = false;
+    note();
+  }
+
+  // Joint states come to both: nobody tells the other of them.
+  void changed(PlanningSceneMonitor::SceneUpdateType type)
+  {
+    if (following_)
+      return;
+    if (!note() && !(type & PlanningSceneMonitor::UPDATE_GEOMETRY))
+      return;
+    moveit_msgs::ApplyPlanningScene call;
+    {
+      const planning_scene_monitor::LockedPlanningSceneRO scene(monitor_);
+      scene->getPlanningSceneMsg(call.request.scene);
+    }
+    if (!to_move_group_.call(call) || !call.response.success)
+      ROS_ERROR("move_group does not take the scene that a capability has changed: %s", to_move_group_.getService().c_str());
+  }
+
+  planning_scene_monitor::PlanningSceneMonitorPtr monitor_;
+  ros::ServiceClient to_move_group_;
+  ros::Subscriber from_move_group_;
+  std::mutex mutex_;
+  std::vector<std::string> attached_;
+  static thread_local bool following_;
+};
+thread_local bool SharedScene::following_ = false;
+
+moveit_cpp::MoveItCppPtr makeMoveItCpp(const Arguments& arguments)
+{
+  const ros::NodeHandle node("~");
+  moveit_cpp::MoveItCpp::Options options(node);
+  auto& scene = options.planning_scene_monitor_options;
+  scene.monitored_planning_scene_topic = node.resolveName("unused_planning_scene");  // closed again at once
+  scene.publish_planning_scene_topic = "";
+  scene.attached_collision_object_topic = "";
+  options.planning_pipeline_options.pipeline_names = arguments.pipelines;
+  if (arguments.pipelines != std::vector<std::string>{ "" })  // Melodic's layout: directly below the node's name
+    options.planning_pipeline_options.parent_namespace = node.getNamespace() + "/planning_pipelines";
+  return std::make_shared<moveit_cpp::MoveItCpp>(options, node);
+}
+
+using Loader = pluginlib::ClassLoader<move_group::MoveGroupCapability>;
+
+std::vector<move_group::MoveGroupCapabilityPtr> load(Loader& loader, const Arguments& arguments,
+                                                     const move_group::MoveGroupContextPtr& context, const Report& report)
+{
+  std::vector<move_group::MoveGroupCapabilityPtr> capabilities;
+  for (const std::string& name : arguments.classes)
+    try
+    {
+      move_group::MoveGroupCapabilityPtr capability = loader.createUniqueInstance(name);
+      capability->setContext(context);
+      capability->initialize();
+      capabilities.push_back(capability);
+      report.line('+', name, capability->getName());
+    }
+    catch (const std::exception& error)
+    {
+      report.line('-', name, error.what());
+    }
+  return capabilities;
+}
+
+int run(const Arguments& arguments)
+{
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  Loader loader("moveit_ros_move_group", "move_group::MoveGroupCapability");
+  move_group::MoveGroupContextPtr context;
+  std::unique_ptr<SharedScene> shared;
+  std::vector<move_group::MoveGroupCapabilityPtr> capabilities;
+  {
+    const Report report(arguments.report);
+    try
+    {
+      context = std::make_shared<move_group::MoveGroupContext>(makeMoveItCpp(arguments), arguments.default_pipeline,
+                                                               arguments.execute, arguments.debug);
+    }
+    catch (const std::exception& error)
+    {
+      for (const std::string& name : arguments.classes)
+        report.line('-', name, error.what());
+      return 1;
+    }
+    shared.reset(new SharedScene(context->planning_scene_monitor_));
+    capabilities = load(loader, arguments, context, report);
+  }
+  ros::waitForShutdown();
+  spinner.stop();
+  context->planning_scene_monitor_->clearUpdateCallbacks();
+  capabilities.clear();
+  return 0;
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // a move_group that is killed leaves nothing behind
+  ros::init(argc, argv, "move_group_capabilities");
+  const Arguments arguments = parse(argc, argv);
+  if (arguments.report < 0)
+  {
+    ROS_FATAL("move_group_capabilities is started by move_group, for compiled classes in its parameter ~capabilities");
+    return 1;
+  }
+  move_group::detail::setMoveGroupName(arguments.move_group);
+  return run(arguments);
+}

@@ -1,0 +1,256 @@
+// Execution of plans under the eyes of a scene monitor.
+#include <moveit/plan_execution/plan_execution.h>
+
+#include <algorithm>
+
+#include <moveit/utils/message_checks.h>
+
+namespace plan_execution
+{
+namespace
+{
+constexpr char LOGNAME[] = "plan_execution";
+using Codes = moveit_msgs::MoveItErrorCodes;
+using planning_scene_monitor::LockedPlanningSceneRO;
+using planning_scene_monitor::PlanningSceneMonitor;
+
+// Another attempt may find what this one did not.
+bool mayBeTriedAgain(int code)
+{
+  return code == Codes::PLANNING_FAILED || code == Codes::INVALID_MOTION_PLAN || code == Codes::UNABLE_TO_AQUIRE_SENSOR_DATA;
+}
+
+int codeOf(const moveit_controller_manager::ExecutionStatus& status)
+{
+  if (status == moveit_controller_manager::ExecutionStatus::SUCCEEDED)
+    return Codes::SUCCESS;
+  return status == moveit_controller_manager::ExecutionStatus::TIMED_OUT ? Codes::TIMED_OUT : Codes::CONTROL_FAILED;
+}
+}  // namespace
+
+PlanExecution::PlanExecution(const planning_scene_monitor::PlanningSceneMonitorPtr& planning_scene_monitor,
+                             const trajectory_execution_manager::TrajectoryExecutionManagerPtr& trajectory_execution)
+  : monitor_(planning_scene_monitor)
+  , execution_(trajectory_execution)
+  , scene_changed_(std::make_shared<std::atomic<bool>>(false))
+{
+  if (!execution_)
+    execution_ = std::make_shared<trajectory_execution_manager::TrajectoryExecutionManager>(monitor_->getRobotModel(),
+                                                                                            monitor_->getStateMonitor());
+  monitor_->addUpdateCallback([changed = scene_changed_](PlanningSceneMonitor::SceneUpdateType type) {
+    if (type & (PlanningSceneMonitor::UPDATE_GEOMETRY | PlanningSceneMonitor::UPDATE_TRANSFORMS))
+      *changed = true;
+  });
+}
+
+// ---------------------------------------------------------------- planning
+
+void PlanExecution::planAndExecute(ExecutableMotionPlan& plan, const Options& opt)
+{
+  plan.planning_scene_monitor_ = monitor_;
+  plan.planning_scene_ = monitor_->getPlanningScene();
+  replan(plan, opt);
+}
+
+void PlanExecution::planAndExecute(ExecutableMotionPlan& plan, const moveit_msgs::PlanningScene& scene_diff, const Options& opt)
+{
+  if (moveit::core::isEmpty(scene_diff))
+    return planAndExecute(plan, opt);
+  plan.planning_scene_monitor_ = monitor_;
+  {
+    const LockedPlanningSceneRO scene(monitor_);
+    plan.planning_scene_ = scene->diff(scene_diff);
+  }
+  replan(plan, opt);
+}
+
+void PlanExecution::replan(ExecutableMotionPlan& plan, const Options& opt)
+{
+  preempt_ = false;
+  const unsigned int most = !opt.replan_ ? 1 : (opt.replan_attempts_ > 0 ? opt.replan_attempts_ : default_max_replan_attempts_);
+  bool solved = false, again = true;
+  for (unsigned int i = 1; i <= most && again; ++i)
+  {
+    ROS_INFO_NAMED(LOGNAME, "Planning attempt %u of at most %u", i, most);
+    again = attempt(plan, opt, solved && opt.repair_plan_callback_, solved);
+  }
+  if (preempt_.exchange(false))
+    plan.error_code_.val = Codes::PREEMPTED;
+  if (opt.done_callback_)
+    opt.done_callback_();
+}
+
+// True when another attempt is to be made.
+bool PlanExecution::attempt(ExecutableMotionPlan& plan, const Options& opt, bool repair, bool& solved)
+{
+  if (opt.before_plan_callback_)
+    opt.before_plan_callback_();
+  *scene_changed_ = false;  // the plan that is made now knows
+  const bool found =
+      repair ? opt.repair_plan_callback_(plan, execution_->getCurrentExpectedTrajectoryIndex()) : opt.plan_callback_(plan);
+  if (preempt_)
+    return false;
+  if (mayBeTriedAgain(plan.error_code_.val))
+  {
+    if (plan.error_code_.val == Codes::UNABLE_TO_AQUIRE_SENSOR_DATA)
+      ros::WallDuration(opt.replan_delay_).sleep();
+    return true;
+  }
+  if (!found)
+    return false;
+  solved = true;
+  if (plan.error_code_.val == Codes::SUCCESS)
+  {
+    if (opt.before_execution_callback_)
+      opt.before_execution_callback_();
+    if (preempt_)
+      return false;
+    plan.error_code_ = executeAndMonitor(plan, false);
+  }
+  if (plan.error_code_.val != Codes::MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE)
+    return false;
+  ros::WallDuration(opt.replan_delay_).sleep();
+  return !preempt_;
+}
+
+// ---------------------------------------------------------------- execution
+
+moveit_msgs::MoveItErrorCodes PlanExecution::executeAndMonitor(ExecutableMotionPlan& plan, bool reset_preempted)
+{
+  if (reset_preempted)
+    preempt_ = false;
+  if (!plan.planning_scene_monitor_)
+    plan.planning_scene_monitor_ = monitor_;
+  if (!plan.planning_scene_)
+    plan.planning_scene_ = monitor_->getPlanningScene();
+  moveit_msgs::MoveItErrorCodes result;
+  result.val = Codes::SUCCESS;
+  if (plan.plan_components_.empty())
+    return result;
+  if (!push(plan))
+  {
+    ROS_ERROR_NAMED(LOGNAME, "Apparently trajectory initialization failed");
+    execution_->clear();
+    result.val = Codes::CONTROL_FAILED;
+    return result;
+  }
+  complete_ = invalid_ = false;
+  execution_->execute([this](const moveit_controller_manager::ExecutionStatus&) { complete_ = true; },
+                      [this, &plan](std::size_t index) { succeeded(plan, index); });
+  bool preempted = false;
+  watch(plan, preempted);
+  if (preempted || !complete_)
+    execution_->stopExecution();
+  execution_->waitForExecution();  // its last callback holds the plan
+  result.val = invalid_    ? Codes::MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE
+               : preempted ? Codes::PREEMPTED
+                           : codeOf(execution_->getLastExecutionStatus());
+  return result;
+}
+
+bool PlanExecution::push(ExecutableMotionPlan& plan)
+{
+  for (std::size_t i = 0; i < plan.plan_components_.size(); ++i)
+  {
+    const ExecutableTrajectory& part = plan.plan_components_[i];
+    moveit_msgs::RobotTrajectory message;
+    if (part.trajectory_)
+    {
+      unwind(plan, i);
+      part.trajectory_->getRobotTrajectoryMsg(message);
+    }
+    if (!execution_->push(message, part.controller_names_))
+      return false;
+  }
+  return true;
+}
+
+// Continuous joints go on from where the trajectory before leaves them, those of the first from where they are.
+void PlanExecution::unwind(ExecutableMotionPlan& plan, std::size_t index) const
+{
+  robot_trajectory::RobotTrajectory& trajectory = *plan.plan_components_[index].trajectory_;
+  const robot_trajectory::RobotTrajectory* before = nullptr;
+  for (std::size_t j = 0; j < index; ++j)
+  {
+    const auto& other = plan.plan_components_[j].trajectory_;
+    if (other && !other->empty() &&
+        (!before || before->getGroup() != trajectory.getGroup() || other->getGroup() == trajectory.getGroup()))
+      before = other.get();
+  }
+  if (before)
+    trajectory.unwind(before->getLastWayPoint());
+  else if (plan.planning_scene_monitor_->getStateMonitor())
+    trajectory.unwind(*plan.planning_scene_monitor_->getStateMonitor()->getCurrentState());
+  else
+    trajectory.unwind(plan.planning_scene_->getCurrentState());
+}
+
+// Until it is over, is to end, or would collide.
+void PlanExecution::watch(const ExecutableMotionPlan& plan, bool& preempted)
+{
+  ros::WallRate rate(100);
+  while (ros::ok() && !complete_ && !invalid_)
+  {
+    rate.sleep();
+    if (scene_changed_->exchange(false))
+    {
+      const std::pair<int, int> place = execution_->getCurrentExpectedTrajectoryIndex();
+      if (!isRemainingPathValid(plan, place))
+      {
+        ROS_WARN_NAMED(LOGNAME, "Trajectory component '%s' is invalid after scene update",
+                       plan.plan_components_[place.first].description_.c_str());
+        invalid_ = true;
+      }
+    }
+    if (preempt_.exchange(false))
+    {
+      ROS_INFO_NAMED(LOGNAME, "Stopping execution due to preempt request");
+      preempted = true;
+      return;
+    }
+  }
+}
+
+bool PlanExecution::isRemainingPathValid(const ExecutableMotionPlan& plan, const std::pair<int, int>& place) const
+{
+  if (place.first < 0 || place.first >= static_cast<int>(plan.plan_components_.size()))
+    return true;
+  const ExecutableTrajectory& part = plan.plan_components_[place.first];
+  if (!part.trajectory_monitoring_ || !part.trajectory_)
+    return true;
+  const LockedPlanningSceneRO lock(plan.planning_scene_monitor_);
+  collision_detection::CollisionRequest request;
+  request.group_name = part.trajectory_->getGroupName();
+  const auto& acm =
+      part.allowed_collision_matrix_ ? *part.allowed_collision_matrix_ : plan.planning_scene_->getAllowedCollisionMatrix();
+  for (std::size_t i = std::max(place.second - 1, 0); i < part.trajectory_->getWayPointCount(); ++i)
+  {
+    collision_detection::CollisionResult result;
+    plan.planning_scene_->checkCollisionUnpadded(request, result, part.trajectory_->getWayPoint(i), acm);
+    if (result.collision || !plan.planning_scene_->isStateFeasible(part.trajectory_->getWayPoint(i)))
+      return false;
+  }
+  return true;
+}
+
+void PlanExecution::succeeded(const ExecutableMotionPlan& plan, std::size_t index)
+{
+  if (index >= plan.plan_components_.size())
+    return;
+  const ExecutableTrajectory& part = plan.plan_components_[index];
+  ROS_DEBUG_NAMED(LOGNAME, "Completed '%s'", part.description_.c_str());
+  if (part.effect_on_success_ && !part.effect_on_success_(&plan))
+  {
+    ROS_ERROR_NAMED(LOGNAME, "Execution of path-completion side-effect failed. Preempting.");
+    preempt_ = true;
+    return;
+  }
+  const std::pair<int, int> next(static_cast<int>(index) + 1, 0);
+  if (!isRemainingPathValid(plan, next))
+  {
+    ROS_INFO_NAMED(LOGNAME, "Upcoming trajectory component '%s' is invalid",
+                   plan.plan_components_[next.first].description_.c_str());
+    invalid_ = true;
+  }
+}
+}  // namespace plan_execution
