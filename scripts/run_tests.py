@@ -103,7 +103,7 @@ def find_jobs(packages: Container[str], kind: str, scripts: bool, slow: bool) ->
         if kind in ("pytest", "all") and any(test.rglob("test_*.py")):
             jobs.append(Job(package, "pytest", test, slow))
     if scripts and kind in ("pytest", "all"):
-        jobs += [Job(ROOT, "pytest", path, slow) for path in sorted((ROOT / "scripts").glob("test_*.py"))]
+        jobs += [Job(ROOT, "pytest", path, slow) for path in sorted((ROOT / "scripts" / "tests").glob("test_*.py"))]
     # What takes long first, at the end all have something to do: folders of many files, packages of many rostests in a row.
     in_a_row = Counter(job.package for job in jobs if job.kind == "rostest")
     return sorted(jobs, key=lambda job: -(in_a_row[job.package] if job.kind == "rostest" else job.files))

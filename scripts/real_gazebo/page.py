@@ -29,7 +29,7 @@ What the real Gazebo Classic 11.1.0 (Debian 11's package) does in {scenes} scene
 **How to redo it.** `scripts/truth compare` and `scripts/truth page` need nothing but this workspace: what real Gazebo gave lies in
 `scripts/real_gazebo/records`. `sudo scripts/truth chroot` makes the chroot with real Gazebo (Debian 11, 2.7 GB), `sudo scripts/truth record
 [SCENE]` runs scenes there again. `scripts/truth list` names the scenes; each is a few lines of `scripts/real_gazebo/scenes_*.py`.
-`scripts/test_truth.py` holds the rows, but for those of sensors, which need a server each, and of `NOT_COMPARED` in `causes.py`.
+`scripts/tests/test_truth.py` holds the rows, but for those of sensors, which need a server each, and of `NOT_COMPARED` in `causes.py`.
 
 **How to read it.** `gazebo` is held against *real*; `default` against the *law* where there is one, else against *real*. A value in
 **bold** is off by more than its tolerance (part of the value + absolute), and the cause stands below the table. Tolerances: four digits

@@ -6,7 +6,7 @@ import re
 import subprocess
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 LONGEST_INTERVAL = 0.05  # s, of a loop in C++
 #: How many sleeps of a fixed time a file has, and why.
 KNOWN = {

@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "scripts"))
+ROOT = Path(__file__).resolve().parents[2]
 import needed_packages  # noqa: E402
 
 pytestmark = pytest.mark.skipif(not Path("/usr/share/python3-rosdep2/debian.yaml").exists(), reason="rosdep's rules are not installed")

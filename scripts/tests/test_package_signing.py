@@ -4,13 +4,11 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
-SCRIPTS = Path(__file__).resolve().parent
-sys.path.insert(0, str(SCRIPTS))
+SCRIPTS = Path(__file__).resolve().parents[1]
 from packaging_debian import debs  # noqa: E402
 from packaging_debian.tree import PackagingError  # noqa: E402
 

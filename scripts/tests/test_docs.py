@@ -3,13 +3,10 @@
 import re
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
-import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 import docs_pages
+import pytest
 
 ROOT = docs_pages.ROOT
 READ_ON_GITHUB = [

@@ -4,16 +4,14 @@ import os
 import re
 import signal
 import subprocess
-import sys
 import time
 from pathlib import Path
 from random import Random
 
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 CORPUS = ROOT / "scripts/fuzzing/corpus"
-sys.path.insert(0, str(ROOT / "scripts"))
 
 from fuzzing import tree_cases, values, worker, xml_cases  # noqa: E402
 from fuzzing.findings import Found, check_message  # noqa: E402

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 #: what stands in a test/ folder is some student's or stranger's package, and made to be as they are
 PACKAGES = {
     path.parent.name: path.parent for path in sorted((ROOT / "src").rglob("package.xml")) if "test" not in path.relative_to(ROOT).parts

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-SCRIPTS = Path(__file__).resolve().parent
+SCRIPTS = Path(__file__).resolve().parents[1]
 SETUP = SCRIPTS / "setup"
 TOOLS = (
     "awk bash cat chmod comm cp cut df dirname env find flock grep head id ls mkdir mktemp mv python3 realpath rm sed seq sleep sort "

@@ -3,13 +3,10 @@
 import contextlib
 import re
 import subprocess
-import sys
 from pathlib import Path
 
-import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 import changed_packages
+import pytest
 from needed_packages import needed_by_code
 from test_workspace import imports
 
