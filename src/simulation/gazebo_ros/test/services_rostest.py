@@ -15,7 +15,7 @@ from gazebo_msgs.msg import LinkState, ModelState
 from gazebo_ros.msg import WorldContacts, WorldView
 from gazebo_ros.srv import TakePicture
 from geometry_msgs.msg import Pose, Vector3
-from rosgraph_msgs.msg import Clock
+from rosgraph_msgs.msg import Clock, Log
 from simulator import Case, box, pose, twist, urdf, xyz
 from std_msgs.msg import Bool, ColorRGBA
 
@@ -192,6 +192,18 @@ class Models(Case):
         set_model.publish(ModelState("crate", pose(7, 0, 3), twist(), ""))
         self.wait(lambda: self.sim.model("crate").pose.position.x == 7)
         set_model.publish(ModelState("ghost", pose(8, 0, 3), twist(), ""))  # only a line in the log
+        logged = []
+        log = rospy.Subscriber("/rosout", Log, lambda message: logged.append(message.msg))
+        self.wait(log.get_num_connections)
+        for publisher, message in (
+            (set_model, ModelState("crate", pose(1e7, 0, 3), twist(), "crate")),
+            (set_link, LinkState("crate::box", pose(1e7, 0, 3), twist(), "crate::box")),
+        ):
+            logged.clear()
+            publisher.publish(message)
+            self.wait(lambda: any("1e+07 m away" in line for line in logged))
+            self.assertFalse([line for line in logged if "Traceback" in line])
+        log.unregister()
         set_link.publish(LinkState("crate::box", pose(9, 0, 3), twist(), ""))
         self.wait(lambda: self.sim.link("crate::box").link_state.pose.position.x == 9)
         set_model.unregister()

@@ -63,8 +63,8 @@ class ModelServices:
         f, topic = how
         try:
             self._server.call(lambda: f(message))
-        except Refused as error:
-            rospy.logwarn_throttle(1.0, "message on ~%s: %s" % (topic, error))
+        except ValueError as error:
+            rospy.logwarn_throttle_identical(1.0, "message on ~%s: %s" % (topic, error))
         except Stopped:
             return
 
