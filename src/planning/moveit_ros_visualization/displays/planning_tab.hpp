@@ -118,7 +118,7 @@ class PlanningTab : public Tab {
   std::vector<ros::Subscriber> external_topics_;
   ros::Publisher stop_publisher_;
   std::optional<std::vector<std::string>> to_offer_;  // names of constraints, when the list is closed again
-  std::string database_;  // its file
+  std::string database_;                              // its file
   std::filesystem::file_time_type written_;
   ros::WallTime looked_;
   std::atomic<int> busy_{0};

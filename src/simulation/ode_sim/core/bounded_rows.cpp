@@ -100,7 +100,8 @@ double Rows::round(bool back) {
 }
 
 // The equations of the rows that are at no bound, in their forces alone: place[i] is where row i's stands in them, or -1.
-void Rows::reduce(const std::vector<At>& at, const std::vector<int>& place, std::vector<double>& matrix, std::vector<double>& right) const {
+void Rows::reduce(const std::vector<At>& at, const std::vector<int>& place, std::vector<double>& matrix,
+                  std::vector<double>& right) const {
   const size_t m = right.size();
   for (size_t i = 0; i < n_; ++i) {
     if (place[i] < 0) continue;
@@ -152,7 +153,8 @@ bool Rows::solve_exactly() {
     if (place[i] >= 0) force[i] = right[place[i]];
     else if (bounds_[i].normal < 0) force[i] = at[i] == At::kLow ? bounds_[i].lo : bounds_[i].hi;
   for (size_t i = 0; i < n_; ++i)
-    if (place[i] < 0 && bounds_[i].normal >= 0) force[i] = (at[i] == At::kLow ? -1 : 1) * bounds_[i].hi * force[bounds_[i].normal];
+    if (place[i] < 0 && bounds_[i].normal >= 0)
+      force[i] = (at[i] == At::kLow ? -1 : 1) * bounds_[i].hi * force[bounds_[i].normal];
   if (contradicts(force, at)) return false;
   force_ = force;
   return true;

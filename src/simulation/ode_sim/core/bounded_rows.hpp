@@ -37,7 +37,8 @@ class Rows {
   double round(bool back);
   bool solve_exactly();
   bool contradicts(const std::vector<double>& force, const std::vector<At>& at) const;
-  void reduce(const std::vector<At>& at, const std::vector<int>& place, std::vector<double>& matrix, std::vector<double>& right) const;
+  void reduce(const std::vector<At>& at, const std::vector<int>& place, std::vector<double>& matrix,
+              std::vector<double>& right) const;
 
   size_t n_, stride_;
   std::vector<double> couplings_, wanted_, left_, force_;
