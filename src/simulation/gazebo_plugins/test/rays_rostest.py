@@ -109,6 +109,28 @@ class Rays(PluginWorld):
         self.assertEqual(len(fine.ranges), 362)
         np.testing.assert_allclose(fine.ranges, to_wall(np.linspace(-0.5, 0.5, 362)), atol=2e-3)
 
+    def test_between_a_ray_that_meets_a_wall_and_one_that_meets_none(self):
+        """Linear up to max, and intensities the mean of the rays around it, as Gazebo's sensor has it."""
+        scan = self.scanner("gazebo_ros_laser", LaserScan, samples=5, resolution=2, low=-0.6, high=0.6, near=0.1, far=2.6)
+        rays = np.minimum(to_wall(np.linspace(-0.6, 0.6, 5)), 2.6)  # the middle three of them meet the east wall
+        bright = np.where(rays < 2.6, 7.0, 0.0)
+        at = np.linspace(0, 4, 10)
+        low = np.floor(at).astype(int)
+        high = np.minimum(low + 1, 4)
+        expected = rays[low] + (at - low) * (rays[high] - rays[low])
+        np.testing.assert_allclose(scan.ranges, np.where(expected >= 2.6, np.inf, expected), atol=1e-4)
+        np.testing.assert_allclose(scan.intensities, (bright[low] + bright[high]) / 2, atol=1e-6)
+        self.assertTrue(0 < np.count_nonzero(np.isfinite(scan.ranges)) < 10)
+
+    def test_a_single_ray_looks_ahead(self):
+        """Whatever its angles are, as Gazebo's: many a distance sensor is described so."""
+        scan = self.scanner("gazebo_ros_laser", LaserScan, samples=1, low=-0.5, high=0.5, far=10)
+        np.testing.assert_allclose(scan.ranges, to_wall(np.zeros(1)), atol=1e-4)
+
+    def test_a_range_of_a_single_ray_looks_ahead(self):
+        near = self.scanner("gazebo_ros_range", Range, samples=1, low=-0.5, high=0.5, far=10)
+        self.assertAlmostEqual(near.range, to_wall(0.0), delta=1e-4)
+
     def test_laser_of_several_rows(self):
         scan = self.scanner("gazebo_ros_laser", LaserScan, samples=5, low=-0.4, high=0.4, vertical=COVERS, far=10)
         lowest, *others = np.array(scan.ranges).reshape(3, 5)

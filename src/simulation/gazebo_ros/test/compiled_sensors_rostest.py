@@ -4,6 +4,7 @@
 import importlib.util
 import math
 import os
+import re
 import sys
 import unittest
 
@@ -65,6 +66,20 @@ class SensorsTest(HearingCase):
         for each, wanted in zip(got[0][6:12], expected[:3] + [math.inf] * 3):
             self.assertTrue(each == wanted or abs(each - wanted) < 1e-3, got[0])
         self.assertEqual(got[0][12:], (70.0, 70.0, 70.0, 0.0, 0.0, 0.0))
+
+    def test_between_rays_and_a_single_one(self):
+        """As gazebo_plugins' rays_rostest.py has it of the sensors of Python."""
+        self.done(self.sim.spawn("wall", WALL))
+        across = "<samples>3</samples><min_angle>-0.5</min_angle><max_angle>0.5</max_angle>"
+        sensor = RAY.format(type="ray", plugin="scanner").replace(across, across + "<resolution>2</resolution>")
+        sensor = re.sub("<vertical>.*</vertical>", "<vertical><samples>1</samples><min_angle>1</min_angle></vertical>", sensor)
+        got = self.values("/scan/values", sensor.replace("<max>5</max>", "<max>2.7</max>"), 100, 5)[-1]
+        self.assertEqual(got[3:5], (6.0, 1.0))
+        # The wall is 2.5 m ahead; to both sides it is 2.85 m away, which counts as 2.7 without intensity.
+        expected = [math.inf, 2.62, 2.54, 2.54, 2.62, math.inf]  # 0.4 and 0.8 of the way from a side to the middle
+        for each, wanted in zip(got[6:12], expected):
+            self.assertTrue(each == wanted or abs(each - wanted) < 1e-3, got)
+        self.assertEqual(got[12:], (35.0, 35.0, 35.0, 35.0, 35.0, 0.0))
 
     def feel(self, kind, rate=100, block="", **more):
         got = self.values("/feel/" + kind, SENSOR.format(type=kind, rate=rate, block=block), 50, 1 + rate // 20, **more)

@@ -48,11 +48,12 @@ inline World& world_of(Model* model) {
 
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-// module_shapes.cpp, module_links.cpp, module_joints.cpp, module_models.cpp, module_noise.cpp
+// module_shapes.cpp, module_links.cpp, module_joints.cpp, module_models.cpp, module_noise.cpp, module_rays.cpp
 void bind_shapes(py::module_& m);
 void bind_links(py::module_& m);
 void bind_joints(py::module_& m);
 void bind_models(py::module_& m);
 void bind_noise(py::module_& m);
+void bind_rays(py::module_& m);  // after the world
 
 }  // namespace ode_sim

@@ -149,4 +149,5 @@ PYBIND11_MODULE(_core, m) {
   bind_models(m);
   bind_noise(m);
   bind_world(m);
+  bind_rays(m);
 }

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include <ignition/math/Angle.hh>
-#include <ignition/math/Vector3.hh>
 
 #include <gazebo/physics/Shape.hh>
 
@@ -21,10 +20,11 @@ public:
   {
     int samples = 1;
     double resolution = 1, min = 0, max = 0;
-    double angle(int i) const { return samples > 1 ? min + i * (max - min) / (samples - 1) : min; }
   };
 
+  /// \throws std::invalid_argument numbers that make no fan
   MultiRayShape(const Scan& horizontal, const Scan& vertical, double min, double max);
+  ~MultiRayShape() override;
   /// \param X_WS where the fan stands
   /// \param own collisions of these models are looked through within the near limit
   void Cast(const ignition::math::Pose3d& X_WS, const ModelPtr& own);
@@ -50,11 +50,14 @@ public:
     return scanned_.Connect(subscriber);
   }
   unsigned int Listeners() const { return scanned_.ConnectionCount(); }
+  const ode_sim::RayFan& Fan() const { return *fan_; }
+  const std::vector<double>& Ranges() const { return ranges_; }
+  const std::vector<double>& Retros() const { return retros_; }
 
 private:
   Scan horizontal_, vertical_;
   double min_, max_;
-  std::vector<ignition::math::Vector3d> directions_;  // in the fan's frame, unit vectors
+  std::unique_ptr<const ode_sim::RayFan> fan_;
   std::vector<double> ranges_, retros_;
   event::EventT<void()> scanned_;
 };

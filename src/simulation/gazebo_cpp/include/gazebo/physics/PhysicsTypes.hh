@@ -77,6 +77,7 @@ typedef std::vector<CollisionPtr> Collision_V;
 
 namespace ode_sim
 {
+class RayFan;
 class World;
 struct Model;
 struct Link;

@@ -45,7 +45,6 @@ public:
 
 protected:
   bool UpdateImpl(bool force) override;
-  double reported(const std::vector<double>& rays, int row, int column, bool nearest) const;
 
   physics::MultiRayShapePtr shape_;
   mutable std::mutex mutex_;
