@@ -54,8 +54,8 @@ void bind_rays(py::module_& m) {
       .def_property_readonly("count", &RayScan::count)
       .def_property_readonly("step", &RayScan::step);
   py::class_<RayFan>(m, "RayFan")
-      .def(py::init<const RayScan&, const RayScan&, double, double>(), py::arg("horizontal"), py::arg("vertical"), py::arg("min"),
-           py::arg("max"))
+      .def(py::init<const RayScan&, const RayScan&, double, double>(), py::arg("horizontal"), py::arg("vertical"),
+           py::arg("min"), py::arg("max"))
       .def_property_readonly("horizontal", &RayFan::horizontal)
       .def_property_readonly("vertical", &RayFan::vertical)
       .def_property_readonly("min", &RayFan::min)

@@ -99,9 +99,8 @@ void RayFan::blend(const double* rays, double* told, const Blend& of_four) const
 }
 
 void RayFan::between(const double* ranges, double* told) const {
-  blend(ranges, told, [](double a, double b, double c, double d, double x, double y) {
-    return linear(linear(a, b, x), linear(c, d, x), y);
-  });
+  blend(ranges, told,
+        [](double a, double b, double c, double d, double x, double y) { return linear(linear(a, b, x), linear(c, d, x), y); });
 }
 
 void RayFan::mean(const double* intensities, double* told) const {

@@ -23,7 +23,7 @@ struct RayScan {
   int samples = 1;
   double resolution = 1, min_angle = 0, max_angle = 0;
 
-  int count() const;  // of values told
+  int count() const;                                                                         // of values told
   double step() const { return count() > 1 ? (max_angle - min_angle) / (count() - 1) : 0; }  // between values told
 };
 

@@ -20,6 +20,7 @@ from moveit_msgs.msg import PlanningScene
 from moveit_msgs.srv import ApplyPlanningScene
 from moveit_ros_planning.compiled import exported
 from moveit_ros_planning.scene_monitor import GEOMETRY, SCENE, SceneMonitor
+from node_signals.children import end_with_parent
 
 from .capability import Capability, serve
 from .context import Context
@@ -83,7 +84,8 @@ class CompiledCapabilities:
         rospy.set_param(name, rospy.get_param(rospy.get_name(), {}))  # plugins read their parameters below their node's own name
         reading, writing = os.pipe()
         command = [_program(), *_arguments(context, writing, names), *_remappings(name)]
-        self._process = subprocess.Popen(command, pass_fds=(writing,), start_new_session=True)  # Ctrl-C is for move_group, which ends it
+        # In a session of its own: Ctrl-C is for move_group, which ends it.
+        self._process = subprocess.Popen(command, pass_fds=(writing,), start_new_session=True, preexec_fn=end_with_parent)
         os.close(writing)
         self._read(context, reading, set(names))
         threading.Thread(target=self._watch, name="compiled capabilities", daemon=True).start()
