@@ -17,6 +17,7 @@ With --coverage the lines of Python that were run are counted, in nodes as well;
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import queue
 import random
@@ -298,16 +299,22 @@ def _started_with(temporary: str) -> dict[int, str]:
 
 
 def end_what_is_left(temporary: str) -> list[str]:
-    """Kills the processes of a file that has ended which do not end by themselves in a moment; their names."""
-    until = time.monotonic() + GRACE
+    """Kills the processes of a file that has ended which do not end by themselves in a moment, and waits for them; their names."""
+    left = _still_there(temporary, GRACE)
+    for pid in left:
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGKILL)
+    if left:
+        _still_there(temporary, ENDING)  # on a busy machine a killed process takes a while to be gone
+    return sorted(set(left.values()))
+
+
+def _still_there(temporary: str, seconds: float) -> dict[int, str]:
+    """What :func:`_started_with` finds as soon as that is nothing, or after so long."""
+    until = time.monotonic() + seconds
     while (left := _started_with(temporary)) and time.monotonic() < until:
         time.sleep(0.1)
-    for pid in left:
-        try:
-            os.kill(pid, signal.SIGKILL)
-        except ProcessLookupError:
-            continue
-    return sorted(set(left.values()))
+    return left
 
 
 def _run_in(job: Job, scratch: Path, temporary: str) -> Result:
