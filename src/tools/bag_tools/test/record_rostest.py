@@ -22,8 +22,15 @@ class Record(unittest.TestCase):
         self.folder = folder.name
         self.publisher = rospy.Publisher("/said", String, queue_size=10, latch=True)
 
+    def wait(self, condition, otherwise):
+        end = rospy.get_time() + 30
+        while not condition() and rospy.get_time() < end:
+            rospy.sleep(0.05)
+        self.assertTrue(condition(), otherwise)
+
     def record(self, *options):
         """Until Ctrl-C, which comes when the recorder has been told five times. :returns: what it printed"""
+        self.wait(lambda: not self.publisher.get_num_connections(), "the recorder of the test before is still there")
         process = subprocess.Popen(
             ["rosbag", "record", "--mcap", *options, "/said"],
             cwd=self.folder,
@@ -33,10 +40,7 @@ class Record(unittest.TestCase):
             start_new_session=True,
         )
         self.addCleanup(process.kill)
-        end = rospy.get_time() + 30
-        while not self.publisher.get_num_connections() and rospy.get_time() < end:
-            rospy.sleep(0.05)
-        self.assertTrue(self.publisher.get_num_connections(), "the recorder did not come")
+        self.wait(self.publisher.get_num_connections, "the recorder did not come")
         for number in range(5):
             deliver(self.publisher, f"word {number}")
         deliver(self.publisher, "end")  # those before it are written when it comes
