@@ -10,6 +10,8 @@ import sys
 import time
 from pathlib import Path
 
+from node_signals.children import adopt_orphans, wait_for_all
+
 from bag_tools.convert import convert
 from bag_tools.files import BagError
 
@@ -42,9 +44,11 @@ def main(arguments: list[str]) -> int:
         return subprocess.call(["/usr/bin/rosbag", "record", "--help"])
     before = {bag: bag.stat().st_mtime_ns for bag in bags(stem)}
     signal.signal(signal.SIGINT, lambda *_: None)  # the recorder has it as well, and ends; what follows is not interrupted
+    adopt_orphans()  # on Ctrl-C rosbag ends at once, while what it has started to record still closes the bag
     recorder = subprocess.Popen(["/usr/bin/rosbag", "record", *words])
     signal.signal(signal.SIGTERM, lambda *_: recorder.send_signal(signal.SIGINT))
     code = recorder.wait()
+    wait_for_all()
     for bag in bags(stem):
         if bag.stat().st_mtime_ns == before.get(bag):
             continue
