@@ -5,10 +5,8 @@
 // What has become of each class is written to the file descriptor, a line each: "+CLASS<tab>TITLE" or "-CLASS<tab>WHY".
 #include <moveit_msgs/ApplyPlanningScene.h>
 #include <ros/ros.h>
-#include <sys/prctl.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <mutex>
 #include <pluginlib/class_loader.hpp>
 #include <string>
@@ -214,7 +212,6 @@ int run(const Arguments& arguments)
 
 int main(int argc, char** argv)
 {
-  ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // a move_group that is killed leaves nothing behind
   ros::init(argc, argv, "move_group_capabilities");
   const Arguments arguments = parse(argc, argv);
   if (arguments.report < 0)
