@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include <gazebo/physics/physics.hh>
@@ -125,7 +124,6 @@ bool RaySensor::UpdateImpl(bool)
   fan.between(shape_->Ranges().data(), ranges.data());
   fan.mean(shape_->Retros().data(), retros.data());
   const NoisePtr noise = Noise(RAY_NOISE);
-  const double infinity = std::numeric_limits<double>::infinity();
   msgs::LaserScanStamped message;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -133,12 +131,8 @@ bool RaySensor::UpdateImpl(bool)
     scan_.clear_ranges(), scan_.clear_intensities();
     for (std::size_t i = 0; i < ranges.size(); ++i)
     {
-      double range = ranges[i];
-      if (range >= RangeMax())
-        range = infinity;
-      else if (range <= RangeMin())
-        range = -infinity;
-      else if (noise)
+      double range = fan.told(ranges[i]);
+      if (noise && std::isfinite(range))
         range = std::clamp(noise->Apply(range), RangeMin(), RangeMax());
       scan_.add_ranges(range);
       scan_.add_intensities(retros[i]);

@@ -63,7 +63,13 @@ void bind_rays(py::module_& m) {
       .def_property_readonly("told_directions", &told_directions)
       .def("cast", &cast, py::arg("world"), py::arg("pose"), py::arg("housing"))
       .def("between", &told<&RayFan::between>, py::arg("ranges"))
-      .def("mean", &told<&RayFan::mean>, py::arg("intensities"));
+      .def("mean", &told<&RayFan::mean>, py::arg("intensities"))
+      .def(
+          "told",
+          [](const RayFan& fan, Doubles ranges) {
+            return py::vectorize([&fan](double range) { return fan.told(range); })(std::move(ranges));
+          },
+          py::arg("ranges"));
 }
 
 }  // namespace ode_sim

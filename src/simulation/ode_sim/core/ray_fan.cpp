@@ -108,4 +108,9 @@ void RayFan::mean(const double* intensities, double* told) const {
   else blend(intensities, told, [](double a, double b, double c, double d, double, double) { return (a + b + c + d) / 4; });
 }
 
+double RayFan::told(double range) const {
+  if (range >= max_) return std::numeric_limits<double>::infinity();
+  return range <= min_ ? -std::numeric_limits<double>::infinity() : range;
+}
+
 }  // namespace ode_sim

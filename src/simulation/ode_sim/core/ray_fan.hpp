@@ -52,6 +52,8 @@ class RayFan {
   // From rays() numbers to values() of them.
   void between(const double* ranges, double* told) const;
   void mean(const double* intensities, double* told) const;
+  // What is told of a range within [min, max]: itself, or an infinity. Noise is for those that are themselves, and keeps within the limits.
+  double told(double range) const;
 
  private:
   template <typename Blend>

@@ -59,6 +59,12 @@ def test_one_value_for_each_ray_is_left_as_it_is():
     assert plain.between(rays).tolist() == plain.mean(rays).tolist() == rays.tolist()
 
 
+def test_what_is_told_of_a_range_at_and_beyond_the_limits():
+    """REP 117."""
+    told = fan(scan(5), near=0.1, far=5.0).told(np.array([0.1, 0.10001, 3.0, 4.99999, 5.0]))
+    assert told.tolist() == [-math.inf, 0.10001, 3.0, 4.99999, math.inf]
+
+
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [

@@ -54,12 +54,11 @@ class RayFan:
         housing = [collision.id for link in self.sensor.model.links.values() for collision in link.collisions.values()]
         rays, hits = self.fan.cast(self.world.core, (*pose.p, *pose.q), housing)
         ranges, intensities = self.fan.between(rays), self.fan.mean(self._retro(hits))
-        far, near = ranges >= self.max, ranges <= self.min
+        told = self.fan.told(ranges)
+        inside = np.isfinite(told)
         if self._noise.active:  # of what is in range, and it stays there
-            ranges = np.where(far | near, ranges, np.clip(self._noise(ranges), self.min, self.max))
-        if not clipped:
-            ranges[far], ranges[near] = np.inf, -np.inf
-        return ranges, intensities
+            ranges = np.where(inside, np.clip(self._noise(ranges), self.min, self.max), ranges)
+        return ranges if clipped else np.where(inside, ranges, told), intensities
 
     def _retro(self, hits: np.ndarray) -> np.ndarray:
         """``<laser_retro>`` of what each ray hit; 0 where it hit nothing."""
