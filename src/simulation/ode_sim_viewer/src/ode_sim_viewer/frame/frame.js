@@ -50,12 +50,17 @@
     wished = !paused(), until = performance.now() + 1000;
     press(wished ? "Pause" : "Play");
   };
+  const write = (label, text) => {
+    const named = labelled(all("#root label"), label);
+    let row = named;  // viser ties not every label to its field
+    while (row && !row.querySelector("input")) row = row.parentElement;
+    const field = row?.querySelector("input");
+    if (!field || field.value === text) return;
+    Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value").set.call(field, text);  // as a hand does it: React listens
+    field.dispatchEvent(new Event("input", { bubbles: true }));
+  };
   const step = () => {
-    const wanted = document.getElementById("steps").value, field = document.getElementById(labelled(all("#root label"), "Steps")?.htmlFor);
-    if (field && field.value !== wanted) {  // as a hand does it: React listens
-      Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value").set.call(field, wanted);
-      field.dispatchEvent(new Event("input", { bubbles: true }));
-    }
+    write("Steps", document.getElementById("steps").value);
     press("Step");
   };
   const hands = ["Move and rotate by hand", "Resize by hand"];
@@ -82,7 +87,17 @@
     { icon: "record", name: "Record", do: () => tab("Record") },
     { icon: "timeline", name: "Go back in time", do: () => tab("Timeline") },
   ];
-  const check = (name, home) => ({ name, home, on: () => box(name, home)?.checked });
+  const check = name => ({ name, on: () => box(name)?.checked });
+  // A box of a list that may not be shown: React draws it when the page is idle, so that what it shows may be old, and a click on it, too.
+  const wishes = new Map();  // they count until the simulator has said so; viser sends the last text only, so all go together
+  let number = 0;
+  const told = name => shown("switches").split("\n").includes(name);
+  const fresh = () => [...wishes].filter(([, { until }]) => performance.now() < until);
+  const isOn = name => Object.fromEntries(fresh())[name]?.on ?? told(name);
+  const switchable = name => ({ name, on: () => isOn(name), do: () => {
+    wishes.set(name, { on: !isOn(name), until: performance.now() + 5000 });
+    write("Switch", JSON.stringify([++number, Object.fromEntries(fresh().map(([label, { on }]) => [label, on]))]));
+  } });
   const SEEN = ["Grid", "Transparent", "Wireframe", "Shadows", null, "Collisions", "Centres of mass", "Inertias", "Joints", "Link frames", "Labels", "Contacts"];
   const panel = () => !document.documentElement.classList.contains("alone");
   const MENUS = {
@@ -90,8 +105,8 @@
     Edit: () => [UNDO, REDO, null, COPY, DELETE, null, { name: "Reset time", press: "Time" }, { name: "Reset model poses", press: "Models" },
       { name: "Reset world", press: "All" }, null, { name: "Building editor", do: () => tab("Building") },
       { name: "Model editor", do: () => tab("Model") }, null, check("Hold the controls")],
-    Camera: () => [LOOK, check("Follow what is picked", "Scene"), null, ...VIEWS],
-    View: () => [...SEEN.map(name => name && check(name, "Scene")), null,
+    Camera: () => [LOOK, switchable("Follow what is picked"), null, ...VIEWS],
+    View: () => [...SEEN.map(name => name && switchable(name)), null,
       { name: "Panel at the left", on: panel, do: () => document.documentElement.classList.toggle("alone") }],
     Window: () => tabs(groups()[1]).map(e => e.textContent.trim()).map(name => ({ name, do: () => tab(name) })),
   };
@@ -217,6 +232,7 @@
     put("bar_run", now);
     for (const name of ["sim_time", "real_time", "iterations"]) put(`bar_${name}`, shown(name));
     put("bar_drawn", document.documentElement.dataset.drawn ?? "");
+    for (const [label, { on }] of wishes) if (told(label) === on) wishes.delete(label);
     for (const [button, tool] of buttons) draw(button, tool);
     for (const [button, tool] of entries) mark(button, tool);
     const list = opened(groups()[1]), what = shown("picked");

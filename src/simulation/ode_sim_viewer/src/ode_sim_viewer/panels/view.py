@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Callable
 from typing import Any
 
 from ode_sim_viewer.eye import put_eye, view_of
 from ode_sim_viewer.overlays import Overlays
-from ode_sim_viewer.panels.base import Panel
+from ode_sim_viewer.panels.base import Panel, escaped
 from ode_sim_viewer.simulation import Frame
 
 _VIEWS = {"Front": (1.0, 0.0, 0.15), "Left": (0.0, 1.0, 0.15), "Top": (0.01, 0.0, 1.0), "Corner": (0.7, -0.7, 0.4)}
@@ -17,6 +19,11 @@ class ViewPanel(Panel):
 
     def __init__(self, page: Any):
         super().__init__(page)
+        self._switches: dict[str, tuple[Any, Callable[[bool], Any]]] = {}  # by label: the box, and what it does
+        with page.commands:  # a browser draws the boxes of a list that is not shown when it is idle: the menu neither reads nor presses them
+            self._asked = self.gui.add_text("Switch", "")
+            self._told = self.gui.add_html("")
+        self._asked.on_update(self._on_asked)
         for kind in Overlays.KINDS:
             box = self.gui.add_checkbox(kind.capitalize(), False)
             self._on_box(box, lambda on, kind=kind: page.overlays.show(kind, on))
@@ -29,12 +36,39 @@ class ViewPanel(Panel):
             self._on_box(box, lambda on, name=name: self._draw_as(name, on))
         self.gui.add_button("Show all", hint="from where the whole world is seen").on_click(self._on_all)
         self._follow = self.gui.add_checkbox("Follow what is picked", False, hint="the eye keeps its distance")
+        self._on_box(self._follow, lambda on: None)
         views = self.gui.add_button_group("Look from", tuple(_VIEWS))
         views.on_click(self._on_view)
         self._followed: tuple = ()
+        self._tell()
 
-    def _on_box(self, box: Any, f: Any) -> None:
-        box.on_update(lambda event: event.client_id is not None and self.page.later(lambda: f(event.target.value)))
+    def _on_box(self, box: Any, f: Callable[[bool], Any]) -> None:
+        self._switches[box.label] = box, f
+        box.on_update(lambda event: event.client_id is not None and self._switch(f, event.target.value))
+
+    def _switch(self, f: Callable[[bool], Any], on: bool) -> None:
+        self.page.later(lambda: f(on))
+        self._tell()
+
+    def _tell(self) -> None:
+        """What is on, a label a line; the frame reads it."""
+        on = [escaped(label) for label, (box, _) in self._switches.items() if box.value]
+        self._told.content = f"<b id='switches'>{chr(10).join(on)}</b>"
+
+    def _on_asked(self, event: Any) -> None:
+        """``[3, {"Shadows": true}]``: what the frame writes for the third entry that is chosen from its menu, with those just before it."""
+        if event.client_id is None:
+            return
+        try:
+            _, wanted = json.loads(event.target.value)
+            known = {label: bool(wanted[label]) for label in self._switches if label in wanted}
+        except (ValueError, TypeError):  # a page may send anything
+            return
+        for label, on in known.items():
+            box, f = self._switches[label]
+            if box.value != on:
+                box.value = on
+                self._switch(f, on)
 
     def _draw_as(self, name: str, on: bool) -> None:
         setattr(self.page.drawing, name, on)
