@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from ode_sim_viewer.eye import put_eye, view_of
@@ -20,20 +21,20 @@ class ViewPanel(Panel):
     def __init__(self, page: Any):
         super().__init__(page)
         self._switches: dict[str, tuple[Any, Callable[[bool], Any]]] = {}  # by label: the box, and what it does
-        with page.commands:  # a browser draws the boxes of a list that is not shown when it is idle: the menu neither reads nor presses them
+        with page.commands:  # for the menu: a browser draws the boxes of a list that is not shown only when it is idle
             self._asked = self.gui.add_text("Switch", "")
             self._told = self.gui.add_html("")
         self._asked.on_update(self._on_asked)
         for kind in Overlays.KINDS:
             box = self.gui.add_checkbox(kind.capitalize(), False)
-            self._on_box(box, lambda on, kind=kind: page.overlays.show(kind, on))
+            self._on_box(box, partial(page.overlays.show, kind))
         self._on_box(self.gui.add_checkbox("Contacts", False, hint="where bodies touch, and with what force"), page.overlays.contacts)
         self._scale = self.gui.add_number("Arrow for 1 N (m)", page.overlays.force_scale, min=1e-6, max=10.0, step=0.001)
         self._scale.on_update(lambda event: setattr(page.overlays, "force_scale", float(event.target.value)))
         self._on_box(self.gui.add_checkbox("Grid", True), lambda on: setattr(page.drawing.grid, "visible", on))
         for name in ("transparent", "wireframe", "shadows"):
             box = self.gui.add_checkbox(name.capitalize(), getattr(page.drawing, name))
-            self._on_box(box, lambda on, name=name: self._draw_as(name, on))
+            self._on_box(box, partial(self._draw_as, name))
         self.gui.add_button("Show all", hint="from where the whole world is seen").on_click(self._on_all)
         self._follow = self.gui.add_checkbox("Follow what is picked", False, hint="the eye keeps its distance")
         self._on_box(self._follow, lambda on: None)
@@ -44,7 +45,12 @@ class ViewPanel(Panel):
 
     def _on_box(self, box: Any, f: Callable[[bool], Any]) -> None:
         self._switches[box.label] = box, f
-        box.on_update(lambda event: event.client_id is not None and self._switch(f, event.target.value))
+
+        def pressed(event: Any) -> None:
+            if event.client_id is not None:
+                self._switch(f, event.target.value)
+
+        box.on_update(pressed)
 
     def _switch(self, f: Callable[[bool], Any], on: bool) -> None:
         self.page.later(lambda: f(on))
