@@ -1,9 +1,12 @@
 """The kernel's bound on the processes of a submission."""
 
+import json
 import os
+import pathlib
 import signal
 import subprocess
 import sys
+import tempfile
 
 import pytest
 from lab_check.isolation import control_group
@@ -49,7 +52,54 @@ def test_programs_of_a_submission_start_no_more_than_they_may_together(place):
 
 def test_without_such_groups_there_is_no_bound(monkeypatch, tmp_path):
     monkeypatch.setattr(control_group, "HIERARCHIES", (str(tmp_path), str(tmp_path / "absent")))
+    monkeypatch.setattr(control_group, "delegated", lambda: [])
     with control_group.bounded(20) as place:
         assert place == ""
         control_group.enter(place)
     assert not any(tmp_path.iterdir())
+
+
+# As systemd lays them out: what is above the user's own manager is root's, what is below it the user's.
+LAPTOP = "user.slice/user-1000.slice/user@1000.service/app.slice/terminal.scope"
+DELEGATED = {
+    "a terminal on a desktop": (f"0::/{LAPTOP}\n", ["user.slice/user-1000.slice/user@1000.service"]),
+    "with version 1 beside it": (f"9:pids:/\n0::/{LAPTOP}\n", ["user.slice/user-1000.slice/user@1000.service"]),
+    "a login by ssh": ("0::/user.slice/user-1000.slice/session-3.scope\n", []),
+    "a container": ("0::/\n", []),
+    "out of its namespace": ("0::/../../elsewhere\n", []),
+    "version 1 alone": ("9:pids:/\n4:memory:/a\n", []),
+    "no such file": (None, []),
+}
+ASK = "import json, sys; from lab_check.isolation import control_group as g; print(json.dumps(g.delegated(*sys.argv[1:])))"
+
+
+@pytest.fixture
+def open_folder():
+    """Where a user may look who is not the one that tests."""
+    with tempfile.TemporaryDirectory(prefix="lab_check_group_") as name:
+        os.chmod(name, 0o755)
+        yield pathlib.Path(name)
+
+
+@pytest.mark.parametrize("case", DELEGATED)
+def test_a_user_makes_groups_in_what_systemd_gave_to_them(case, open_folder):
+    told, expected = DELEGATED[case]
+    mounted, own = open_folder / "cgroup", open_folder / "own"
+    for path in (LAPTOP, "user.slice/user-1000.slice/session-3.scope", "../elsewhere"):
+        for folder in (mounted / path, *(mounted / path).parents):
+            if open_folder in folder.parents:
+                folder.mkdir(parents=True, exist_ok=True)
+                (folder / "cgroup.procs").touch()
+    if told is not None:
+        own.write_text(told)
+    user = 65534 if os.geteuid() == 0 else os.geteuid()
+    for entry in (mounted, *mounted.rglob("*")):
+        mine = "user@1000.service" in str(entry)
+        entry.chmod((0o444, 0o555, 0o644, 0o755)[2 * mine + entry.is_dir()])
+        if mine:
+            os.chown(entry, user, -1)
+    wish = {"user": user, "group": user, "extra_groups": []} if os.geteuid() == 0 else {}
+    asked = subprocess.run([sys.executable, "-c", ASK, str(mounted), str(own)], capture_output=True, text=True, check=True, **wish)
+    for entry in (mounted, *mounted.rglob("*")):
+        entry.chmod(0o755)
+    assert json.loads(asked.stdout) == [str(mounted / path) for path in expected]

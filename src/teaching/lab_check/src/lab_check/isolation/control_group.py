@@ -16,6 +16,7 @@ from collections.abc import Iterator
 
 # Version 1 of control groups has a hierarchy for each resource, version 2 one for all.
 HIERARCHIES = ("/sys/fs/cgroup/pids", "/sys/fs/cgroup/memory", "/sys/fs/cgroup")
+_OWN = "/proc/self/cgroup"
 _PREFIX = "lab_check_"  # versions that locked none called theirs lab_check.
 _LEAVING = 5.0  # s that killed processes may take to be gone
 _BOUNDS = {"pids.max": "processes", "memory.max": "memory", "memory.limit_in_bytes": "memory"}
@@ -84,11 +85,30 @@ def ended_for_memory(place: str) -> int:
     return 0
 
 
+def delegated(mounted: str = HIERARCHIES[-1], own: str = _OWN) -> list[str]:
+    """The highest group of version 2 above this process that this user may change, if there is one below the root: systemd hands one to
+    each user whose programs run below their own manager (a terminal on a desktop, ``systemd-run --user --scope``). The kernel moves a
+    process within what its user may write, and no further.
+
+    :param mounted: where the hierarchy is
+    :param own: says in which group this process is
+    """
+    try:
+        lines = pathlib.Path(own).read_text().splitlines()
+    except OSError:
+        return []
+    path = next((line[len("0::") :] for line in lines if line.startswith("0::")), "")
+    place, highest = os.path.normpath(f"{mounted}/{path}"), []
+    while place.startswith(mounted + "/") and all(os.access(f, os.W_OK) for f in (place, os.path.join(place, "cgroup.procs"))):
+        highest, place = [place], os.path.dirname(place)
+    return highest
+
+
 def _make(bounds: dict[str, str]) -> dict[str, int]:
     """Folders that together keep the bounds, as far as this machine lets us make them, each with the descriptor of its lock."""
     places: dict[str, int] = {}
     kept: set = set()
-    for hierarchy in HIERARCHIES:
+    for hierarchy in (*HIERARCHIES, *delegated()):
         _sweep(hierarchy)
         try:
             place, lock = _new(hierarchy)
