@@ -105,6 +105,18 @@ NAMES: dict[str, tuple[tuple[str, ...], Callable[[Any], None]]] = {
 }
 
 
+def pick(file: Path) -> None:
+    """A film: a UR5 with a gripper plans round a post, picks a block and puts it down behind it."""
+    with master() as environment, running(environment, "roslaunch", *PICK, stdout=subprocess.DEVNULL):
+        done = subprocess.run([sys.executable, str(ROOT / "scripts" / "film.py"), str(file)], env=environment, stdout=subprocess.DEVNULL)
+    if done.returncode:
+        raise Trouble("what film.py said is above")
+
+
+PICK = ("myur5_pick_place", "pick_place.launch", "gui:=false", "rviz:=false")
+FILMS: dict[str, Callable[[Path], None]] = {"pick": pick}
+
+
 def shot(page: Any) -> Any:
     """The page as it is, an image of PIL."""
     from PIL import Image
@@ -130,6 +142,10 @@ def make(name: str, house: Path | None, out: Path) -> Path:
     """:raises Trouble: it cannot be made here."""
     from PIL import Image
 
+    if name in FILMS:
+        file = out / f"{name}.webp"
+        FILMS[name](file)
+        return file
     launched, act = NAMES[name]
     models = ""
     if act is gzclient_house:
@@ -145,7 +161,8 @@ def make(name: str, house: Path | None, out: Path) -> Path:
 
 
 def main() -> int:
-    listed = "\n".join(f"  {name:20} {act.__doc__}" for name, (_, act) in NAMES.items())
+    does = {**{name: act for name, (_, act) in NAMES.items()}, **FILMS}
+    listed = "\n".join(f"  {name:20} {act.__doc__}" for name, act in does.items())
     parser = argparse.ArgumentParser(
         prog="scripts/pictures", description=f"{__doc__}\n\n{listed}", formatter_class=argparse.RawDescriptionHelpFormatter
     )
@@ -153,12 +170,12 @@ def main() -> int:
     parser.add_argument("--house", type=Path, help=f"folder of {HOUSE}")
     parser.add_argument("--out", type=Path, default=ROOT / "docs" / "pictures", help="folder (default docs/pictures)")
     options = parser.parse_args()
-    unknown = [name for name in options.names if name not in NAMES]
+    unknown = [name for name in options.names if name not in does]
     if unknown or missing():
-        why = f"there is no picture {unknown[0]}; there are {', '.join(NAMES)}" if unknown else f"not installed: {missing()}"
+        why = f"there is no picture {unknown[0]}; there are {', '.join(does)}" if unknown else f"not installed: {missing()}"
         print(f"scripts/pictures: {why}", file=sys.stderr)
         return 2
-    for name in options.names or [name for name in NAMES if name != "gzclient_house" or options.house]:
+    for name in options.names or [name for name in does if name != "gzclient_house" or options.house]:
         try:
             print(make(name, options.house, options.out))
         except (Trouble, AssertionError) as error:
