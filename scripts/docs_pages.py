@@ -99,7 +99,7 @@ def write(folder):
         capture_output=True,
         text=True,
     )
-    beside = {Path(name) for name in tracked.stdout.split("\0") if name.endswith((".png", ".jpg", ".svg", ".gif", ".html"))}
+    beside = {Path(name) for name in tracked.stdout.split("\0") if name.endswith((".png", ".jpg", ".svg", ".gif", ".webp", ".html"))}
     known, address = {*pages(), *beside}, repository()
     for path in sorted(known):
         target = content / place(path)
