@@ -158,6 +158,35 @@ class Screenshot(unittest.TestCase):
         nodes = {n for group in rosgraph.Master("/test").getSystemState() for _, names in group for n in names}
         self.assertFalse([n for n in nodes if "rviz" in n])
 
+    def test_what_a_crash_left_in_the_graph_goes_and_who_lives_stays(self):
+        node = (
+            "import rospy; rospy.init_node('rviz_{0}'); rospy.Publisher('/n{0}/seen', rospy.AnyMsg, queue_size=1); "
+            "rospy.Subscriber('/n{0}/heard', rospy.AnyMsg, print); rospy.Service('/n{0}/asked', Empty, print); print('up', flush=True); rospy.spin()"
+        )
+        started = [
+            subprocess.Popen([sys.executable, "-c", "from std_srvs.srv import Empty; " + node.format(k)], stdout=subprocess.PIPE)
+            for k in (4711, 4712)
+        ]
+        try:
+            for process in started:
+                self.assertEqual(process.stdout.readline(), b"up\n")
+            started[0].kill()
+            started[0].wait()
+            self.assertIn("/rviz_4711", self.graph())
+            self.picture("xvfb")
+            listed = str(self.graph())
+            self.assertNotIn("4711", listed)
+            self.assertTrue(all(name in listed for name in ("/rviz_4712", "/n4712/seen", "/n4712/heard", "/n4712/asked")), listed)
+        finally:
+            for process in started:
+                process.kill()
+                process.wait()
+                process.stdout.close()
+
+    @staticmethod
+    def graph():
+        return str(rosgraph.Master("/test").getSystemState())
+
     def test_what_is_not_drawn_is_named(self):
         path = os.path.join(self.folder, "n.png")
         result = screenshot("-d", CONFIG, "-o", path, "-f", "nowhere", "--timeout", "1")

@@ -18,6 +18,7 @@ import rospkg
 import rospy
 import yaml
 
+from . import dead_nodes
 from .display import die_with_parent, private_display
 from .errors import OffscreenError, RvizCrashed, ScreenshotError
 from .views import View, parse_view
@@ -189,6 +190,8 @@ def run_grabber(job: dict, environment: dict[str, str], limit: float) -> dict:
         process.kill()
         process.wait()
         raise
+    finally:
+        dead_nodes.unregister()  # one that crashed when it left has given its answer before
     with os.fdopen(reading) as answers:
         answer = answers.readline()
     if answer:
