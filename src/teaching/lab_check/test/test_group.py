@@ -76,7 +76,7 @@ ASK = "import json, sys; from lab_check.isolation import control_group as g; pri
 @pytest.fixture
 def open_folder():
     """Where a user may look who is not the one that tests."""
-    with tempfile.TemporaryDirectory(prefix="lab_check_group_") as name:
+    with tempfile.TemporaryDirectory(prefix="lab_check_group_", dir="/tmp") as name:  # TMPDIR may be the tester's alone
         os.chmod(name, 0o755)
         yield pathlib.Path(name)
 

@@ -18,9 +18,8 @@ def unregister() -> None:
     """As ``rosnode cleanup`` does it, for RViz's nodes of this machine where nobody answers any more."""
     with contextlib.suppress(rosgraph.MasterException, OSError):
         published, subscribed, services = rosgraph.Master("/screenshot").getSystemState()
-        for name in {
-            node for listed in (published, subscribed, services) for _, nodes in listed for node in nodes if _RVIZ.fullmatch(node)
-        }:
+        nodes = {node for listed in (published, subscribed, services) for _, names in listed for node in names}
+        for name in filter(_RVIZ.fullmatch, nodes):
             master = rosgraph.Master(name)
             uri = master.lookupNode(name)
             if _answers(uri):
