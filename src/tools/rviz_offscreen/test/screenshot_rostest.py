@@ -161,7 +161,8 @@ class Screenshot(unittest.TestCase):
     def test_what_a_crash_left_in_the_graph_goes_and_who_lives_stays(self):
         node = (
             "import rospy; rospy.init_node('rviz_{0}'); rospy.Publisher('/n{0}/seen', rospy.AnyMsg, queue_size=1); "
-            "rospy.Subscriber('/n{0}/heard', rospy.AnyMsg, print); rospy.Service('/n{0}/asked', Empty, print); print('up', flush=True); rospy.spin()"
+            "rospy.Subscriber('/n{0}/heard', rospy.AnyMsg, print); rospy.Service('/n{0}/asked', Empty, print); "
+            "print('up', flush=True); rospy.spin()"
         )
         started = [
             subprocess.Popen([sys.executable, "-c", "from std_srvs.srv import Empty; " + node.format(k)], stdout=subprocess.PIPE)
