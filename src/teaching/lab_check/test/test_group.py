@@ -66,7 +66,7 @@ DELEGATED = {
     "with version 1 beside it": (f"9:pids:/\n0::/{LAPTOP}\n", ["user.slice/user-1000.slice/user@1000.service"]),
     "a login by ssh": ("0::/user.slice/user-1000.slice/session-3.scope\n", []),
     "a container": ("0::/\n", []),
-    "out of its namespace": ("0::/../../elsewhere\n", []),
+    "out of its namespace": ("0::/../elsewhere\n", []),
     "version 1 alone": ("9:pids:/\n4:memory:/a\n", []),
     "no such file": (None, []),
 }
@@ -93,8 +93,9 @@ def test_a_user_makes_groups_in_what_systemd_gave_to_them(case, open_folder):
     if told is not None:
         own.write_text(told)
     user = 65534 if os.geteuid() == 0 else os.geteuid()
-    for entry in (mounted, *mounted.rglob("*")):
-        mine = "user@1000.service" in str(entry)
+    outside = open_folder / "elsewhere"  # the user's, and no group of this hierarchy
+    for entry in (mounted, *mounted.rglob("*"), outside, outside / "cgroup.procs"):
+        mine = "user@1000.service" in str(entry) or outside in (entry, entry.parent)
         entry.chmod((0o444, 0o555, 0o644, 0o755)[2 * mine + entry.is_dir()])
         if mine:
             os.chown(entry, user, -1)
