@@ -15,7 +15,6 @@ from joint_limits_interface import (
     shortest_angular_distance,
     soft_limits_from_urdf,
 )
-from joint_limits_interface.limits import apply_limits, soft_limits_of
 
 URDF = """<robot name="r">
   <joint name="rev" type="revolute"><limit lower="-1" upper="2" velocity="3" effort="4"/>
@@ -66,40 +65,6 @@ def test_bad_urdf():
         with pytest.raises(DescriptionError, match="is no number"):
             read_joints(f'<robot><joint name="j" type="revolute"><limit velocity="{bad}"/></joint></robot>')
     assert read_joints('<robot><joint name="a & b" type="fixed"/></robot>').keys() == {"a  b"}  # as TinyXML reads it
-
-
-@pytest.mark.parametrize(
-    "values, changed",
-    [
-        ({"has_velocity_limits": True, "max_velocity": 2}, {"has_velocity_limits": True, "max_velocity": 2.0}),
-        ({"max_velocity": 2.0}, {}),  # no flag: ignored
-        ({"has_velocity_limits": True}, {}),  # flag without value: kept as it was
-        ({"has_velocity_limits": False, "max_velocity": 2.0}, {"has_velocity_limits": False}),
-        ({"has_position_limits": True, "min_position": -1.0}, {}),  # half a range
-        (
-            {"has_position_limits": True, "min_position": -1.0, "max_position": 1.0},
-            {"has_position_limits": True, "min_position": -1.0, "max_position": 1.0},
-        ),
-        ({"has_position_limits": False, "angle_wraparound": True}, {"has_position_limits": False, "angle_wraparound": True}),
-        ({"angle_wraparound": True}, {}),
-        ({"has_effort_limits": True, "max_effort": "a lot"}, {}),
-        ({"has_velocity_limits": True, "max_velocity": -math.inf}, {}),  # nothing can be kept within these
-        ({"has_velocity_limits": True, "max_velocity": math.nan}, {}),
-        ({"has_position_limits": True, "min_position": math.inf, "max_position": math.inf}, {}),
-        ({"has_velocity_limits": True, "max_velocity": math.inf}, {"max_velocity": math.inf}),
-    ],
-)
-def test_parameters_override(values, changed):
-    before = JointLimits(has_velocity_limits=True, max_velocity=1.0, has_position_limits=True, min_position=-3.0, max_position=3.0)
-    assert apply_limits(values, before) == JointLimits(**{**vars(before), **changed})
-
-
-def test_soft_parameters():
-    values = {"has_soft_limits": True, "soft_lower_limit": -1, "soft_upper_limit": 1.0, "k_position": 2.0, "k_velocity": 3.0}
-    assert soft_limits_of(values) == SoftJointLimits(-1.0, 1.0, 2.0, 3.0)
-    assert soft_limits_of({**values, "has_soft_limits": False}) is None
-    del values["k_velocity"]
-    assert soft_limits_of(values) is None
 
 
 def test_an_infinite_angle_is_no_number():

@@ -1,7 +1,7 @@
-// Limits of a joint from its robot's description.
+// Limits of a joint from its robot's description; what it says: limit_sources.h.
 #pragma once
 
-#include <joint_limits_interface/joint_limits.h>
+#include <joint_limits_interface/limit_sources.h>
 #include <ros/console.h>
 #include <urdf/urdfdom_compatibility.h>
 #include <urdf_model/joint.h>
@@ -14,18 +14,10 @@ inline bool getJointLimits(urdf::JointConstSharedPtr urdf_joint, JointLimits& li
 {
   if (!urdf_joint || !urdf_joint->limits)
     return false;
-  limits.has_position_limits = urdf_joint->type == urdf::Joint::REVOLUTE || urdf_joint->type == urdf::Joint::PRISMATIC;
-  if (limits.has_position_limits)
-  {
-    limits.min_position = urdf_joint->limits->lower;
-    limits.max_position = urdf_joint->limits->upper;
-  }
-  limits.angle_wraparound = urdf_joint->type == urdf::Joint::CONTINUOUS;
-  limits.has_velocity_limits = true;
-  limits.max_velocity = urdf_joint->limits->velocity;
-  limits.has_acceleration_limits = false;
-  limits.has_effort_limits = true;
-  limits.max_effort = urdf_joint->limits->effort;
+  const urdf::JointLimits& limit = *urdf_joint->limits;
+  apply_description(urdf_joint->type == urdf::Joint::REVOLUTE || urdf_joint->type == urdf::Joint::PRISMATIC,
+                    urdf_joint->type == urdf::Joint::CONTINUOUS, limit.lower, limit.upper, limit.velocity, limit.effort,
+                    limits);
   return true;
 }
 
