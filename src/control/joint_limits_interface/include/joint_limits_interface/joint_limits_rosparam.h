@@ -45,19 +45,33 @@ private:
   mutable XmlRpc::XmlRpcValue map_;  ///< Its [] is not const in every release.
 };
 
+/// What stands at <nh>/joint_limits/<joint>. \return false: nothing; also for a joint of a name that no parameter can have
+inline bool read_limits(const std::string& joint_name, const ros::NodeHandle& nh, XmlRpc::XmlRpcValue& values)
+{
+  const std::string name = "joint_limits/" + joint_name;
+  try
+  {
+    if (nh.getParam(name, values))
+      return true;
+    ROS_DEBUG_STREAM("No joint limits specification found for joint '" << joint_name << "' in the parameter server (namespace "
+                                                                       << nh.getNamespace() + "/" + name << ").");
+  }
+  catch (const ros::InvalidNameException& error)
+  {
+    ROS_ERROR_STREAM("joint '" << joint_name
+                               << "': no parameter can have this name, so it has no limits of joint_limits: " << error.what());
+  }
+  return false;
+}
+
 }  // namespace internal
 
 /// What <nh>/joint_limits/<joint> says, on top of what \p limits has. \return false: there is no such namespace
 inline bool getJointLimits(const std::string& joint_name, const ros::NodeHandle& nh, JointLimits& limits)
 {
-  const std::string name = "joint_limits/" + joint_name;
   XmlRpc::XmlRpcValue values;
-  if (!nh.getParam(name, values))
-  {
-    ROS_DEBUG_STREAM("No joint limits specification found for joint '" << joint_name << "' in the parameter server (namespace "
-                                                                       << nh.getNamespace() + "/" + name << ").");
+  if (!internal::read_limits(joint_name, nh, values))
     return false;
-  }
   apply_parameters(internal::ParameterMap(values), limits);
   return true;
 }
@@ -66,7 +80,7 @@ inline bool getJointLimits(const std::string& joint_name, const ros::NodeHandle&
 inline bool getSoftJointLimits(const std::string& joint_name, const ros::NodeHandle& nh, SoftJointLimits& soft_joint_limits)
 {
   XmlRpc::XmlRpcValue values;
-  return nh.getParam("joint_limits/" + joint_name, values) &&
+  return internal::read_limits(joint_name, nh, values) &&
          apply_soft_parameters(internal::ParameterMap(values), soft_joint_limits);
 }
 
