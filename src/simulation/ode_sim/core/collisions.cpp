@@ -95,23 +95,25 @@ void find_pairs(Scene& scene, StepState& state) {
   });
 }
 
-// The faceted mesh of a cylinder, where the cylinder is; else the shape's geom.
-dGeomID faceted_geom(const Shape& shape) {
-  if (!shape.faceted) return shape.geom;
+// `instead`, put where the shape's geom is.
+dGeomID placed(dGeomID instead, const Shape& shape) {
   const dReal* p = dGeomGetPosition(shape.geom);
-  dGeomSetPosition(shape.faceted, p[0], p[1], p[2]);
-  dGeomSetRotation(shape.faceted, dGeomGetRotation(shape.geom));
-  return shape.faceted;
+  dGeomSetPosition(instead, p[0], p[1], p[2]);
+  dGeomSetRotation(instead, dGeomGetRotation(shape.geom));
+  return instead;
 }
 
-// ODE has no collider for two cylinders, or a cylinder and a capsule: one of them goes in as a faceted mesh.
-std::pair<dGeomID, dGeomID> geoms_of(const Shape& a, const Shape& b) {
+// ODE has no collider for two cylinders, or a cylinder and a capsule: one of them goes in as a faceted mesh. Of two meshes the larger
+// goes in as the piece that the other comes near, if there is one.
+std::pair<dGeomID, dGeomID> geoms_of(const Shape& a, const Shape& b, const MeshPiece* piece) {
+  if (piece && piece_is_of_first(a, b)) return {placed(piece->geom, a), b.geom};
+  if (piece) return {a.geom, placed(piece->geom, b)};
   const int ta = dGeomGetClass(a.geom), tb = dGeomGetClass(b.geom);
   const Shape* stand_in = nullptr;
   if (ta == dCylinderClass && (tb == dCylinderClass || tb == dCapsuleClass)) stand_in = &a;
   else if (tb == dCylinderClass && ta == dCapsuleClass) stand_in = &b;
   if (!stand_in || !stand_in->faceted) return {a.geom, b.geom};
-  const dGeomID faceted = faceted_geom(*stand_in);
+  const dGeomID faceted = placed(stand_in->faceted, *stand_in);
   if (stand_in == &a) return {faceted, b.geom};
   return {a.geom, faceted};
 }
@@ -166,9 +168,11 @@ int contacts_on_ridges(const Shape& a, const Shape& b, dContactGeom* found, int 
 }
 
 int find_contacts(Scene& scene, const Shape& a, const Shape& b, dContactGeom* found) {
-  if (scene.separations.apart(a, b)) return 0;
   try {
-    const auto [ga, gb] = geoms_of(a, b);
+    // The order of contacts is Gazebo's where the whole meshes are searched.
+    const MeshPiece* piece = scene.settings.like_gazebo ? nullptr : scene.mesh_pieces.between(a, b);
+    if (scene.separations.apart(a, b, piece)) return 0;
+    const auto [ga, gb] = geoms_of(a, b, piece);
     if (scene.settings.like_gazebo) return std::min(collide_as_gazebo(scene, a, b, ga, gb, found), kMostFound);
     int n = std::min(dCollide(ga, gb, kMostFound, found, sizeof found[0]), kMostFound);
     if (n == 0) n = missed_contacts(ga, gb, found);

@@ -9,6 +9,7 @@
 
 #include "broad_phase.hpp"
 #include "contact.hpp"
+#include "mesh_piece.hpp"
 #include "model.hpp"
 #include "separation.hpp"
 
@@ -64,6 +65,7 @@ struct Scene {
   std::map<int, Shape*> shapes;  // by id
   std::vector<Weld> welds;
   BroadPhase broad_phase;
+  MeshPieces mesh_pieces;
   Separations separations;
   std::vector<Borne> borne;  // in the last step, in the order of its contacts
 

@@ -63,12 +63,12 @@ bool outside_ball(dGeomID triangles, dGeomID ball, const Vec3& middle, double ra
   return dCollide(triangles, ball, 1 | CONTACTS_UNIMPORTANT, &first, sizeof first) == 0;
 }
 
-bool Separations::apart(const Shape& a, const Shape& b) {
+bool Separations::apart(const Shape& a, const Shape& b, const MeshPiece* piece) {
   if (!(a.mesh || a.infinite) || !(b.mesh || b.infinite) || !(a.mesh || b.mesh)) return false;
   Known& known = known_[static_cast<uint64_t>(a.id) << 32 | static_cast<uint32_t>(b.id)];
   if (a.infinite) return apart_from_plane(known, b, a);
   if (b.infinite) return apart_from_plane(known, a, b);
-  return meshes_apart(known, a, b);
+  return meshes_apart(known, a, b, piece);
 }
 
 bool Separations::apart_from_plane(Known& known, const Shape& mesh, const Shape& plane) {
@@ -87,25 +87,29 @@ bool Separations::apart_from_plane(Known& known, const Shape& mesh, const Shape&
   return false;
 }
 
-bool Separations::meshes_apart(Known& known, const Shape& a, const Shape& b) {
+bool Separations::meshes_apart(Known& known, const Shape& a, const Shape& b, const MeshPiece* piece) {
+  if (piece && !piece->mesh) return true;
   const Pose X_WA = a.link->X_WL * a.X_LC, X_WB = b.link->X_WL * b.X_LC, X_AB = inverse(X_WA) * X_WB;
+  if (const uint64_t number = piece ? piece->number : 0; known.piece != number) known = {X_AB, 0, known.n, 0, number};
+  const bool first_is_larger = piece_is_of_first(a, b);
+  const MeshData& ma = piece && first_is_larger ? *piece->mesh : *a.mesh;
+  const MeshData& mb = piece && !first_is_larger ? *piece->mesh : *b.mesh;
   if (known.wait > 0) --known.wait;
-  if (known.distance > most_moved(known.X_AB, X_AB, b.mesh->middle, b.mesh->reach)) return true;
+  if (known.distance > most_moved(known.X_AB, X_AB, mb.middle, mb.reach)) return true;
   known.distance = 0;
   if (known.wait == 0) {
-    known.wait = static_cast<int>((a.mesh->vertices.size() + b.mesh->vertices.size()) / 3 / kCornersAStep);
+    known.wait = static_cast<int>((ma.vertices.size() + mb.vertices.size()) / 3 / kCornersAStep);
     known.X_AB = X_AB;
-    known.distance = hulls_apart(*a.mesh, *b.mesh, X_AB, known.n) - kGap;
+    known.distance = hulls_apart(ma, mb, X_AB, known.n) - kGap;
     if (known.distance > 0) return true;
     known.distance = 0;
   }
-  const bool a_is_smaller = a.mesh->reach < b.mesh->reach;
-  const MeshData& small = a_is_smaller ? *a.mesh : *b.mesh;
+  const MeshData& small = first_is_larger ? mb : ma;
   const double beside = kBeside * small.reach;
   if (beside < kGap) return false;
   if (!ball_) ball_ = OwnedGeom(dCreateSphere(nullptr, 1));
-  if (!outside_ball(a_is_smaller ? b.geom : a.geom, ball_, (a_is_smaller ? X_WA : X_WB) * small.middle, small.reach + beside))
-    return false;
+  const Vec3 middle = (first_is_larger ? X_WB : X_WA) * small.middle;
+  if (!outside_ball(first_is_larger ? a.geom : b.geom, ball_, middle, small.reach + beside)) return false;
   known.X_AB = X_AB;
   known.distance = beside - kGap;
   return true;

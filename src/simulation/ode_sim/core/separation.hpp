@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "mesh_piece.hpp"
 #include "model.hpp"
 
 namespace ode_sim {
@@ -24,7 +25,8 @@ double most_moved(const Pose& X, const Pose& Y, const Vec3& middle, double reach
 class Separations {
  public:
   // Whether the two are two meshes, or a mesh and a plane, with no contacts, as far as is known or quickly found out.
-  bool apart(const Shape& a, const Shape& b);
+  // piece: of the larger of two meshes, if a part of it is all that can be touched
+  bool apart(const Shape& a, const Shape& b, const MeshPiece* piece);
   void forget();  // all: shapes have gone
 
  private:
@@ -32,9 +34,10 @@ class Separations {
     Pose X_AB;            // when it was found out
     double distance = 0;  // m, at least, then
     Vec3 n{1, 0, 0};
-    int wait = 0;  // steps before it is looked for again
+    int wait = 0;        // steps before it is looked for again
+    uint64_t piece = 0;  // number of the piece that it was found out of; 0: the whole
   };
-  bool meshes_apart(Known& known, const Shape& a, const Shape& b);
+  bool meshes_apart(Known& known, const Shape& a, const Shape& b, const MeshPiece* piece);
   bool apart_from_plane(Known& known, const Shape& mesh, const Shape& plane);
   std::unordered_map<uint64_t, Known> known_;  // by the ids of both
   OwnedGeom ball_;

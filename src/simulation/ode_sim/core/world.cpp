@@ -61,6 +61,7 @@ void World::remove_model(Model& model) {
       if (const auto leader = j->leader.lock(); leader && leader->model == &model) j->leader.reset();  // it holds its position
   forget_contacts(model);
   scene_.separations.forget();
+  scene_.mesh_pieces.forget();
   for (auto& j : model.joints) j->joint.reset();
   for (auto& link : model.links) {
     for (auto& s : link->shapes) {
