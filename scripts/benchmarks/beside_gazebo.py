@@ -20,8 +20,9 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, ".."))
 
+import garden  # noqa: E402
 from real_gazebo import chroot, server  # noqa: E402
-from real_gazebo.scene import Scene  # noqa: E402
+from real_gazebo.scene import Deed, Scene  # noqa: E402
 from real_gazebo.scenes import SCENES  # noqa: E402
 from real_gazebo.sdf import axis, ground, inertial, joint, link, model, world  # noqa: E402
 
@@ -50,6 +51,9 @@ def timed_scenes(quick: bool):
     names = ("drive_turn_cylinder", "mecanum_turn", "skid_turn", "hundred_boxes", "wall_5x5", "four_bar_motor", "ray_room")
     for name in names[:4] if quick else names:
         yield known[name].what, known[name], 2000 if name in ("hundred_boxes", "mecanum_turn", "wall_5x5") else 5000
+    motors = tuple(Deed("motor", f"r::{wheel}_joint", f"{garden.SPEED} {garden.TORQUE}") for wheel in garden.WHEELS)
+    for name, title, text in () if quick else garden.worlds():
+        yield title, Scene(name, "bench", title, "", text, (), deeds=motors, files=garden.files()), 1000
 
 
 def plugin(scene: Scene, steps: int) -> str:

@@ -17,15 +17,15 @@ import numpy as np
 import ode_sim
 
 ROLLERS, WHEEL, ROLLER = 12, 0.08, 0.018  # on a wheel; radii, m
-SPEED = 2.5  # rad/s
+SPEED, TORQUE = 2.5, 10.0  # rad/s, N m
+WHEELS = {"fl": (0.2, 0.2, 1), "fr": (0.2, -0.2, -1), "rl": (-0.2, 0.2, -1), "rr": (-0.2, -0.2, 1)}  # m, m, which way rollers lean
 
 
-def write_stl(path, triangles):
-    """triangles: (n, 3, 3), m."""
+def stl(triangles):
+    """A binary file of these. triangles: (n, 3, 3), m."""
     record = np.zeros(len(triangles), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])
     record["corners"] = triangles
-    with open(path, "wb") as file:
-        file.write(b"\0" * 80 + struct.pack("<I", len(triangles)) + record.tobytes())
+    return b"\0" * 80 + struct.pack("<I", len(triangles)) + record.tobytes()
 
 
 def turned(profile, around):
@@ -69,7 +69,7 @@ def inertial(mass, moment):
 
 def of_mesh(file):
     friction = "<surface><friction><ode><mu>1</mu><mu2>1</mu2></ode></friction></surface>"
-    return f"<collision name='c'><geometry><mesh><uri>{file}</uri></mesh></geometry>{friction}</collision>"
+    return f"<collision name='c'><geometry><mesh><uri>file://{{folder}}/{file}</uri></mesh></geometry>{friction}</collision>"
 
 
 def hinge(parent, child, axis):
@@ -79,9 +79,9 @@ def hinge(parent, child, axis):
     )
 
 
-def robot(folder, z):
+def robot(z):
     parts = [f"<link name='base'><pose>0 0 {WHEEL} 0 0 0</pose>{inertial(10, 0.2)}</link>"]
-    for name, x, y, sign in (("fl", 0.2, 0.2, 1), ("fr", 0.2, -0.2, -1), ("rl", -0.2, 0.2, -1), ("rr", -0.2, -0.2, 1)):
+    for name, (x, y, sign) in WHEELS.items():
         parts += [f"<link name='{name}'><pose>{x} {y} {WHEEL} 0 0 0</pose>{inertial(0.5, 0.001)}</link>", hinge("base", name, "0 1 0")]
         for i in range(ROLLERS):
             a = 2 * math.pi * (i + 0.5) / ROLLERS
@@ -89,7 +89,7 @@ def robot(folder, z):
             axis = np.array([-math.sin(a), sign, math.cos(a)]) / math.sqrt(2)
             turn = f"0 {math.atan2(math.hypot(axis[0], axis[1]), axis[2]):.9g} {math.atan2(axis[1], axis[0]):.9g}"
             pose = f"<pose>{x + ahead:.9g} {y} {WHEEL + up:.9g} {turn}</pose>"
-            parts += [f"<link name='{name}{i}'>{pose}{inertial(0.02, 4e-6)}{of_mesh(folder + '/barrel.stl')}</link>"]
+            parts += [f"<link name='{name}{i}'>{pose}{inertial(0.02, 4e-6)}{of_mesh('barrel.stl')}</link>"]
             parts += [hinge(name, f"{name}{i}", "0 0 1")]
     return f"<model name='r'><pose>0 0 {z} 0 0 0</pose>{''.join(parts)}</model>"
 
@@ -98,35 +98,38 @@ def standing(name, collision, x=0.0, y=0.0):
     return f"<model name='{name}'><static>true</static><pose>{x} {y} 0 0 0 0</pose><link name='l'>{collision}</link></model>"
 
 
-def bushes(folder):
+def bushes():
     chance = random.Random(1)
     for i in range(20):
         x, y = chance.uniform(-3, 3), chance.choice((-1, 1)) * chance.uniform(0.8, 3)
-        yield standing(f"bush{i}", of_mesh(folder + "/bush.stl"), x, y)
+        yield standing(f"bush{i}", of_mesh("bush.stl"), x, y)
 
 
-def grounds(folder):
-    """name -> (models, height of the robot)."""
+def files():
+    return {f"{name}.stl": stl(np.array(make())) for name, make in (("barrel", barrel), ("bush", bush), ("lawn", lawn))}
+
+
+def worlds():
+    """(name, title, text of the world, in which {folder} is where the files lie)."""
     plane = standing("g", "<collision name='c'><geometry><plane><normal>0 0 1</normal></plane></geometry></collision>")
-    hills = standing("g", of_mesh(folder + "/lawn.stl"))
-    return {
-        "a plane": ([plane], 0.0),
-        "a lawn of 80 000 triangles": ([hills], 0.06),
-        "a garden, that lawn and 20 bushes of 3 120": ([hills, *bushes(folder)], 0.06),
-    }
-
-
-def cost(folder, models, z, steps):
-    """us of processor time a step."""
-    path = os.path.join(folder, "garden.world")
-    with open(path, "w", encoding="utf-8") as file:
+    hills = standing("g", of_mesh("lawn.stl"))
+    for name, title, models, z in (
+        ("rollers_plane", "a plane", [plane], 0.0),
+        ("rollers_lawn", "a lawn of 80 000 triangles", [hills], 0.06),
+        ("rollers_garden", "a garden, that lawn and 20 bushes of 3 120", [hills, *bushes()], 0.06),
+    ):
         physics = "<physics type='ode'><max_step_size>0.001</max_step_size></physics>"
-        file.write(f"<sdf version='1.6'><world name='w'>{physics}{''.join(models)}{robot(folder, z)}</world></sdf>")
+        text = f"<sdf version='1.6'><world name='w'>{physics}{''.join(models)}{robot(z)}</world></sdf>"
+        yield name, f"48 mesh rollers of 6 000 triangles on {title}", text
+
+
+def cost(path, steps):
+    """us of processor time a step."""
     world = ode_sim.World.load(path)
     if world.problems:
         raise RuntimeError(world.problems[0].message)
-    for wheel in ("fl", "fr", "rl", "rr"):
-        world.find_joint(f"r::{wheel}_joint").set_motor(SPEED, 10.0)
+    for wheel in WHEELS:
+        world.find_joint(f"r::{wheel}_joint").set_motor(SPEED, TORQUE)
     world.step(300)
     start, before = time.process_time(), world.models["r"].pose.p[0]
     world.step(steps)
@@ -138,15 +141,19 @@ def cost(folder, models, z, steps):
 
 
 def figures(steps, names=()):
+    found = {}
     with tempfile.TemporaryDirectory() as folder:
-        for name, make in (("barrel", barrel), ("bush", bush), ("lawn", lawn)):
-            write_stl(f"{folder}/{name}.stl", np.array(make()))
-        found = grounds(folder)
-        return {
-            f"48 mesh rollers of 6 000 triangles on {name}: us per step": cost(folder, models, z, steps)
-            for name, (models, z) in found.items()
-            if not names or any(word in name for word in names)
-        }
+        for file, content in files().items():
+            with open(os.path.join(folder, file), "wb") as out:
+                out.write(content)
+        for name, title, text in worlds():
+            if names and not any(word in name for word in names):
+                continue
+            path = os.path.join(folder, name + ".world")
+            with open(path, "w", encoding="utf-8") as out:
+                out.write(text.replace("{folder}", folder))
+            found[f"{title}: us per step"] = cost(path, steps)
+    return found
 
 
 def main():
