@@ -40,6 +40,8 @@ WANTED = [
     (r"frame / bare draw", "<=", 1.5),
     (r"^IK of .* solved within 5 ms", ">=", 99.6),
     (r"^IK of .* median", "<", 0.4),
+    (r"^MotionBenchMaker, .*, all \d+: solved", ">=", 99.0),
+    (r"^MotionBenchMaker, .*, all \d+: p50", "<", 30.0),
     (r"to timed trajectory: solved", ">=", 100.0),
     (r"to timed trajectory: p50", "<", 50.0),
     (r"to timed trajectory: p95", "<", 250.0),
@@ -345,10 +347,15 @@ def main():
     parser.add_argument("sections", nargs="*", metavar="SECTION", help="which; default all but gazebo")
     parser.add_argument("--json", metavar="FILE", help="write the figures there as well")
     parser.add_argument("--quick", action="store_true", help="shorter runs, rougher figures")
+    parser.add_argument("--mbm", metavar="DIR", help="with section motion: MotionBenchMaker's problems there, see docs/performance.md")
     options = parser.parse_args()
     unknown = [name for name in options.sections if name not in SECTIONS]
     if unknown:
         parser.error(f"no section {', '.join(unknown)}; there are {', '.join(SECTIONS)}")
+    if options.mbm and options.sections and "motion" not in options.sections:
+        parser.error("--mbm belongs to section motion")
+    if options.mbm and not os.path.isdir(options.mbm):
+        parser.error(f"--mbm: there is no folder {options.mbm}")
     report = {"machine": platform.platform(), "cores": os.cpu_count(), "load before": os.getloadavg()[0], "figures": {}}
     failed = False
     print(f"{report['machine']}, {report['cores']} cores, load {report['load before']:.1f}")
@@ -358,6 +365,9 @@ def main():
         print(f"\n{name}: {title} (load before {load:.1f})", flush=True)
         try:
             figures = measure(options.quick)
+            if name == "motion" and options.mbm:
+                count = ["--count", "10"] if options.quick else []
+                figures.update(section_script("problem_sets.py", options.mbm, *count, timeout=3600))
         except (RuntimeError, OSError, ValueError, subprocess.SubprocessError) as error:
             print(f"  failed: {error}")
             failed = True
