@@ -73,6 +73,7 @@ def student():
 
 
 def click_through(student, urdf, folder):
+    student.click("start_new")
     student.type("start_path", urdf)
     student.click("start_load")
     student.said("6 joints that can move")
@@ -93,6 +94,7 @@ def click_through(student, urdf, folder):
     student.type("groups_name", "manipulator")
     student.type("groups_solver", "kdl_kinematics_plugin/KDLKinematicsPlugin")
     student.choose("groups_planner", "RRTConnect")
+    student.window.click_text("Kin. Chain")
     student.choose("groups_base_link", "pedestal")
     student.choose("groups_tip_link", "tool0")
     student.picture("groups")
@@ -124,8 +126,11 @@ def click_through(student, urdf, folder):
 @pytest.mark.slow
 def test_clicks_and_the_command_make_the_same_package(student, tmp_path):
     urdf = Path(rospkg.RosPack().get_path("myur5_description")) / "urdf" / "myur5.urdf.xacro"
-    clicked = tmp_path / "myur5_moveit_config"
-    click_through(student, urdf, clicked)
+    sources = Path(student.desktop.home) / "catkin_ws" / "src"  # below ~, so that the pictures show a path as readers have it
+    sources.mkdir(parents=True)
+    (sources / "myur5_description").symlink_to(urdf.parent.parent)
+    clicked = sources / "myur5_moveit_config"
+    click_through(student, "~/catkin_ws/src/myur5_description/urdf/myur5.urdf.xacro", "~/catkin_ws/src/myur5_moveit_config")
     (tmp_path / "config.yaml").write_text(CONFIG)
     typed = tmp_path / "typed" / "myur5_moveit_config"
     package_writer.write(headless.configuration(RobotSource.from_file(urdf), tmp_path / "config.yaml"), typed)

@@ -94,15 +94,19 @@ def _moved(points: np.ndarray, p, q) -> np.ndarray:
 
 
 def camera_for(corners: np.ndarray, view: str, width: int, height: int) -> Camera:
-    """The camera that has all ``corners`` (N,3) in its frame, as near as that allows."""
-    azimuth, elevation = VIEWS[view]
+    """The camera that has all ``corners`` (N,3) in its frame from the side of that name, as near as that allows."""
+    return camera_from(corners, *VIEWS[view], width, height)
+
+
+def camera_from(corners: np.ndarray, azimuth: float, elevation: float, width: int, height: int, hfov: float = _HFOV) -> Camera:
+    """The camera that has all ``corners`` (N,3) in its frame from a side given in rad, as near as that allows."""
     level = math.cos(elevation)
     towards = -np.array([level * math.cos(azimuth), level * math.sin(azimuth), math.sin(elevation)])
     left = np.array([-towards[1], towards[0], 0.0]) / math.hypot(towards[0], towards[1])
     axes = np.stack([towards, left, np.cross(towards, left)])
     seen = corners @ axes.T
     depth, across = seen[:, 0], seen[:, 1:]
-    slopes = np.array([math.tan(_HFOV / 2), math.tan(_HFOV / 2) * height / width]) * _FILLED
+    slopes = np.array([math.tan(hfov / 2), math.tan(hfov / 2) * height / width]) * _FILLED
     # A point is in the frame if |across - middle| <= slope * (depth + distance); the best middle of a side serves both ends.
     high, low = (across / slopes - depth[:, None]).max(axis=0), (-across / slopes - depth[:, None]).max(axis=0)
     distance = max(float(((high + low) / 2).max()), _LEAST - float(depth.min()))
@@ -113,7 +117,7 @@ def camera_for(corners: np.ndarray, view: str, width: int, height: int) -> Camer
         "portrait",
         width,
         height,
-        _HFOV,
+        hfov,
         near=max(0.005, 0.2 * nearest),
         far=float(depth.max()) + distance + 500.0,
         pose=look_at(tuple(eye), tuple(eye + towards)),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -171,8 +172,16 @@ class Configuration:
         return self.robot.with_srdf(self.semantics.to_text())
 
     def add_default_controllers(self, kind: str = TRAJECTORY_TYPES[0]) -> None:
-        """One trajectory controller for every group that moves joints which no controller moves yet."""
+        """Add :meth:`default_controllers`."""
+        self.controllers += self.default_controllers(kind)
+
+    def default_controllers(self, kind: str = TRAJECTORY_TYPES[0]) -> list[Controller]:
+        """A trajectory controller for every group that moves joints which no controller moves yet.
+
+        :raises AssistantError: the SRDF does not fit.
+        """
         model = self.model()
+        made: list[Controller] = []
         taken = {joint for controller in self.controllers for joint in controller.joints}
         for group in self.semantics.groups:
             if not model.has_group(group.name):
@@ -180,7 +189,21 @@ class Configuration:
             joints = list(model.group(group.name).active_joints)
             if joints and not taken.intersection(joints):
                 taken.update(joints)
-                self.controllers.append(Controller(f"{group.name}_controller", kind, joints))
+                made.append(Controller(f"{group.name}_controller", kind, joints))
+        return made
+
+    def contents(self) -> tuple:
+        """What the screens edit, in a copy: equal to that of another time if nothing has been changed."""
+        edited = (
+            self.kinematics,
+            self.default_planners,
+            self.controllers,
+            self.sensors,
+            self.gazebo_urdf,
+            self.author_name,
+            self.author_email,
+        )
+        return self.semantics.to_text(), *copy.deepcopy(edited)
 
     def problems(self) -> list[str]:
         """What must be mended before a package can be written, one line each."""

@@ -21,9 +21,12 @@ _PLAIN = (0.6, 0.6, 0.65, 1.0)
 
 
 class RobotScene:
-    """What :class:`ode_sim_rendering.Renderer` draws of a robot; links keep the order of ``links``."""
+    """What :class:`ode_sim_rendering.Renderer` draws of a robot; links keep the order of ``links``.
 
-    def __init__(self, robot: Robot) -> None:
+    :param visual, collision: which of the links' shapes are drawn.
+    """
+
+    def __init__(self, robot: Robot, visual: bool = True, collision: bool = False) -> None:
         root = lenient_xml.fromstring(robot.urdf)
         colours = {m.get("name"): _colour(m) for m in root.findall("material")}
         self.links: tuple[str, ...] = tuple(robot.model.links)
@@ -31,7 +34,11 @@ class RobotScene:
         for element in root.findall("link"):
             name = element.get("name")
             if name in self.links:
-                self._visuals += list(_visuals_of(element, self.links.index(name), colours))
+                row = self.links.index(name)
+                # a link that shows nothing shows what it collides with
+                tags = ["visual" if element.find("visual") is not None else "collision"] * visual
+                tags += ["collision"] * (collision and "collision" not in tags)
+                self._visuals += [seen for tag in tags for seen in _shapes_of(element, tag, row, colours)]
         sun = d.Light("sun", "directional", direction=(-0.4, 0.3, -0.9), diffuse=(0.7, 0.7, 0.7, 1.0))
         self._lights = (SceneLight(WORLD_FRAME, sun),)
         self._background = d.Scene(ambient=(0.5, 0.5, 0.5, 1.0), background=(0.94, 0.95, 0.97, 1.0))
@@ -49,9 +56,9 @@ class RobotScene:
         return np.array([[*found[name].position, *found[name].quaternion] for name in self.links])
 
 
-def _visuals_of(link: ET.Element, row: int, colours: dict[str | None, Colour | None]) -> Iterable[SceneVisual]:
-    """The link's visuals; its collision shapes if it has none."""
-    for index, element in enumerate(link.findall("visual") or link.findall("collision")):
+def _shapes_of(link: ET.Element, tag: str, row: int, colours: dict[str | None, Colour | None]) -> Iterable[SceneVisual]:
+    """The link's shapes below ``tag``, visual or collision."""
+    for index, element in enumerate(link.findall(tag)):
         shape = _shape(element.find("geometry"))
         if shape is None:
             continue
@@ -62,7 +69,7 @@ def _visuals_of(link: ET.Element, row: int, colours: dict[str | None, Colour | N
         if colour is None and not isinstance(shape, d.Mesh):
             colour = _PLAIN
         look = d.Material(ambient=colour, diffuse=colour) if colour else None
-        name = f"{link.get('name')}::{index}"
+        name = f"{link.get('name')}::{tag}_{index}"
         yield SceneVisual(row, f"robot::{name}", d.Visual(name, _origin(element), shape, look))
 
 

@@ -9,13 +9,16 @@ from pathlib import Path
 
 import motion
 from node_signals.display import missing_display
-from python_qt_binding.QtCore import QTimer
+from python_qt_binding.QtCore import QSize, Qt, QTimer
 from python_qt_binding.QtWidgets import (
     QApplication,
+    QCheckBox,
     QHBoxLayout,
     QLabel,
     QListWidget,
+    QListWidgetItem,
     QMainWindow,
+    QMessageBox,
     QSplitter,
     QStackedWidget,
     QVBoxLayout,
@@ -30,6 +33,9 @@ from moveit_setup_assistant.screens import ALL
 from moveit_setup_assistant.words import counted
 
 _MOST_LINES = 4  # of what is missing, below the screen
+_NARROWEST = 465  # pixels, of a screen beside the picture
+_ROW = 34  # pixels, the height of a screen's entry in the list
+_USABLE = Qt.ItemIsSelectable | Qt.ItemIsEnabled
 
 
 class Session:
@@ -40,10 +46,12 @@ class Session:
         self.config: Configuration | None = None
         self.package: Path | None = None
         self._model = None
+        self._kept: tuple | None = None
 
     def open(self, config: Configuration, package: Path | None) -> None:
         """Edit this configuration from now on. ``package``: the folder it came from."""
         self.config, self.package = config, package
+        self.kept()
         self.model_changed()
         self._window.robot_changed()
         for line in config.warnings:
@@ -56,6 +64,18 @@ class Session:
         if len(config.warnings) > _MOST_LINES:
             lines.append(f"and {len(config.warnings) - _MOST_LINES} more; all of them are in the terminal")
         self.say("\n".join(lines))
+
+    def kept(self) -> None:
+        """The configuration is that of the files on disk."""
+        self._kept = self.edited.contents()
+
+    def is_changed(self) -> bool:
+        """Whether something was edited since the robot was loaded, or the package written."""
+        return self.config is not None and self.config.contents() != self._kept
+
+    def may_forget(self, action: str) -> bool:
+        """Ask before changes are lost; True if they may be, or there are none."""
+        return self._window.may_forget(action)
 
     def say(self, text: str, bad: bool = False) -> None:
         """One line for the user."""
@@ -158,23 +178,23 @@ class Window(QMainWindow):
         self.setWindowTitle("MoveIt Setup Assistant")
         self.resize(1180, 760)
         self.session = Session(self)
+        self._may_ask = True
         self.view = RobotView()
         self.view.problem.connect(lambda text: self.say(text, bad=True))
-        self.list = QListWidget()
-        self.list.setObjectName("screens")
-        self.list.setMaximumWidth(170)
-        self.stack = QStackedWidget()
+        self._beside = self._view_with_boxes()
         self.screens = [make(self.session) for make in ALL]
+        self.list, self.stack = self._list_of_screens(), QStackedWidget()
         for screen in self.screens:
-            self.list.addItem(screen.title)
             self.stack.addWidget(screen)
+        self.stack.setMinimumWidth(_NARROWEST)
         self._said = QLabel()
         self._said.setObjectName("said")
         self._said.setWordWrap(True)
         splitter = QSplitter()
+        splitter.setChildrenCollapsible(False)
         splitter.addWidget(self.stack)
-        splitter.addWidget(self.view)
-        splitter.setSizes([640, 360])
+        splitter.addWidget(self._beside)
+        splitter.setSizes([625, 360])
         middle, page = QVBoxLayout(), QWidget()
         middle.addWidget(splitter, 1)
         middle.addWidget(self._said)
@@ -187,6 +207,33 @@ class Window(QMainWindow):
         self.list.currentRowChanged.connect(self._go)
         self._allow()
 
+    def _list_of_screens(self) -> QListWidget:
+        made = QListWidget()
+        made.setObjectName("screens")
+        for screen in self.screens:
+            item = QListWidgetItem(screen.title, made)
+            item.setSizeHint(QSize(made.fontMetrics().horizontalAdvance(screen.title) + 12, _ROW))
+        made.setFixedWidth(made.sizeHintForColumn(0) + 2 * made.frameWidth())
+        made.setMinimumHeight(len(self.screens) * _ROW + 2 * made.frameWidth())
+        return made
+
+    def _view_with_boxes(self) -> QWidget:
+        """The picture, with what is drawn of the robot below it; not there before there is a robot."""
+        made, row = QWidget(), QHBoxLayout()
+        column = QVBoxLayout(made)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self.view, 1)
+        column.addLayout(row)
+        boxes = [QCheckBox("visual"), QCheckBox("collision")]
+        for box in boxes:
+            box.setObjectName(f"view_{box.text()}")
+            box.setChecked(box is boxes[0])
+            box.toggled.connect(lambda _on: self.view.set_drawn(*(box.isChecked() for box in boxes)))
+            row.addWidget(box)
+        row.addStretch(1)
+        made.hide()
+        return made
+
     def say(self, text: str, bad: bool = False) -> None:
         """One line below the screen, on the terminal too if it is bad news."""
         self._said.setText(text)
@@ -196,6 +243,7 @@ class Window(QMainWindow):
 
     def robot_changed(self) -> None:
         """Another robot was loaded: show it, and open the other screens."""
+        self._beside.show()
         self.view.set_robot(self.session.edited.robot)
         self._allow()
 
@@ -206,8 +254,7 @@ class Window(QMainWindow):
 
     def _allow(self) -> None:
         for row in range(1, self.list.count()):
-            item = self.list.item(row)
-            item.setHidden(self.session.config is None)
+            self.list.item(row).setFlags(Qt.NoItemFlags if self.session.config is None else _USABLE)
 
     def _go(self, row: int) -> None:
         if row < 0 or row == self._current:
@@ -228,11 +275,25 @@ class Window(QMainWindow):
         if self.session.config is not None:
             self.screens[row].enter()
 
+    def may_forget(self, action: str) -> bool:
+        """Whether changes may be lost by ``action``: asked only if there are some."""
+        refused = None if self.session.config is None else self.screens[self._current].leave()
+        if not self._may_ask or not (refused or self.session.is_changed()):
+            return True
+        text = f"What was changed since the package was loaded or written is in no file yet. {action} all the same?"
+        return QMessageBox.question(self, action, text, QMessageBox.Ok | QMessageBox.Cancel) == QMessageBox.Ok
+
     def closeEvent(self, event) -> None:
-        if self.session.config is not None:
-            self.screens[self._current].leave()
+        if not self.may_forget("Exit Setup Assistant"):
+            event.ignore()
+            return
         self.view.close_renderer()
         super().closeEvent(event)
+
+    def interrupted(self) -> None:
+        """End without a question: by Ctrl-C, or by whoever launched this."""
+        self._may_ask = False
+        self.close()
 
 
 def main(words: list[str]) -> int:
@@ -255,7 +316,12 @@ def main(words: list[str]) -> int:
     elif options.urdf_path:
         window.screens[0].show_urdf(options.urdf_path)
     window.show()
-    interrupts = Interrupts(lambda: (window.close(), app.quit()))
+
+    def end() -> None:
+        window.interrupted()
+        app.quit()
+
+    interrupts = Interrupts(end)
     code = app.exec_()
     interrupts.stop()
     return code

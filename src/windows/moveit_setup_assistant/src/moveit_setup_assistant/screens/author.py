@@ -1,8 +1,6 @@
 """Author information: who made the package."""
 
-from python_qt_binding.QtWidgets import QFormLayout
-
-from moveit_setup_assistant.screens.base import Screen, line
+from moveit_setup_assistant.screens.base import Screen, form_layout, line
 
 
 class AuthorScreen(Screen):
@@ -16,7 +14,7 @@ class AuthorScreen(Screen):
         self._name, self._email = line(), line()
         self._name.setObjectName("author_name")
         self._email.setObjectName("author_email")
-        form = QFormLayout()
+        form = form_layout()
         form.addRow("Name of the maintainer", self._name)
         form.addRow("E-mail of the maintainer", self._email)
         self.layout_.addLayout(form)

@@ -6,16 +6,22 @@ from collections.abc import Callable, Iterable
 
 from python_qt_binding.QtCore import Qt, Signal
 from python_qt_binding.QtWidgets import (
+    QAbstractItemView,
     QComboBox,
     QFormLayout,
     QHBoxLayout,
+    QHeaderView,
     QLabel,
     QLineEdit,
     QListWidget,
     QPushButton,
+    QTableWidget,
+    QTableWidgetItem,
     QVBoxLayout,
     QWidget,
 )
+
+from moveit_setup_assistant.errors import AssistantError
 
 
 class Screen(QWidget):
@@ -29,6 +35,7 @@ class Screen(QWidget):
         self.session = session
         self.setObjectName(f"screen_{type(self).__module__.rsplit('.', 1)[-1]}")
         self.layout_ = QVBoxLayout(self)
+        self.layout_.setContentsMargins(3, 0, 3, 0)
         heading = QLabel(f"<h2>{self.title}</h2>")
         text = QLabel(self.about)
         text.setWordWrap(True)
@@ -61,6 +68,10 @@ class TwoLists(QWidget):
         super().__init__()
         self.setObjectName(name)
         layout = QHBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        self._all: list[str] = []
+        self._names: list[str] = []
+        self._moves: dict[str, QPushButton] = {}
         self._left, self._right = self._list(f"{name}_available"), self._list(f"{name}_chosen")
         for title, widget in ((left, self._left), (None, self._buttons(name)), (right, self._right)):
             column = QVBoxLayout()
@@ -68,23 +79,33 @@ class TwoLists(QWidget):
                 column.addWidget(QLabel(title))
             column.addWidget(widget)
             layout.addLayout(column, 1 if title else 0)
+        self._allow()
 
     def _list(self, name: str) -> QListWidget:
         made = QListWidget()
         made.setObjectName(name)
         made.setSelectionMode(QListWidget.ExtendedSelection)
         made.itemSelectionChanged.connect(lambda: self.looked_at.emit([i.text() for i in made.selectedItems()]))
+        made.itemSelectionChanged.connect(self._allow)
         return made
 
     def _buttons(self, name: str) -> QWidget:
         box = QWidget()
         layout = QVBoxLayout(box)
+        layout.addStretch(1)
         for text, action, which in ((">", self._take, "add"), ("<", self._give_back, "remove")):
             button = QPushButton(text)
             button.setObjectName(f"{name}_{which}")
             button.clicked.connect(action)
+            button.setMaximumWidth(48)
             layout.addWidget(button)
+            self._moves[which] = button
+        layout.addStretch(1)
         return box
+
+    def _allow(self) -> None:
+        allow(self._moves["add"], "" if self._left.selectedItems() else "Mark names on the left first.")
+        allow(self._moves["remove"], "" if self._right.selectedItems() else "Mark names on the right first.")
 
     def set(self, available: Iterable[str], chosen: Iterable[str]) -> None:
         """Show these names; a chosen one is not offered again."""
@@ -101,6 +122,7 @@ class TwoLists(QWidget):
             widget.clear()
             widget.addItems(names)
             widget.blockSignals(False)
+        self._allow()
 
     def _take(self) -> None:
         self._names += [item.text() for item in self._left.selectedItems()]
@@ -114,98 +136,231 @@ class TwoLists(QWidget):
         self.changed.emit()
 
 
-class Entries(QWidget):
-    """A list of things with a form for the one that is marked, and buttons to add and delete.
+class Table(QTableWidget):
+    """Rows of texts below headers; one row at a time is marked, and nothing is typed into them.
 
-    :param fields: key -> (label, widget); QLineEdit and QComboBox are understood.
-    :param read: fills the form: ``read(thing) -> {key: text}``.
-    :param write: takes the form: ``write(thing or None, {key: text})`` changes the thing, or adds one; raises AssistantError.
-    :param things: the list as it is now. :param label: text of a thing in the list. :param delete: takes a thing out.
+    Columns are as wide as what is in them, the last one at least what is left of the table's width.
     """
 
-    looked_at = Signal(object)
-    refused = Signal(str)
+    def __init__(self, name: str, headers: Iterable[str]) -> None:
+        headers = list(headers)
+        super().__init__(0, len(headers))
+        self.setObjectName(name)
+        self.setHorizontalHeaderLabels(headers)
+        self.setEditTriggers(QAbstractItemView.NoEditTriggers)
+        self.setSelectionBehavior(QAbstractItemView.SelectRows)
+        self.setSelectionMode(QAbstractItemView.SingleSelection)
+        self.setAlternatingRowColors(True)
+        self.verticalHeader().hide()
+        self.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + 8)
+        header = self.horizontalHeader()
+        header.setHighlightSections(False)
+        header.setDefaultAlignment(Qt.AlignLeft | Qt.AlignVCenter)
+        header.setSectionResizeMode(QHeaderView.Fixed)
+        self.spread()
+
+    def show_rows(self, rows: Iterable[Iterable[str]], row: int = -1) -> None:
+        """Show these rows, and mark one of them; -1 for none."""
+        rows = [list(cells) for cells in rows]
+        self.blockSignals(True)
+        self.setRowCount(len(rows))
+        for index, cells in enumerate(rows):
+            self.write(index, cells)
+        self.clearSelection()
+        self.setCurrentCell(-1, -1)
+        self.blockSignals(False)
+        self.spread()
+        if row >= 0:
+            self.selectRow(row)
+
+    def write(self, row: int, cells: Iterable[str]) -> None:
+        """Put these texts into a row."""
+        for column, text in enumerate(cells):
+            item = QTableWidgetItem(text)
+            item.setToolTip(text)
+            self.setItem(row, column, item)
+
+    def rewrite(self, row: int, cells: Iterable[str]) -> None:
+        """Put other texts into a row that is shown."""
+        self.blockSignals(True)
+        self.write(row, cells)
+        self.blockSignals(False)
+        self.spread()
+
+    def resizeEvent(self, event) -> None:
+        super().resizeEvent(event)
+        self.spread()
+
+    def spread(self) -> None:
+        """Make every column as wide as its texts."""
+        self.resizeColumnsToContents()
+        last = self.columnCount() - 1
+        used = sum(self.columnWidth(column) for column in range(last))
+        self.setColumnWidth(last, max(self.columnWidth(last), self.viewport().width() - used))
+
+    def row(self) -> int:
+        """The marked row, -1 if there is none."""
+        rows = self.selectionModel().selectedRows()
+        return rows[0].row() if rows else -1
+
+
+class Entries(QWidget):
+    """A table of things with a form for the one that is marked, and buttons to add, change and delete.
+
+    What cannot be done is greyed, and the line below the form says why.
+
+    :param columns: the table's headers. :param cells: a thing's texts in them.
+    :param fields: key -> (label, widget); QLineEdit and QComboBox are understood.
+    :param read: fills the form: ``read(thing) -> {key: text}``. :param things: the list as it is now.
+    :param check: ``check(thing or None, {key: text})`` raises AssistantError if the form cannot become this thing, or a new one.
+    :param write: takes a form that was checked: changes the thing, or adds one. :param delete: takes a thing out.
+    """
+
+    looked_at, changed = Signal(object), Signal()  # the thing that is marked; the things are others than before
 
     def __init__(
         self,
         name: str,
+        what: str,
+        columns: Iterable[str],
         fields: dict[str, tuple],
         things: Callable[[], list],
-        label: Callable,
+        cells: Callable,
         read: Callable,
+        check: Callable,
         write: Callable,
         delete: Callable,
     ) -> None:
         super().__init__()
-        self._things, self._label, self._read, self._write, self._delete = things, label, read, write, delete
+        self._things, self._cells, self._read, self._check = things, cells, read, check
+        self._write, self._delete = write, delete
         self._fields = {key: widget for key, (_, widget) in fields.items()}
         layout = QVBoxLayout(self)
-        self._list = QListWidget()
-        self._list.setObjectName(f"{name}_list")
-        self._list.currentRowChanged.connect(self._show)
-        layout.addWidget(self._list)
-        form = QFormLayout()
+        layout.setContentsMargins(0, 0, 0, 0)
+        self._table = Table(f"{name}_list", columns)
+        self._table.itemSelectionChanged.connect(self._show)
+        layout.addWidget(self._table)
+        form = form_layout()
         for key, (text, widget) in fields.items():
             widget.setObjectName(f"{name}_{key}")
-            form.addRow(text, widget)
+            add_row(form, text, widget)
+            (widget.currentTextChanged if isinstance(widget, QComboBox) else widget.textChanged).connect(self._allow)
         layout.addLayout(form)
-        buttons = QHBoxLayout()
-        for text, which, action in (("Add", "add", self._add), ("Change", "change", self._change), ("Delete", "delete", self._remove)):
-            button = QPushButton(text)
+        self._hint = hint(f"{name}_hint")
+        layout.addWidget(self._hint)
+        layout.addLayout(self._make_buttons(name, what))
+
+    def _make_buttons(self, name: str, what: str) -> QHBoxLayout:
+        row = QHBoxLayout()
+        self._buttons = {}
+        for text, which, action in (
+            (f"&Add {what}", "add", self._add),
+            ("&Change", "change", self._change),
+            ("&Delete", "delete", self._remove),
+        ):
+            button = self._buttons[which] = QPushButton(text)
             button.setObjectName(f"{name}_{which}")
             button.clicked.connect(action)
-            buttons.addWidget(button)
-        layout.addLayout(buttons)
+            allow(button, "Load a robot first.")
+            row.addWidget(button)
+        return row
 
     def fill(self, row: int = -1) -> None:
         """Show the things as they are now."""
-        self._list.clear()
-        self._list.addItems([self._label(thing) for thing in self._things()])
-        self._list.setCurrentRow(row)
+        self._table.show_rows([self._cells(thing) for thing in self._things()], row)
+        self._allow()
+        self.changed.emit()
 
     def offer(self, key: str, names: Iterable[str]) -> None:
         """The choices of a field that is a QComboBox."""
         box = self._fields[key]
         chosen = box.currentText()
+        box.blockSignals(True)
         box.clear()
         box.addItems(list(names))
         box.setCurrentText(chosen)
+        box.blockSignals(False)
 
     def values(self) -> dict[str, str]:
         """What the form says."""
         return {key: w.currentText() if isinstance(w, QComboBox) else w.text().strip() for key, w in self._fields.items()}
 
-    def _show(self, row: int) -> None:
-        things = self._things()
-        if 0 <= row < len(things):
-            for key, text in self._read(things[row]).items():
+    def _marked(self):
+        row, things = self._table.row(), self._things()
+        return things[row] if 0 <= row < len(things) else None
+
+    def _refused(self, thing) -> str:
+        """Why the form cannot become this thing, or a new one (None); "" if it can."""
+        try:
+            self._check(thing, self.values())
+        except AssistantError as error:
+            return str(error)
+        return ""
+
+    def _allow(self, *_) -> None:
+        """Enable what can be done now."""
+        marked, new = self._marked(), self._refused(None)
+        same = marked is not None and self._read(marked) == self.values()
+        other = self._refused(marked) if marked is not None else "Mark one in the table first."
+        allow(self._buttons["add"], new)
+        allow(self._buttons["change"], "Nothing is changed yet." if same else other)
+        allow(self._buttons["delete"], "" if marked is not None else "Mark one in the table first.")
+        self._hint.setText("" if same or not (marked is None or other) else (other if marked is not None else new))
+
+    def _show(self) -> None:
+        thing = self._marked()
+        if thing is not None:
+            for key, text in self._read(thing).items():
                 widget = self._fields[key]
                 (widget.setCurrentText if isinstance(widget, QComboBox) else widget.setText)(text)
-            self.looked_at.emit(things[row])
+            self.looked_at.emit(thing)
+        self._allow()
 
     def _add(self) -> None:
-        self._try(None, len(self._things()))
+        self._write(None, self.values())
+        self.fill(len(self._things()) - 1)
 
     def _change(self) -> None:
-        row = self._list.currentRow()
-        if row >= 0:
-            self._try(self._things()[row], row)
-
-    def _try(self, thing, row: int) -> None:
-        from moveit_setup_assistant.errors import AssistantError
-
-        try:
-            self._write(thing, self.values())
-        except AssistantError as error:
-            self.refused.emit(str(error))
-            return
+        row = self._table.row()
+        self._write(self._things()[row], self.values())
         self.fill(row)
 
     def _remove(self) -> None:
-        row = self._list.currentRow()
-        if row >= 0:
-            self._delete(self._things()[row])
-            self.fill(min(row, len(self._things()) - 1))
+        row = self._table.row()
+        self._delete(self._things()[row])
+        self.fill(min(row, len(self._things()) - 1))
+
+
+def allow(button: QWidget, why_not: str) -> None:
+    """Enable a widget if there is no reason against it; the reason is its tool tip."""
+    button.setEnabled(not why_not)
+    button.setToolTip(why_not)
+
+
+def hint(name: str, colour: str = "#505050") -> QLabel:
+    """A line below a form: what is missing, or wrong."""
+    made = QLabel()
+    made.setObjectName(name)
+    made.setWordWrap(True)
+    made.setStyleSheet(f"color: {colour}")
+    return made
+
+
+def add_row(form: QFormLayout, text: str, widget: QWidget) -> None:
+    """A row of a form; names of plugins are long, and get a line of their own below their label."""
+    if isinstance(widget, QComboBox) and widget.isEditable():
+        form.addRow(QLabel(text))
+        form.addRow(widget)
+    else:
+        form.addRow(text, widget)
+
+
+def form_layout(parent: QWidget | None = None) -> QFormLayout:
+    """A form whose long labels stand above their fields where the window is narrow."""
+    made = QFormLayout(parent) if parent is not None else QFormLayout()
+    made.setRowWrapPolicy(QFormLayout.WrapLongRows)
+    made.setFieldGrowthPolicy(QFormLayout.AllNonFixedFieldsGrow)
+    return made
 
 
 def line(text: str = "") -> QLineEdit:
@@ -214,11 +369,12 @@ def line(text: str = "") -> QLineEdit:
 
 
 def choice(names: Iterable[str] = (), editable: bool = False) -> QComboBox:
-    """A field to choose from."""
+    """A field to choose from; it takes the width it is given, and cuts what is longer."""
     made = QComboBox()
     made.addItems(list(names))
     made.setEditable(editable)
     made.setMinimumContentsLength(12)
+    made.setSizeAdjustPolicy(QComboBox.AdjustToMinimumContentsLengthWithIcon)
     return made
 
 

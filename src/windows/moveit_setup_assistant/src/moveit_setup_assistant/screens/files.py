@@ -4,21 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from python_qt_binding.QtWidgets import (
-    QFileDialog,
-    QHBoxLayout,
-    QLabel,
-    QListWidget,
-    QListWidgetItem,
-    QMessageBox,
-    QPlainTextEdit,
-    QPushButton,
-)
+from python_qt_binding.QtCore import Qt, QTimer
+from python_qt_binding.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QMessageBox, QPlainTextEdit, QPushButton, QSplitter
 
 from moveit_setup_assistant import package_writer
 from moveit_setup_assistant.errors import AssistantError
-from moveit_setup_assistant.package_writer import PlannedFile, State
-from moveit_setup_assistant.screens.base import CHECKED, UNCHECKED, Screen, line
+from moveit_setup_assistant.package_writer import PlannedFile
+from moveit_setup_assistant.screens.base import CHECKED, UNCHECKED, Screen, Table, allow, hint, line
+
+_AT_REST = 300  # ms after the last key: the folder is typed
 
 
 class FilesScreen(Screen):
@@ -32,9 +26,9 @@ class FilesScreen(Screen):
     def __init__(self, session) -> None:
         super().__init__(session)
         self._files: list[PlannedFile] = []
-        self._folder, browse = line(), QPushButton("Browse")
+        self._folder, browse = line(), QPushButton("&Browse")
         self._folder.setObjectName("files_folder")
-        self._folder.editingFinished.connect(self._plan)
+        self._folder.setPlaceholderText("for example ~/catkin_ws/src/my_robot_moveit_config")
         browse.setObjectName("files_browse")
         browse.clicked.connect(self._browse)
         row = QHBoxLayout()
@@ -42,47 +36,76 @@ class FilesScreen(Screen):
         row.addWidget(self._folder)
         row.addWidget(browse)
         self.layout_.addLayout(row)
-        row = QHBoxLayout()
-        self._list, self._text = QListWidget(), QPlainTextEdit()
-        self._list.setObjectName("files_list")
+        self._list, self._text, split = Table("files_list", ("Write", "File", "What for")), QPlainTextEdit(), QSplitter(Qt.Vertical)
         self._text.setObjectName("files_text")
         self._text.setReadOnly(True)
-        self._list.currentRowChanged.connect(self._look)
+        self._text.setLineWrapMode(QPlainTextEdit.NoWrap)
+        self._list.itemSelectionChanged.connect(self._look)
         self._list.itemChanged.connect(self._ticked)
-        row.addWidget(self._list, 1)
-        row.addWidget(self._text, 1)
-        self.layout_.addLayout(row)
-        button = QPushButton("Generate Package")
-        button.setObjectName("files_generate")
-        button.clicked.connect(self._generate)
-        self.layout_.addWidget(button)
+        split.addWidget(self._list)
+        split.addWidget(self._text)
+        self.layout_.addWidget(split, 1)
+        self._hint = hint("files_hint")
+        self.layout_.addWidget(self._hint)
+        self.layout_.addLayout(self._make_buttons())
+        self._typed = QTimer(self)
+        self._typed.setSingleShot(True)
+        self._typed.timeout.connect(self._plan)
+        self._folder.editingFinished.connect(self._plan)
+        self._folder.textChanged.connect(lambda _text: self._typed.start(_AT_REST))
+
+    def _make_buttons(self) -> QHBoxLayout:
+        row = QHBoxLayout()
+        self._generate_button, leave = QPushButton("&Generate Package"), QPushButton("E&xit Setup Assistant")
+        self._generate_button.setObjectName("files_generate")
+        self._generate_button.clicked.connect(self._generate)
+        leave.setObjectName("files_exit")
+        leave.clicked.connect(lambda: self.window().close())
+        for button in (self._generate_button, leave):
+            button.setMinimumHeight(36)
+            row.addWidget(button)
+        return row
 
     def enter(self) -> None:
         if self.session.package is not None:
             self._folder.setText(str(self.session.package))
         self._plan()
 
+    def leave(self):
+        self._typed.stop()
+        return None
+
     def _plan(self) -> None:
-        self._files = []
+        """Look at the folder: what would be written, and what stands against it."""
+        self._typed.stop()
+        self._files, why = [], "Name the folder of the package."
         try:
             if self._folder.text().strip():
-                self._files = package_writer.plan(self.config, Path(self._folder.text().strip()).expanduser().absolute())
+                self._files = package_writer.plan(self.config, self._package())
+                why = "\n".join(self.config.problems())
         except AssistantError as error:
-            self.session.say(str(error), bad=True)
+            why = str(error)
+        self._hint.setText(why)
+        allow(self._generate_button, why)
+        self._list.show_rows([(file.state.value, file.path, file.purpose) for file in self._files])
         self._list.blockSignals(True)
-        self._list.clear()
-        for file in self._files:
-            item = QListWidgetItem(file.path if file.state is State.NEW else f"{file.path} ({file.state.value})")
-            item.setCheckState(CHECKED if file.write else UNCHECKED)
-            self._list.addItem(item)
+        for row, file in enumerate(self._files):
+            self._list.item(row, 0).setCheckState(CHECKED if file.write else UNCHECKED)
         self._list.blockSignals(False)
+        self._list.spread()
+        self._text.clear()
 
-    def _look(self, row: int) -> None:
+    def _package(self) -> Path:
+        return Path(self._folder.text().strip()).expanduser().absolute()
+
+    def _look(self) -> None:
+        row = self._list.row()
         if 0 <= row < len(self._files):
-            self._text.setPlainText(f"{self._files[row].path}: {self._files[row].purpose}\n\n{self._files[row].text}")
+            self._text.setPlainText(self._files[row].text)
 
     def _ticked(self, item) -> None:
-        self._files[self._list.row(item)].write = item.checkState() == CHECKED
+        if item.column() == 0:
+            self._files[item.row()].write = item.checkState() == CHECKED
 
     def _browse(self) -> None:
         found = QFileDialog.getExistingDirectory(self, "Folder of the package", self._folder.text())
@@ -91,21 +114,19 @@ class FilesScreen(Screen):
             self._plan()
 
     def _generate(self) -> None:
-        if not self._files:
-            self.session.say("Name the folder of the package first, for example ~/catkin_ws/src/my_robot_moveit_config.", bad=True)
-            return
         incomplete = self.config.incomplete()
         if (
             incomplete
             and QMessageBox.question(self, "Incomplete", "\n".join([*incomplete, "", "Write the package all the same?"])) != QMessageBox.Yes
         ):
             return
-        package = Path(self._folder.text().strip()).expanduser().absolute()
+        package = self._package()
         try:
             written = package_writer.write(self.config, package, self._files)
         except AssistantError as error:
             self.session.say(str(error), bad=True)
             return
         self.session.package = package
+        self.session.kept()
         self._plan()
         self.session.say(f"Wrote {len(written)} files to {package}. Build your workspace, then: roslaunch {package.name} demo.launch")

@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from python_qt_binding.QtWidgets import QFormLayout, QStackedWidget, QWidget
+from python_qt_binding.QtWidgets import QStackedWidget, QWidget
 
-from moveit_setup_assistant.screens.base import Screen, choice, line
+from moveit_setup_assistant.screens.base import Screen, choice, form_layout, line
 
 _KINDS: dict[str, dict[str, Any]] = {
     "Point Cloud": {
@@ -42,18 +42,20 @@ class PerceptionScreen(Screen):
         super().__init__(session)
         self._kind = choice(("None", *_KINDS))
         self._kind.setObjectName("perception_kind")
-        self.layout_.addWidget(self._kind)
+        form = form_layout()
+        form.addRow("Sensor", self._kind)
+        self.layout_.addLayout(form)
         self._stack = QStackedWidget()
         self._fields: dict[str, Any] = {}
         self._stack.addWidget(QWidget())
         for kind, values in _KINDS.items():
             page = QWidget()
-            form = QFormLayout(page)
+            form = form_layout(page)
             fields = self._fields[kind] = {}
             for key, value in list(values.items())[1:]:
                 fields[key] = line(str(value))
                 fields[key].setObjectName(f"perception_{key}")
-                form.addRow(key.replace("_", " "), fields[key])
+                form.addRow(key.replace("_", " ").capitalize(), fields[key])
             self._stack.addWidget(page)
         self._kind.currentIndexChanged.connect(self._stack.setCurrentIndex)
         self._kind.currentTextChanged.connect(self._fill)

@@ -5,22 +5,11 @@ from __future__ import annotations
 import threading
 
 from python_qt_binding.QtCore import Signal
-from python_qt_binding.QtWidgets import (
-    QCheckBox,
-    QDoubleSpinBox,
-    QFormLayout,
-    QHBoxLayout,
-    QHeaderView,
-    QProgressBar,
-    QPushButton,
-    QSpinBox,
-    QTableWidget,
-    QTableWidgetItem,
-)
+from python_qt_binding.QtWidgets import QCheckBox, QDoubleSpinBox, QHBoxLayout, QProgressBar, QPushButton, QSpinBox, QTableWidgetItem
 
 from moveit_setup_assistant import collisions
 from moveit_setup_assistant.headless import set_collisions
-from moveit_setup_assistant.screens.base import CHECKED, UNCHECKED, Screen, line
+from moveit_setup_assistant.screens.base import CHECKED, UNCHECKED, Screen, Table, form_layout, line
 from moveit_setup_assistant.words import counted
 
 
@@ -46,37 +35,49 @@ class SelfCollisionsScreen(Screen):
         self._always.setRange(1, 100)
         self._always.setValue(95)
         self._always.setSuffix(" %")
-        self._button, self._progress = QPushButton("Generate Collision Matrix"), QProgressBar()
+        self._button, self._progress = QPushButton("&Generate Collision Matrix"), QProgressBar()
         for widget, name in ((self._trials, "trials"), (self._always, "always"), (self._button, "generate"), (self._progress, "progress")):
             widget.setObjectName(f"collisions_{name}")
         self._button.clicked.connect(self._generate)
-        form = QFormLayout()
+        form = form_layout()
         form.addRow("Sampling density", self._trials)
         form.addRow('Min. collisions for "always"-colliding pairs', self._always)
         self.layout_.addLayout(form)
         row = QHBoxLayout()
         row.addWidget(self._button)
-        row.addWidget(self._progress)
+        row.addWidget(self._progress, 1)
+        row.addStretch()
         self.layout_.addLayout(row)
-        self._filter, self._all = line(), QCheckBox("Show enabled pairs")
-        self._filter.setObjectName("collisions_filter")
-        self._filter.setPlaceholderText("link name")
-        self._all.setObjectName("collisions_show_enabled")
-        self._filter.textChanged.connect(self._fill)
-        self._all.toggled.connect(self._fill)
-        row = QHBoxLayout()
-        row.addWidget(self._filter)
-        row.addWidget(self._all)
-        self.layout_.addLayout(row)
-        self._table = QTableWidget(0, 4)
-        self._table.setObjectName("collisions_table")
-        self._table.setHorizontalHeaderLabels(["Link A", "Link B", "Disabled", "Reason"])
-        self._table.horizontalHeader().setSectionResizeMode(QHeaderView.Stretch)
+        self.layout_.addLayout(self._choice_of_rows())
+        self._table = Table("collisions_table", ("Link A", "Link B", "Disabled", "Reason"))
+        self._table.setSelectionMode(Table.ExtendedSelection)
         self._table.itemChanged.connect(self._ticked)
         self._table.itemSelectionChanged.connect(self._look)
         self.layout_.addWidget(self._table)
         self._advanced.connect(self._progress.setValue)
         self._finished.connect(self._take)
+        self._show_running(False)
+
+    def _choice_of_rows(self) -> QHBoxLayout:
+        row = QHBoxLayout()
+        self._filter, self._all = line(), QCheckBox("&Show enabled pairs")
+        self._filter.setObjectName("collisions_filter")
+        self._filter.setPlaceholderText("Part of a link's name")
+        self._filter.setClearButtonEnabled(True)
+        self._all.setObjectName("collisions_show_enabled")
+        self._filter.textChanged.connect(self._fill)
+        self._all.toggled.connect(self._fill)
+        row.addWidget(self._filter)
+        row.addWidget(self._all)
+        return row
+
+    def _show_running(self, runs: bool) -> None:
+        """While pairs are looked for there is a bar, and nothing else can be set."""
+        self._button.setText("&Stop" if runs else "&Generate Collision Matrix")
+        self._progress.setVisible(runs)
+        self._progress.setValue(0)
+        for widget in (self._trials, self._always, self._filter, self._all, self._table):
+            widget.setEnabled(not runs)
 
     def enter(self) -> None:
         self._reasons = {collisions.pair(p.link1, p.link2): p.reason or collisions.USER for p in self.config.semantics.disable_collisionss}
@@ -103,7 +104,7 @@ class SelfCollisionsScreen(Screen):
         def run() -> None:
             self._finished.emit(collisions.compute_disabled(model, trials, fraction, progress=progress))
 
-        self._button.setText("Stop")
+        self._show_running(True)
         self._thread = threading.Thread(target=run, daemon=True)
         self._thread.start()
 
@@ -111,7 +112,7 @@ class SelfCollisionsScreen(Screen):
         if self._thread is not None:
             self._thread.join()
         self._thread = None
-        self._button.setText("Generate Collision Matrix")
+        self._show_running(False)
         if reasons:
             self._reasons = reasons
             set_collisions(self.config, reasons)
@@ -134,6 +135,7 @@ class SelfCollisionsScreen(Screen):
             for column, item in enumerate((QTableWidgetItem(one), QTableWidgetItem(other), tick, QTableWidgetItem(reason))):
                 self._table.setItem(index, column, item)
         self._table.blockSignals(False)
+        self._table.spread()
 
     def _ticked(self, item) -> None:
         if item.column() != 2:

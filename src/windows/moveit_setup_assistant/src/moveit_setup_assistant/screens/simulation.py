@@ -2,7 +2,7 @@
 
 from python_qt_binding.QtWidgets import QApplication, QHBoxLayout, QPlainTextEdit, QPushButton
 
-from moveit_setup_assistant.screens.base import Screen
+from moveit_setup_assistant.screens.base import Screen, allow
 from moveit_setup_assistant.simulation import simulated_urdf
 
 
@@ -19,12 +19,13 @@ class SimulationScreen(Screen):
     def __init__(self, session) -> None:
         super().__init__(session)
         row = QHBoxLayout()
+        self._buttons = {}
         for text, name, action in (
-            ("Generate", "generate", self._generate),
-            ("Copy to Clipboard", "copy", self._copy),
-            ("Remove", "remove", self._remove),
+            ("&Generate URDF", "generate", self._generate),
+            ("&Copy to Clipboard", "copy", self._copy),
+            ("&Remove", "remove", self._remove),
         ):
-            button = QPushButton(text)
+            button = self._buttons[name] = QPushButton(text)
             button.setObjectName(f"simulation_{name}")
             button.clicked.connect(action)
             row.addWidget(button)
@@ -36,9 +37,15 @@ class SimulationScreen(Screen):
 
     def enter(self) -> None:
         self._text.setPlainText(self.config.gazebo_urdf)
+        self._allow()
 
     def _take(self) -> None:
         self.config.gazebo_urdf = self._text.toPlainText()
+        self._allow()
+
+    def _allow(self) -> None:
+        for name in ("copy", "remove"):
+            allow(self._buttons[name], "" if self.config.gazebo_urdf else "There is no URDF yet: generate it first.")
 
     def _generate(self) -> None:
         made = simulated_urdf(self.config.robot.urdf, self.config.controllers)

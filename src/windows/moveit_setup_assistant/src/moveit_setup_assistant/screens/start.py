@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import rospkg
-from python_qt_binding.QtWidgets import QFileDialog, QFormLayout, QHBoxLayout, QPushButton, QRadioButton
+from python_qt_binding.QtWidgets import QButtonGroup, QFileDialog, QHBoxLayout, QLabel, QPushButton, QWidget
 
 from moveit_setup_assistant.configuration import Configuration
 from moveit_setup_assistant.errors import AssistantError, files_told
 from moveit_setup_assistant.robot_source import RobotSource
-from moveit_setup_assistant.screens.base import Screen, line
+from moveit_setup_assistant.screens.base import Screen, allow, form_layout, line
 
 
 class StartScreen(Screen):
@@ -24,31 +24,61 @@ class StartScreen(Screen):
 
     def __init__(self, session) -> None:
         super().__init__(session)
-        self._new = QRadioButton("Create New MoveIt Configuration Package")
-        self._edit = QRadioButton("Edit Existing MoveIt Configuration Package")
-        self._new.setObjectName("start_new")
-        self._edit.setObjectName("start_edit")
-        self._new.setChecked(True)
-        self._path, self._arguments = line(), line()
+        row, choices = QHBoxLayout(), QButtonGroup(self)
+        self._new = QPushButton("Create &New MoveIt\nConfiguration Package")
+        self._edit = QPushButton("&Edit Existing MoveIt\nConfiguration Package")
+        for button, name in ((self._new, "start_new"), (self._edit, "start_edit")):
+            button.setObjectName(name)
+            button.setCheckable(True)
+            button.setMinimumHeight(64)
+            choices.addButton(button)
+            row.addWidget(button)
+        self.layout_.addLayout(row)
+        self.layout_.addWidget(self._form())
+        self.layout_.addStretch(1)
+        choices.buttonToggled.connect(self._choose)
+
+    def _form(self) -> QWidget:
+        """What is asked once a button is pressed."""
+        self._path, self._arguments, self._file = line(), line(), QLabel()
         self._path.setObjectName("start_path")
         self._arguments.setObjectName("start_xacro_args")
-        browse, load = QPushButton("Browse"), QPushButton("Load Files")
+        browse, self._load = QPushButton("&Browse"), QPushButton("&Load Files")
         browse.setObjectName("start_browse")
-        load.setObjectName("start_load")
+        self._load.setObjectName("start_load")
+        self._load.setMinimumHeight(36)
         browse.clicked.connect(self._browse)
-        load.clicked.connect(self.load)
-        for button in (self._new, self._edit):
-            self.layout_.addWidget(button)
-            button.toggled.connect(lambda _on: self._arguments.setEnabled(self._new.isChecked()))
+        self._load.clicked.connect(self.load)
+        self._path.textChanged.connect(self._allow)
         row = QHBoxLayout()
         row.addWidget(self._path)
         row.addWidget(browse)
-        form = QFormLayout()
-        form.addRow("File or package", row)
-        form.addRow("xacro arguments", self._arguments)
-        self.layout_.addLayout(form)
-        self.layout_.addWidget(load)
-        self.layout_.addStretch(1)
+        self._asked = QWidget()
+        form = form_layout(self._asked)
+        form.setContentsMargins(0, 12, 0, 0)
+        form.addRow(self._file)
+        form.addRow(row)
+        form.addRow("xacro arguments (optional)", self._arguments)
+        form.addRow(self._load)
+        self._asked.hide()
+        return self._asked
+
+    def _choose(self, *_) -> None:
+        if self._edit.isChecked():
+            self._file.setText("Name of the package, or its folder:")
+        else:
+            self._file.setText("URDF or xacro file of the robot:")
+        self._asked.setVisible(self._new.isChecked() or self._edit.isChecked())
+        self._allow()
+
+    def _allow(self, *_) -> None:
+        text = self._path.text().strip()
+        allow(self._load, "" if text else "Name the file or the package first.")
+        if self._edit.isChecked():
+            why = "The package holds its own."
+        else:
+            why = "" if _is_xacro(text) else "Only a xacro file has arguments."
+        allow(self._arguments, why)
 
     def show_package(self, name: str) -> None:
         """Prepare to edit the package of that name, or in that folder."""
@@ -63,11 +93,12 @@ class StartScreen(Screen):
     def load(self) -> None:
         """Load what the form names; the other screens are open then."""
         text = self._path.text().strip()
+        arguments = self._arguments.text().strip() if self._arguments.isEnabled() else ""
+        if not self.session.may_forget("Load other files"):
+            return
         try:
-            if not text:
-                raise AssistantError("Name the robot's URDF or xacro file, or the package to edit.")
             if self._new.isChecked():
-                self.session.open(Configuration.new(RobotSource.from_file(text, self._arguments.text().strip())), None)
+                self.session.open(Configuration.new(RobotSource.from_file(text, arguments)), None)
             else:
                 package = _package_folder(text)
                 self.session.open(Configuration.load(package), package)
@@ -81,6 +112,14 @@ class StartScreen(Screen):
             found = QFileDialog.getExistingDirectory(self, "Configuration package", self._path.text())
         if found:
             self._path.setText(found)
+
+
+def _is_xacro(text: str) -> bool:
+    """Whether ``text`` names a file that goes through xacro."""
+    try:
+        return bool(text) and RobotSource.from_file(text).is_xacro
+    except AssistantError:
+        return False
 
 
 @files_told()

@@ -19,6 +19,8 @@ class VirtualJointsScreen(Screen):
         super().__init__(session)
         self._entries = Entries(
             "virtual_joints",
+            "Virtual Joint",
+            ("Name", "Child Link", "Parent Frame", "Type"),
             {
                 "name": ("Virtual joint name", line()),
                 "child_link": ("Child link", choice()),
@@ -26,12 +28,12 @@ class VirtualJointsScreen(Screen):
                 "type": ("Joint type", choice(("fixed", "floating", "planar"))),
             },
             lambda: self.config.semantics.virtual_joints,
-            lambda v: f"{v.name}: {v.parent_frame} - {v.child_link} ({v.type})",
+            lambda v: (v.name, v.child_link, v.parent_frame, v.type),
             lambda v: {"name": v.name, "child_link": v.child_link, "parent_frame": v.parent_frame, "type": v.type},
+            self._check,
             self._write,
             lambda v: self.config.semantics.virtual_joints.remove(v),
         )
-        self._entries.refused.connect(lambda text: session.say(text, bad=True))
         self._entries.looked_at.connect(lambda v: session.highlight([v.child_link]))
         self.layout_.addWidget(self._entries)
 
@@ -39,14 +41,15 @@ class VirtualJointsScreen(Screen):
         self._entries.offer("child_link", self.config.robot.model.links)
         self._entries.fill()
 
-    def _write(self, thing, values) -> None:
-        joints = self.config.semantics.virtual_joints
+    def _check(self, thing, values) -> None:
         if not values["name"] or not values["parent_frame"]:
             raise AssistantError("A virtual joint needs a name and a parent frame.")
-        if any(v.name == values["name"] and v is not thing for v in joints):
+        if any(v.name == values["name"] and v is not thing for v in self.config.semantics.virtual_joints):
             raise AssistantError(f"There is a virtual joint '{values['name']}' already; choose another name.")
+
+    def _write(self, thing, values) -> None:
         if thing is None:
             thing = srdf.VirtualJoint()
-            joints.append(thing)
+            self.config.semantics.virtual_joints.append(thing)
         thing.name, thing.child_link = values["name"], values["child_link"]
         thing.parent_frame, thing.type = values["parent_frame"], values["type"]
