@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <joint_trajectory_controller/init_joint_trajectory.h>
+#include <joint_trajectory_controller/stop_trajectory_builder.h>
 #include <trajectory_interface/quintic_spline_segment.h>
 
 namespace jtc = joint_trajectory_controller;
@@ -13,6 +14,13 @@ namespace
 typedef jtc::JointTrajectorySegment<trajectory_interface::QuinticSplineSegment<double>> Segment;
 typedef std::vector<std::vector<Segment>> Trajectory;
 typedef jtc::InitJointTrajectoryOptions<Trajectory> Options;
+
+/// As one that no client waits for.
+Options::RealtimeGoalHandlePtr goal()
+{
+  actionlib::ServerGoalHandle<control_msgs::FollowJointTrajectoryAction> nobodys;
+  return Options::RealtimeGoalHandlePtr(new Options::RealtimeGoalHandle(nobodys));
+}
 
 trajectory_msgs::JointTrajectoryPoint point(double time, const std::vector<double>& positions)
 {
@@ -115,6 +123,37 @@ TEST_F(InitJointTrajectory, a_joint_that_is_not_named_keeps_its_motion)
   EXPECT_EQ(made[0].size(), 1u);
   EXPECT_DOUBLE_EQ(at(made[0], 12.0), 0.0);
   EXPECT_DOUBLE_EQ(at(made[1], 12.0), 2.0);
+}
+
+// As in upstream's: a goal is not watched before it begins.
+TEST_F(InitJointTrajectory, what_is_kept_until_the_message_begins_belongs_to_whom_it_did)
+{
+  options_.rt_goal_handle = goal();
+  options_.allow_partial_joints_goal = true;
+  const Trajectory made = make(message({ "b" }, 103.0));
+  ASSERT_EQ(made[1].size(), 3u);
+  EXPECT_FALSE(made[1][0].getGoalHandle());
+  EXPECT_EQ(made[1][1].getGoalHandle(), options_.rt_goal_handle);
+  EXPECT_EQ(made[1][2].getGoalHandle(), options_.rt_goal_handle);
+  ASSERT_EQ(made[0].size(), 1u) << "not named";
+  EXPECT_EQ(made[0][0].getGoalHandle(), options_.rt_goal_handle);
+}
+
+TEST(Builders, leave_the_life_of_a_goal_to_others)
+{
+  Options::RealtimeGoalHandlePtr handle = goal();
+  const Segment::State rest(1u);
+  Trajectory made(1, std::vector<Segment>(1, Segment(0.0, rest, 0.0, rest)));
+  jtc::StopTrajectoryBuilder<trajectory_interface::QuinticSplineSegment<double>> builder(1.0, rest);
+  builder.setStartTime(0.0)->setGoalHandle(handle);
+  EXPECT_EQ(handle.use_count(), 1);
+  ASSERT_TRUE(builder.buildTrajectory(&made));
+  EXPECT_EQ(made[0][0].getGoalHandle(), handle);
+  EXPECT_EQ(handle.use_count(), 2) << "the segment's";
+  builder.reset();
+  ASSERT_TRUE(builder.setStartTime(0.0)->buildTrajectory(&made));
+  EXPECT_FALSE(made[0][0].getGoalHandle());
+  EXPECT_EQ(handle.use_count(), 1);
 }
 
 TEST_F(InitJointTrajectory, joints_without_end_take_the_short_way)

@@ -128,13 +128,13 @@ def test_future_start_lets_the_old_motion_go_on_until_then(message):
     assert result[2].sample(12.1)[0] == pytest.approx(2.1)
 
 
-def test_all_belongs_to_the_new_goal_but_kept_segments_keep_their_tolerances(message):
+def test_what_is_kept_until_the_message_begins_belongs_to_whom_it_did(message):
+    """As in upstream's initJointTrajectory: a goal is not watched before it begins."""
     goal = object()
     old = moving()
     result = splice_now(old, message(JOINTS, (1.0, [5.0, 5.0]), (2.0, [6.0, 6.0])), goal=goal)[0]
-    assert all(segment.goal is goal for segment in result)
+    assert [segment.goal for segment in result] == [None, goal, goal]
     assert [segment.tolerances == NEW[0] for segment in result] == [False, True, True]
-    assert old[0][0].goal is None
 
 
 def test_joints_left_out_keep_their_motion(message):

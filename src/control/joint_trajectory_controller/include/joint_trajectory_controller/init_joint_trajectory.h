@@ -289,7 +289,8 @@ private:
     return false;
   }
 
-  /// One joint: what is kept of its motion, the bridge, the rest of the message.
+  /// One joint: what is kept of its motion, the bridge, the rest of the message. A goal has the motion of joints that it does not name
+  /// at once; of the others what begins with it, as a tolerance that is broken before is no fault of its own.
   void extend(std::size_t joint, TrajectoryPerJoint& segments)
   {
     const auto name = std::find(msg_.joint_names.begin(), msg_.joint_names.end(), joints_[joint]);
@@ -298,13 +299,13 @@ private:
     const double join = law::joining_time(now_ - elapsed_, now_),
                  from = options_.keep_from ? options_.keep_from->toSec() : now_;
     if (joins_)
-    {
       segments = kept((*options_.current_trajectory)[joint], from, named ? join : from - 1.0);
+    if (!named)
+    {
       for (Segment& segment : segments)
         segment.setGoalHandle(options_.rt_goal_handle);
-    }
-    if (!named)
       return;
+    }
     Scalar offset = 0;
     if (joins_)
     {
@@ -345,7 +346,8 @@ private:
 /// The motion that a message asks for; empty if it cannot be executed: the log and options.error_string say why.
 ///
 /// With a current trajectory, that one runs on until the message begins, or until `time`; a bridge then leads from the desired state
-/// there to the first point that is not in the past. Joints that the message does not name keep their motion.
+/// there to the first point that is not in the past. Joints that the message does not name keep their motion. Points of
+/// unequal sizes throw nothing, unlike upstream's: the result is empty, as for all else.
 /// \param time the earliest instant at which the message can begin
 template <class Trajectory>
 Trajectory initJointTrajectory(const trajectory_msgs::JointTrajectory& msg, const ros::Time& time,

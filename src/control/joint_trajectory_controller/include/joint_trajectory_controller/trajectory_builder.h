@@ -32,9 +32,10 @@ public:
     return this;
   }
 
+  /// \param goal_handle outlives the builder, or its next reset(): the goal's life is not prolonged by whoever builds for it
   TrajectoryBuilder* setGoalHandle(RealtimeGoalHandlePtr& goal_handle)
   {
-    goal_handle_ = goal_handle;
+    goal_handle_ = &goal_handle;
     return this;
   }
 
@@ -42,14 +43,14 @@ public:
   virtual void reset()
   {
     start_time_ = boost::none;
-    goal_handle_.reset();
+    goal_handle_ = nullptr;
   }
 
   /// \return false: no start was told, or the trajectory is not of this builder's joints; it is as it was
   virtual bool buildTrajectory(Trajectory* trajectory) = 0;
 
 protected:
-  RealtimeGoalHandlePtr createGoalHandlePtr() const { return goal_handle_; }
+  RealtimeGoalHandlePtr createGoalHandlePtr() const { return goal_handle_ ? *goal_handle_ : createDefaultGoalHandle(); }
   const boost::optional<typename Segment::Time>& getStartTime() const { return start_time_; }
   static RealtimeGoalHandlePtr createDefaultGoalHandle() { return RealtimeGoalHandlePtr(); }
 
@@ -66,7 +67,7 @@ protected:
 
 private:
   boost::optional<typename Segment::Time> start_time_;
-  RealtimeGoalHandlePtr goal_handle_;
+  RealtimeGoalHandlePtr* goal_handle_ = nullptr;
 };
 
 }  // namespace joint_trajectory_controller

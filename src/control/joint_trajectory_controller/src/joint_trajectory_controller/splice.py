@@ -148,7 +148,8 @@ def splice(
 
     The old motion runs on to the joining instant; a bridge leads from its desired state there to the first way-point:
     the splice of ``tracking_law.h``.
-    Joints that the command does not name keep their motion; all of it belongs to ``goal`` from now on.
+    What is kept of it until then is whose it was: its tolerances are no reason to abort ``goal``, which has not begun.
+    Joints that the command does not name keep their motion, which belongs to ``goal`` from now on.
 
     :param current: segments of every joint, the running motion
     :param start: start of the message in controller time, seconds
@@ -167,7 +168,7 @@ def splice(
             result.append([segment.owned_by(goal) for segment in segments[active:]])
             continue
         last = max(active_index(segments, join), active)
-        spliced = [segment.owned_by(goal) for segment in segments[active : last + 1]]
+        spliced = list(segments[active : last + 1])
         now = State(*segments[last].sample(join))
         target = states[skip]
         offset = turns_to_add(now.position, target.position) if continuous[joint] else 0.0
