@@ -12,6 +12,11 @@
 
 #include "lamp.h"
 
+// What programs have from controller_manager.h alone, with upstream's values.
+static_assert(controller_manager_msgs::SwitchControllerRequest::STRICT == 2, "the services are declared");
+static_assert(controller_manager::ControllerManager::INFINITE_TIMEOUT == 0.0, "a switch waits for ever");
+static_assert(!controller_manager::ControllerManager::WAIT_FOR_ALL_RESOURCES, "a switch starts all at once");
+
 namespace
 {
 

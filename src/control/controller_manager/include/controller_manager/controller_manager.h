@@ -8,9 +8,17 @@
 #include <controller_interface/controller_base.h>
 #include <controller_manager/controller_loader.h>
 #include <controller_manager/controller_loader_interface.h>
+#include <controller_manager/controller_spec.h>
 #include <hardware_interface/robot_hw.h>
-#include <ros/node_handle.h>
-#include <ros/time.h>
+#include <ros/ros.h>
+
+// Programs name the services' types, and have them from here.
+#include <controller_manager_msgs/ListControllerTypes.h>
+#include <controller_manager_msgs/ListControllers.h>
+#include <controller_manager_msgs/LoadController.h>
+#include <controller_manager_msgs/ReloadControllerLibraries.h>
+#include <controller_manager_msgs/SwitchController.h>
+#include <controller_manager_msgs/UnloadController.h>
 
 namespace controller_manager
 {
@@ -25,6 +33,10 @@ namespace controller_manager
 class ControllerManager
 {
 public:
+  // How switchController() waits when nothing else is said.
+  static constexpr bool WAIT_FOR_ALL_RESOURCES = false;
+  static constexpr double INFINITE_TIMEOUT = 0.0;
+
   /// \param robot_hw lives as long as the manager
   /// \param nh services are in <nh>/controller_manager, a controller's parameters and topics in <nh>/<controller>
   ControllerManager(hardware_interface::RobotHW* robot_hw, const ros::NodeHandle& nh = ros::NodeHandle());
@@ -41,7 +53,7 @@ public:
   bool loadController(const std::string& name);
   bool unloadController(const std::string& name);
   bool switchController(const std::vector<std::string>& start_controllers, const std::vector<std::string>& stop_controllers,
-                        const int strictness, bool start_asap = false, double timeout = 0.0);
+                        const int strictness, bool start_asap = WAIT_FOR_ALL_RESOURCES, double timeout = INFINITE_TIMEOUT);
 
   /// A loaded controller of C++; null for one of Python, or if there is none of that name.
   virtual controller_interface::ControllerBase* getControllerByName(const std::string& name);
