@@ -18,6 +18,8 @@ struct CollisionChecker::Search
 
 namespace
 {
+constexpr double TOUCHING = 1e-9;  // m: whether what is nearer than this touches is FCL's to say
+
 void addCosts(const CollisionShape& a, const Transform& pose_a, const CollisionShape& b, const Transform& pose_b,
               std::size_t most, std::vector<CostSource>& costs)
 {
@@ -155,6 +157,8 @@ bool CollisionChecker::test(const CollisionShape& a, const Transform& pose_a, in
     addCosts(a, pose_a, b, pose_b, search.most_costs, *search.costs);
     return false;
   }
+  if (gapOfBoxes(a, pose_a, b, pose_b) > TOUCHING)
+    return false;
   std::size_t want = 0;
   std::size_t* have = nullptr;
   if (search.request && search.request->contacts > search.result->contacts.size())
@@ -218,7 +222,7 @@ bool CollisionChecker::collides(const RobotState& state) const
   CollisionResult result;
   Search search;
   search.result = &result;
-  return searchSelf(scratch, search) || searchWorld(scratch, search);
+  return searchWorld(scratch, search) || searchSelf(scratch, search);  // mesh against mesh is dearer
 }
 
 CollisionResult CollisionChecker::check(const RobotState& state, const CollisionRequest& request) const

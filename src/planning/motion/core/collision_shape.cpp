@@ -9,6 +9,8 @@
 #include <fcl/geometry/shape/sphere.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <tuple>
@@ -96,6 +98,33 @@ CollisionShapePtr collisionShape(const ShapePtr& shape, double scale, double pad
     clean_at = std::max<std::size_t>(256, 2 * cache.size());
   }
   return made;
+}
+
+double gapOfBoxes(const CollisionShape& a, const Transform& at_a, const CollisionShape& b, const Transform& at_b)
+{
+  if (a.unbounded || b.unbounded)
+    return -std::numeric_limits<double>::infinity();
+  const Eigen::Matrix3d turn = at_a.linear().transpose() * at_b.linear(), size = turn.cwiseAbs();  // of b's axes in a's
+  const Vector3 off = at_a.linear().transpose() * (at_b * b.centre - at_a * a.centre);
+  double gap = (off.cwiseAbs() - a.half - size * b.half).maxCoeff();
+  if (gap > 0)
+    return gap;
+  gap = std::max(gap, ((turn.transpose() * off).cwiseAbs() - b.half - size.transpose() * a.half).maxCoeff());
+  if (gap > 0)
+    return gap;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k)
+    {
+      constexpr double PARALLEL = 1e-6;  // the sine squared below which the two axes are those of above
+      const double sine2 = 1 - turn(i, k) * turn(i, k);
+      if (sine2 < PARALLEL)
+        continue;
+      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+      const double between = std::abs(off[i2] * turn(i1, k) - off[i1] * turn(i2, k)) - a.half[i1] * size(i2, k) -
+                             a.half[i2] * size(i1, k) - b.half[k1] * size(i, k2) - b.half[k2] * size(i, k1);
+      gap = std::max(gap, between / std::sqrt(sine2));
+    }
+  return gap;
 }
 
 void AabbTree::build(const std::vector<Aabb>& boxes)

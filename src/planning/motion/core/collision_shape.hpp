@@ -47,6 +47,10 @@ inline Aabb boundsOf(const CollisionShape& shape, const Transform& pose)
   return {centre - half, centre + half};
 }
 
+// A lower bound of the distance of two shapes, m, by the boxes that turn with them: the widest gap between their shadows on the axes of
+// both boxes and on those at right angles to one of each (Gottschalk, Lin and Manocha, OBBTree, 1996). Not positive where none is known.
+double gapOfBoxes(const CollisionShape& a, const Transform& at_a, const CollisionShape& b, const Transform& at_b);
+
 // Boxes that stay where they are, in a binary tree.
 class AabbTree
 {

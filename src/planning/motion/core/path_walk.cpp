@@ -85,6 +85,8 @@ PathWalk::Verdict PathWalk::look(const Side& a, const Side& b, double boxes, dou
   if (margin < need)
     margin = std::max(margin, boxes);
   if (margin < need)
+    margin = std::max(margin, gapOfBoxes(*a.shape, *a.now, *b.shape, *b.now));
+  if (margin < need)
   {
     const double exact = gap(a, b, ENOUGH * need);
     margin = std::max(margin, exact);

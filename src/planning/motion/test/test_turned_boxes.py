@@ -1,0 +1,100 @@
+"""Things that lie askew beside each other: whether they touch, on paper and against their distance."""
+
+import math
+
+import motion
+import numpy as np
+import pytest
+
+
+def turn(axis, angle):
+    """Quaternion x y z w."""
+    axis = np.array(axis, dtype=float) / np.linalg.norm(axis)
+    return (*(axis * math.sin(angle / 2)), math.cos(angle / 2))
+
+
+def robot(shape, origin=""):
+    """A robot of one link that slides along x, at 0."""
+    return motion.load_model(
+        f'<robot name="r"><link name="base"/><link name="body"><collision>{origin}<geometry>{shape}</geometry></collision></link>'
+        '<joint name="slide" type="prismatic"><parent link="base"/><child link="body"/><axis xyz="1 0 0"/>'
+        '<limit lower="-5" upper="5" velocity="1" effort="1"/></joint></robot>'
+    )
+
+
+BOX = '<box size="0.4 0.2 0.1"/>'
+CUBE = '<box size="0.2 0.2 0.2"/>'
+
+
+def touches(scene, shape, pose):
+    scene.add_object("thing", [shape], pose=pose)
+    return bool(scene.check())
+
+
+@pytest.mark.parametrize(
+    "why, shape, way, turned, apart",
+    [
+        # The corner of a cube turned by 45 degrees about z reaches 0.1 sqrt 2 along x.
+        ("corner to side", motion.Box(0.2, 0.2, 0.2), (1, 0, 0), turn((0, 0, 1), math.pi / 4), 0.1 + 0.1 * math.sqrt(2)),
+        # Along the diagonal both show a side.
+        ("side to edge", motion.Box(0.2, 0.2, 0.2), (1, 1, 0), turn((0, 0, 1), math.pi / 4), 0.1 + 0.1 * math.sqrt(2)),
+        # An edge along y above a side.
+        ("edge down", motion.Box(0.2, 0.2, 0.2), (0, 0, 1), turn((0, 1, 0), math.pi / 4), 0.1 + 0.1 * math.sqrt(2)),
+        # A cube on its corner, whose diagonal stands upright.
+        ("corner down", motion.Box(0.2, 0.2, 0.2), (0, 0, 1), turn((1, -1, 0), math.atan(math.sqrt(2))), 0.1 + 0.1 * math.sqrt(3)),
+        ("ball beside", motion.Sphere(0.1), (0, 1, 0), (0, 0, 0, 1), 0.2),
+        # Its axis along x: the shadow on x is its length.
+        ("cylinder lying", motion.Cylinder(0.05, 0.6), (1, 0, 0), turn((0, 1, 0), math.pi / 2), 0.1 + 0.3),
+    ],
+)
+def test_the_last_place_that_is_free(why, shape, way, turned, apart):
+    way = np.array(way, dtype=float) / np.linalg.norm(way)
+    if why == "side to edge":
+        apart = 0.1 * math.sqrt(2) + 0.1  # edge of the straight cube, side of the turned one
+    scene = motion.PlanningScene(robot(CUBE))
+    assert not touches(scene, shape, (tuple(way * (apart + 1e-4)), turned))
+    assert touches(scene, shape, (tuple(way * (apart - 1e-4)), turned))
+
+
+def after(p, q):
+    """The turn of q, then that of p."""
+    (x1, y1, z1, w1), (x2, y2, z2, w2) = p, q
+    return (
+        w1 * x2 + x1 * w2 + y1 * z2 - z1 * y2,
+        w1 * y2 - x1 * z2 + y1 * w2 + z1 * x2,
+        w1 * z2 + x1 * y2 - y1 * x2 + z1 * w2,
+        w1 * w2 - x1 * x2 - y1 * y2 - z1 * z2,
+    )
+
+
+@pytest.mark.parametrize("slant", [0.2, 0.7, 1.3])
+def test_edge_across_edge(slant):
+    """Two roofs across each other, ridge on ridge: no side of either parts them."""
+    quarter = math.pi / 4
+    scene = motion.PlanningScene(robot('<box size="0.4 0.2 0.2"/>', f'<origin rpy="{quarter} 0 0"/>'))
+    ridge = 0.1 * math.sqrt(2)
+    turned = after(turn((0, 0, 1), slant), turn((1, 0, 0), quarter))
+    for gap, wanted in ((1e-4, False), (-1e-4, True)):
+        assert touches(scene, motion.Box(0.4, 0.2, 0.2), ((0, 0, 2 * ridge + gap), turned)) == wanted
+
+
+def test_touching_is_where_the_distance_ends():
+    """Random pairs: what distances, which look at nothing beforehand, call apart is free, and the other way round."""
+    chance = np.random.default_rng(5)
+    shapes = [
+        motion.Box(0.4, 0.1, 0.2),
+        motion.Cylinder(0.05, 0.5),
+        motion.Sphere(0.15),
+        motion.Mesh([[-0.3, 0, 0], [0.3, 0, 0], [0, 0.4, 0], [0, 0.1, 0.2]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]),
+    ]
+    scene = motion.PlanningScene(robot(BOX))
+    free = 0
+    for i in range(400):
+        q = chance.normal(size=4)
+        pose = (tuple(chance.uniform(-0.35, 0.35, 3)), tuple(q / np.linalg.norm(q)))
+        touching = touches(scene, shapes[i % len(shapes)], pose)
+        distance = scene.distance(scene.state).distance
+        if abs(distance) > 1e-4 or not touching:
+            assert touching == (distance <= 0), (i, pose, distance)
+        free += not touching
+    assert 100 < free < 300
