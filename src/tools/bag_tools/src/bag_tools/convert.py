@@ -7,9 +7,9 @@ import os
 import shutil
 import sys
 import tempfile
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+
+from node_signals.progress import progress
 
 from bag_tools.files import BAG_COMPRESSIONS, MCAP_COMPRESSIONS, BagError, BagSink, BagSource, McapSink, McapSource
 
@@ -72,7 +72,7 @@ def _copy(source: Path, target: Path, compression: str | None, quiet: bool) -> i
     with (
         _open(source) as messages,
         BagSink(target, chosen) if target.suffix == ".bag" else McapSink(target, chosen) as sink,
-        _progress(messages.count, source.name, quiet) as bar,
+        progress(messages.count, source.name, "messages", quiet) as bar,
     ):
         for channel, stamp, data in messages:
             sink.write(channel, stamp, data)
@@ -123,11 +123,3 @@ def _by_rosbags(source: Path, target: Path, compression: str | None, storage: st
         raise BagError(f"{source.name} cannot be converted: {' '.join(str(error).split())[:300]}") from None
     if not target.exists():
         raise BagError(f"{source.name} holds no messages; nothing was written")
-
-
-@contextlib.contextmanager
-def _progress(count: int | None, name: str, quiet: bool) -> Iterator[Any]:
-    from tqdm import tqdm
-
-    with tqdm(total=count, desc=name, unit=" messages", disable=quiet or not sys.stderr.isatty()) as bar:
-        yield bar
