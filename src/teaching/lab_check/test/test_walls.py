@@ -87,6 +87,8 @@ def test_nothing_of_the_machine_can_be_written_and_no_room_is_without_bound(teac
     for word in ("WRITABLE", "WROTE", "MADE A FOLDER", "SECRET OF"):
         assert word not in log, [line for line in log.splitlines() if word in line]
     assert "NAMESPACE 0" not in log and "NAMESPACE 1" in log
+    asked = [note for note in result["notes"] if "unshare" in note]
+    assert len(asked) == 1 and "namespace of its own" in asked[0], "the kernel's 'No space left on device' is about namespaces here"
     for line in ("CapEff:\t0000000000000000", "CapPrm:\t0000000000000000", "NoNewPrivs:\t1", "Seccomp:\t2"):
         assert line in log, log
     calls = [line.split() for line in log.splitlines() if line.startswith("CALL")]

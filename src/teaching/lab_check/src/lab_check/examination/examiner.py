@@ -45,6 +45,7 @@ TRUSTED = {
 
 # What the kernel says at the walls -> what that means.
 REFUSED = (
+    ("unshare failed", "something asked for a namespace of its own, which a submission may not have"),
     ("No space left on device", "the disk that a submission gets is full"),
     ("File too large", "a file grew beyond what a submission may write"),
     ("Read-only file system", "something tried to write where a submission may not"),
@@ -101,10 +102,11 @@ class Examiner:
         for path in sorted(pathlib.Path(self.job.out).glob("*.log")):
             if path.name.startswith("."):
                 continue
-            text = path.read_text(encoding="utf-8", errors="replace")
+            lines = [line.strip() for line in path.read_text(encoding="utf-8", errors="replace").splitlines()]
             for words, note in refused:
-                line = next((line.strip() for line in text.splitlines() if words in line), None)
+                line = next((line for line in lines if words in line), None)
                 if line is not None:
+                    lines = [other for other in lines if words not in other]  # what one wall said is no other's
                     self.result.notes.append(f"{path.name}: {note}: {line[:160]}")
 
     def _own_world(self) -> None:
