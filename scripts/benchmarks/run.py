@@ -13,6 +13,8 @@ import sys
 import tempfile
 import time
 
+from node_signals.progress import progress
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROBOT_TITLES = {
     "arm": "arm, 4 position controllers, joint states at 100 Hz",
@@ -337,6 +339,15 @@ def show(name, value):
     print(f"  {name:78} {value:12.4g}{verdict}")
 
 
+def measured(name, options):
+    """The figures of a section."""
+    figures = SECTIONS[name][1](options.quick)
+    if name == "motion" and options.mbm:
+        count = ["--count", "10"] if options.quick else []
+        figures.update(section_script("problem_sets.py", options.mbm, *count, timeout=3600))
+    return figures
+
+
 def main():
     parser = argparse.ArgumentParser(
         prog="scripts/bench",
@@ -359,15 +370,15 @@ def main():
     report = {"machine": platform.platform(), "cores": os.cpu_count(), "load before": os.getloadavg()[0], "figures": {}}
     failed = False
     print(f"{report['machine']}, {report['cores']} cores, load {report['load before']:.1f}")
-    for name in options.sections or [name for name in SECTIONS if name not in ONLY_BY_NAME]:
-        title, measure = SECTIONS[name]
+    names = options.sections or [name for name in SECTIONS if name not in ONLY_BY_NAME]
+    for number, name in enumerate(names):
+        title, _ = SECTIONS[name]
         load = os.getloadavg()[0]
         print(f"\n{name}: {title} (load before {load:.1f})", flush=True)
         try:
-            figures = measure(options.quick)
-            if name == "motion" and options.mbm:
-                count = ["--count", "10"] if options.quick else []
-                figures.update(section_script("problem_sets.py", options.mbm, *count, timeout=3600))
+            with progress(len(names), "measuring", "sections") as bar:
+                bar.at(number, name)
+                figures = measured(name, options)
         except (RuntimeError, OSError, ValueError, subprocess.SubprocessError) as error:
             print(f"  failed: {error}")
             failed = True

@@ -12,7 +12,7 @@ import termios
 WORK = """
 import sys, threading
 from node_signals.progress import progress
-with progress({count}, "counting", "things", quiet={quiet}) as bar:
+with progress({count}, "counting", "things", quiet={quiet}, even={even}) as bar:
     for number in range(3):
         bar.update()
         bar.line(f"done {{number}}")
@@ -38,15 +38,16 @@ def on_terminal(script):
     return seen.decode()
 
 
-def script(count=3, quiet=False, wait="pass"):
-    return WORK.format(count=count, quiet=quiet, wait=wait)
+def script(count=3, quiet=False, even=False, wait="pass"):
+    return WORK.format(count=count, quiet=quiet, even=even, wait=wait)
 
 
 def test_a_terminal_shows_how_many_of_how_many_and_what_is_done_now():
     seen = on_terminal(script())
     assert "counting:" in seen and "3/3 things" in seen and "the last" in seen
     assert [line.strip() for line in re.findall(r"done \d", seen)] == ["done 0", "done 1", "done 2"]
-    assert re.search(r"\[\d\d:\d\d<", seen), "elapsed and remaining time"
+    assert re.search(r"\[\d\d:\d\d\]", seen), "the time that has passed"
+    assert re.search(r"\[\d\d:\d\d<\d\d:\d\d\]", on_terminal(script(even=True))), "and the time that is left"
 
 
 def test_the_time_goes_on_while_nothing_is_done():

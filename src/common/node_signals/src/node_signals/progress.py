@@ -1,4 +1,4 @@
-"""How far long work is, in one line that is written over: ``name:  40%|####      | 2/5 tasks [00:12<00:18]``.
+"""How far long work is, in one line that is written over: ``name:  40%|####      | 2/5 tasks [00:12]``.
 
 On a terminal alone: a log, a pipe and a machine without python3-tqdm get nothing of it.
 """
@@ -19,6 +19,11 @@ class Progress:
 
     def __init__(self, bar: Any) -> None:
         self._bar = bar  # of tqdm; None shows nothing
+
+    @property
+    def shown(self) -> bool:
+        """Whether anybody sees it."""
+        return self._bar is not None
 
     def update(self, number: int = 1) -> None:
         """So many more are done."""
@@ -41,12 +46,13 @@ class Progress:
 
 
 @contextlib.contextmanager
-def progress(count: int | None, name: str, unit: str = "", quiet: bool = False) -> Iterator[Progress]:
+def progress(count: int | None, name: str, unit: str = "", quiet: bool = False, even: bool = False) -> Iterator[Progress]:
     """
     :param count: how many there are to be done; None: not known
     :param name: of the work. :param unit: what is counted, a plural. :param quiet: show nothing
+    :param even: one takes about as long as another, so that the time that is left can be told
     """
-    bar = None if quiet or not sys.stderr.isatty() else _bar(count, name, unit)
+    bar = None if quiet or not sys.stderr.isatty() else _bar(count, name, unit, even)
     if bar is None:
         yield Progress(None)
         return
@@ -66,12 +72,13 @@ def progress(count: int | None, name: str, unit: str = "", quiet: bool = False) 
         bar.close()
 
 
-def _bar(count: int | None, name: str, unit: str) -> Any:
+def _bar(count: int | None, name: str, unit: str, even: bool) -> Any:
     try:
         from tqdm import tqdm
     except ImportError:
         return None
     tqdm.monitor_interval = 0  # its own thread for what is updated too seldom; ours does that
-    known = "{desc}: {percentage:3.0f}%|{bar:20}| {n_fmt}/{total_fmt}{unit} [{elapsed}<{remaining}]{postfix}"
+    time = "{elapsed}<{remaining}" if even else "{elapsed}"
+    known = "{desc}: {percentage:3.0f}%|{bar:20}| {n_fmt}/{total_fmt}{unit} [" + time + "]{postfix}"
     form = known if count else "{desc}: {n_fmt}{unit} [{elapsed}]{postfix}"
     return tqdm(total=count, desc=name, unit=f" {unit}" if unit else "", bar_format=form, leave=False, dynamic_ncols=True, file=sys.stderr)

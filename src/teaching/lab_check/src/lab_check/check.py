@@ -12,7 +12,9 @@ import resource
 import signal
 import socket
 import subprocess
+import time
 import uuid
+from collections.abc import Callable
 from dataclasses import asdict
 from typing import Any
 
@@ -38,6 +40,10 @@ _KEPT = (
 )
 
 
+Watch = Callable[[int, str], None]  # how many tasks are done, and what is done now
+
+_LOOK = 0.5  # s between two looks at how far an examination is
+_BEGINS = re.compile(r"task '(.*)' begins at ")  # what a session says of each task
 _LARGEST = 200_000_000  # bytes of a file of the report: films are the largest
 _OURS = re.compile(
     r"report\.(html|json)|results?\.json|\.result\.json|junit\.xml|build\.log|launch_\d+\.log|pictures|\.examiner\.log"
@@ -103,9 +109,18 @@ def _clear(out: pathlib.Path) -> None:
         raise NoPlace(f"{out}: {error.strerror}") from error
 
 
-def check(spec: Spec, submission: pathlib.Path, out: pathlib.Path, unsafe: bool = False, films: bool = True, port: int = 0) -> Result:
+def check(
+    spec: Spec,
+    submission: pathlib.Path,
+    out: pathlib.Path,
+    unsafe: bool = False,
+    films: bool = True,
+    port: int = 0,
+    watch: Watch | None = None,
+) -> Result:
     """
     :param out: reports go there; what an earlier examination left there goes
+    :param watch: is called twice a second
     :raises sandbox.SandboxError: this machine cannot shut it in
     :raises NoPlace: reports cannot be written there
     """
@@ -134,19 +149,19 @@ def check(spec: Spec, submission: pathlib.Path, out: pathlib.Path, unsafe: bool 
             films=films,
             group=bounds,
         )
-        result = _examine(job, spec, submission, out)
+        result = _examine(job, spec, submission, out, watch)
     report.write(result, spec, out)
     return result
 
 
-def _examine(job: Job, spec: Spec, submission: pathlib.Path, out: pathlib.Path) -> Result:
+def _examine(job: Job, spec: Spec, submission: pathlib.Path, out: pathlib.Path, watch: Watch | None) -> Result:
     job_file = out / ".job"
     job.save(job_file)
     words = [*sandbox.isolated(), "-m", "lab_check.examination.examiner", str(job_file)]
     sessions = len({task["launch"] for task in spec.data["tasks"]})
     patience = STRETCH * (spec.data["build"]["timeout"] * 2 + sessions * (job.limits["time"] + 90))
     try:
-        fault = _run(words, job.unsafe, out, patience)
+        fault = _run(words, job.unsafe, out, patience, watch)
         return _read(out, fault, spec, submission)
     finally:
         for name in (".job", ".job.json"):
@@ -159,16 +174,14 @@ def _in_bounds() -> None:
     resource.setrlimit(resource.RLIMIT_FSIZE, (_LARGEST, resource.getrlimit(resource.RLIMIT_FSIZE)[1]))
 
 
-def _run(words: list[str], unsafe: bool, out: pathlib.Path, patience: float) -> str:
+def _run(words: list[str], unsafe: bool, out: pathlib.Path, patience: float, watch: Watch | None) -> str:
     """'' or why there is no result."""
     with open(out / ".examiner.log", "w", encoding="utf-8") as log:
         streams: dict[str, Any] = dict(stdout=log, stderr=log, start_new_session=True, env=sandbox.own_environment(), cwd="/")
         streams["preexec_fn"] = _in_bounds
         process = subprocess.Popen(words, stdin=subprocess.DEVNULL, **streams) if unsafe else sandbox.shut_in(words, **streams)
         try:
-            code = process.wait(patience)
-        except subprocess.TimeoutExpired:
-            code = None
+            code = _ended(process, patience, out, watch)
         finally:
             if process.poll() is None:
                 os.killpg(process.pid, signal.SIGKILL)
@@ -179,6 +192,21 @@ def _run(words: list[str], unsafe: bool, out: pathlib.Path, patience: float) -> 
         lines = (out / ".examiner.log").read_text(encoding="utf-8", errors="replace").strip().splitlines()
         return f"the examiner ended with code {code}: {lines[-1] if lines else 'no reason given'}"
     return ""
+
+
+def _ended(process: subprocess.Popen, patience: float, out: pathlib.Path, watch: Watch | None) -> int | None:
+    """The exit code; None if it has not ended after ``patience`` seconds."""
+    end, begun = time.monotonic() + patience, []
+    with open(out / ".examiner.log", encoding="utf-8", errors="replace") as said:
+        while True:
+            left = max(0.0, end - time.monotonic())
+            try:
+                return process.wait(min(_LOOK, left) if watch else left)
+            except subprocess.TimeoutExpired:
+                if watch is None or left <= 0:
+                    return None
+            begun += [found[1] for found in map(_BEGINS.match, said.readlines()) if found]
+            watch(max(0, len(begun) - 1), begun[-1] if begun else "building, starting")
 
 
 def _read(out: pathlib.Path, fault: str, spec: Spec, submission) -> Result:

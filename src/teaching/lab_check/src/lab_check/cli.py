@@ -66,6 +66,8 @@ def sandbox_options(parser: argparse.ArgumentParser) -> None:
 
 def check(arguments: list[str] | None = None) -> int:
     """Exit code 0 full marks, 1 less, 2 the spec is faulty, 3 no sandbox, 4 the checker itself failed, 5 no reports can be written."""
+    from node_signals.progress import progress
+
     from .check import NoPlace
     from .check import check as examine
 
@@ -86,7 +88,16 @@ def check(arguments: list[str] | None = None) -> int:
     allowed(options.unsafe)
     out = options.out or pathlib.Path("lab_check", options.submission.name or "submission")
     try:
-        result = examine(spec, options.submission, out, options.unsafe, not options.no_films, options.port)
+        with progress(len(spec.data["tasks"]), "examining", "tasks") as bar:
+            result = examine(
+                spec,
+                options.submission,
+                out,
+                options.unsafe,
+                not options.no_films,
+                options.port,
+                (lambda done, now: bar.at(done, shown(now))) if bar.shown else None,
+            )
     except NoPlace as error:
         print(f"lab_check: {error}", file=sys.stderr)
         return 5

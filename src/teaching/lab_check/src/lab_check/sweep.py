@@ -70,7 +70,7 @@ def examine(sweep: Sweep, options: argparse.Namespace) -> int:
     store.begin_again(names)
     engine = Cases(sweep, inputs, out, How(options.unsafe, not options.no_films, options.port), options.workers)
     try:
-        run(store, engine, lambda line: print(line, flush=True))
+        run(store, engine)
     except KeyboardInterrupt:
         print("\nlab_check: interrupted; the same command goes on from here", file=sys.stderr)
         return 130

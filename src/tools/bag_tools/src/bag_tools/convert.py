@@ -72,7 +72,7 @@ def _copy(source: Path, target: Path, compression: str | None, quiet: bool) -> i
     with (
         _open(source) as messages,
         BagSink(target, chosen) if target.suffix == ".bag" else McapSink(target, chosen) as sink,
-        progress(messages.count, source.name, "messages", quiet) as bar,
+        progress(messages.count, source.name, "messages", quiet, even=True) as bar,
     ):
         for channel, stamp, data in messages:
             sink.write(channel, stamp, data)

@@ -10,6 +10,8 @@ import sys
 import time
 from collections.abc import Callable
 
+from node_signals.progress import Progress, progress
+
 from ..outcome import Result, name_for
 from ..specs.spec import Spec
 from . import gradebook
@@ -37,9 +39,17 @@ def named(paths: list[pathlib.Path]) -> dict[str, pathlib.Path]:
     return found
 
 
-def run(store: Store, engine: Engine, show: Callable[[str], None]) -> None:
-    """Until nothing waits and nothing runs."""
+def run(store: Store, engine: Engine, show: Callable[[str], None] | None = None) -> None:
+    """Until nothing waits and nothing runs.
+
+    :param show: takes each line; None: the terminal, with a bar
+    """
     waiting = store.waiting()
+    with progress(len(waiting), "examining", "submissions", quiet=show is not None) as bar:
+        _run(store, engine, waiting, bar, show or bar.line)
+
+
+def _run(store: Store, engine: Engine, waiting: list[str], bar: Progress, show: Callable[[str], None]) -> None:
     begin, finished, number = time.monotonic(), 0, len(waiting)
     while waiting or engine.running:
         while waiting and len(engine.running) < engine.workers:
@@ -61,6 +71,7 @@ def run(store: Store, engine: Engine, show: Callable[[str], None]) -> None:
                 store.failed(name, taken)
                 outcome = f"not examined: {taken}"
             finished += 1
+            bar.update()
             left = (time.monotonic() - begin) / finished * (number - finished)
             show(f"[{finished}/{number}] {name}: {outcome}; about {left:.0f} s to go")
         if not ended:
@@ -129,7 +140,7 @@ def _examine(spec: Spec, out: pathlib.Path, options: argparse.Namespace) -> int:
     enlist(store, spec, options)
     engine = engine_for(spec, out, options)
     try:
-        run(store, engine, lambda line: print(line, flush=True))
+        run(store, engine)
     finally:
         engine.end()
         gradebook.write(spec, store, out)
