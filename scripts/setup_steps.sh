@@ -7,8 +7,9 @@ warn() { printf '[setup] %s\n' "$*" >&2; }
 fail() { warn "ERROR: $*"; exit 1; }
 elapsed() { printf '%d min %02d s' $((SECONDS / 60)) $((SECONDS % 60)); }
 
-shown=0
+shown=0 at=""
 progress() {  # TEXT: on a terminal one line that is written over, in a log a line every quarter of a minute
+  at=$1
   if [ -t 1 ]; then
     printf '\r\033[K[setup] %s, %s' "$1" "$(elapsed)"
   elif [ $((SECONDS - shown)) -ge 15 ]; then
@@ -16,7 +17,34 @@ progress() {  # TEXT: on a terminal one line that is written over, in a log a li
     say "$1, $(elapsed)"
   fi
 }
-progress_ends() { [ ! -t 1 ] || printf '\r\033[K'; }
+progress_ends() { at=""; [ ! -t 1 ] || printf '\r\033[K'; }
+
+next_line() {  # the next line of the input, into line; as long as none comes, the time of what progress said last goes on
+  local part rest="" code
+  while true; do
+    code=0
+    IFS= read -r -t 1 part || code=$?
+    rest+=$part
+    if [ $code -le 128 ]; then
+      line=$rest
+      return $code
+    fi
+    [ -z "$at" ] || progress "$at"
+  done
+}
+
+timed() {  # TEXT LOG COMMAND...: a command that says nothing of how far it is, with its time; what it says is in the log alone
+  local text=$1 log=$2
+  shift 2
+  "$@" < /dev/null 2>&1 | {
+    progress "$text"
+    while next_line; do
+      printf '%s\n' "$line" >> "$log"
+    done
+    progress_ends
+  }
+  return "${PIPESTATUS[0]}"
+}
 
 first_error() {  # LOG: its first line that tells of an error; what CMake says stands on the next line that is not empty
   awk '
@@ -51,7 +79,7 @@ apt_once() {  # LOG WHAT ARGUMENT...: apt-get with its progress; what it says is
   local log=$1 what=$2 code
   shift 2
   as_root apt-get -q -o APT::Status-Fd=1 -o Acquire::Retries=3 "$@" < /dev/null 2>&1 | {
-    while IFS= read -r line; do
+    while next_line; do
       case "$line" in
         dlstatus:* | pmstatus:*)
           IFS=: read -r kind _ percent _ <<< "$line"
@@ -93,7 +121,7 @@ catkin_once() {  # LOG COUNT ARGUMENT...: catkin build with packages done of COU
   : > "$log"
   PYTHONUNBUFFERED=1 catkin build --no-notify --no-status --no-color --summarize "$@" < /dev/null 2>&1 | {
     finished=0
-    while IFS= read -r line; do
+    while next_line; do
       printf '%s\n' "$line" >> "$log"
       case "$line" in
         *"Found "*" packages"*) [ "$count" != 0 ] || { count=${line#*Found }; count=${count%% *}; } ;;

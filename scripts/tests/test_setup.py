@@ -1,6 +1,8 @@
 """scripts/setup on a copy that needs no packages, with programs of apt and catkin that only play their parts."""
 
 import os
+import pty
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -361,6 +363,29 @@ def test_progress_in_a_log_is_a_line_now_and_then_not_one_for_each_package(machi
     machine.play("catkin", """for n in $(seq 200); do echo "Starting  >>> p$n"; echo "Finished  <<< p$n  [ 0.1 seconds ]"; done""")
     ended = machine.run("--demo")
     assert ended.returncode == 0 and len(ended.stdout.splitlines()) < 12
+
+
+def test_the_time_goes_on_while_one_package_is_compiled(machine):
+    """On a terminal; and the last line of the build is not lost."""
+    machine.play("catkin", """echo "Starting  >>> big"; sleep 3; printf 'Finished  <<< big\\nthe end\\n'""")
+    ours, theirs = pty.openpty()
+    with subprocess.Popen(
+        [machine.setup, "--demo"], stdin=theirs, stdout=theirs, stderr=theirs, env={"PATH": str(machine.bin), "HOME": str(machine.folder)}
+    ) as setup:
+        os.close(theirs)
+        seen = b"".join(iter(lambda: read_end(ours), b"")).decode()
+    os.close(ours)
+    assert setup.returncode == 0, seen
+    times = set(re.findall(r"now big, 0 min (\d\d) s", seen))
+    assert len(times) >= 3, seen
+    assert (machine.folder / "clone/logs/setup/catkin.log").read_text().splitlines()[-1] == "the end"
+
+
+def read_end(terminal):
+    try:
+        return os.read(terminal, 65536)
+    except OSError:  # the other end is closed
+        return b""
 
 
 def needed(*arguments):
