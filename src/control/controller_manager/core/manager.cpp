@@ -1,6 +1,7 @@
 // The controller manager of a process in C++: the one of Python in an interpreter of its own.
 #include <controller_manager/controller_manager.h>
 
+#include <cstdlib>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -16,6 +17,24 @@ namespace controller_manager
 namespace
 {
 
+int managers = 0;  // under Python's lock
+
+/// Python's node ends when no manager is left and the program ends, not before: a program may make another manager.
+void end_node()
+{
+  const py::gil_scoped_acquire lock;
+  if (managers > 0)
+    return;
+  try
+  {
+    py::module_::import("controller_manager.embedded").attr("end_node")();
+  }
+  catch (const py::error_already_set& error)
+  {
+    ROS_ERROR("the controller manager's node did not end well: %s", error.what());
+  }
+}
+
 /// Begin Python, if nobody has. Its lock is free afterwards; nobody ends it: what threads of it do then cannot be known.
 void begin_python()
 {
@@ -25,10 +44,9 @@ void begin_python()
       return;
     Py_InitializeEx(0);  // signals are roscpp's
     PyEval_SaveThread();
+    std::atexit(end_node);
   });
 }
-
-int managers = 0;  // under Python's lock
 
 }  // namespace
 
@@ -64,13 +82,16 @@ ControllerManager::~ControllerManager()
   const py::gil_scoped_acquire lock;
   try
   {
-    python_->module.attr("end")(python_->manager, --managers == 0);
+    --managers;
+    python_->manager.attr("shutdown")();
   }
   catch (const py::error_already_set& error)
   {
     ROS_ERROR("the controller manager did not end well: %s", error.what());
   }
   python_.reset();
+  if (!ros::ok())
+    end_node();
 }
 
 void ControllerManager::update(const ros::Time& time, const ros::Duration& period, bool reset_controllers)

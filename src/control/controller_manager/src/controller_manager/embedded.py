@@ -39,12 +39,11 @@ def make(robot: int, namespace: str, node: str, node_namespace: str) -> Controll
     return ControllerManager(CompiledRobotHW(Robot(robot, None)), namespace)
 
 
-def end(manager: ControllerManager, last: bool) -> None:
-    """Stop and free the controllers; with the last manager of the process rospy's node ends too, if make() has begun it."""
+def end_node() -> None:
+    """End rospy's node, if make() has begun it: for good, as rospy begins a node once in a process."""
     import rospy
 
-    manager.shutdown()
-    if last and _own_node:
+    if _own_node:
         rospy.signal_shutdown("the robot's program ends")
 
 
