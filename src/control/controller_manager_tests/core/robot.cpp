@@ -1,8 +1,10 @@
 // A robot whose main program is C++, as robots of others are written: joints that go where they are told, and an interface of its own.
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include <controller_interface/controller.h>
 #include <controller_manager/controller_manager.h>
 #include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/joint_state_interface.h>
@@ -65,6 +67,41 @@ private:
   controller_manager_tests::LampInterface lamps_;
 };
 
+/// A controller that no package exports. Its parameter loader_asked says how often its loader was asked what there is.
+class Own : public controller_interface::Controller<hardware_interface::PositionJointInterface>
+{
+public:
+  explicit Own(int asked) : asked_(asked) {}
+  bool init(hardware_interface::PositionJointInterface*, ros::NodeHandle& nh) override
+  {
+    nh.setParam("loader_asked", asked_);
+    return true;
+  }
+  void update(const ros::Time&, const ros::Duration&) override {}
+
+private:
+  const int asked_;
+};
+
+class Loader : public controller_manager::ControllerLoaderInterface
+{
+public:
+  Loader() : ControllerLoaderInterface("controller_interface::ControllerBase") {}
+  controller_interface::ControllerBaseSharedPtr createInstance(const std::string&) override
+  {
+    return std::make_shared<Own>(asked_);
+  }
+  std::vector<std::string> getDeclaredClasses() override
+  {
+    ++asked_;
+    return { "Own" };
+  }
+  void reload() override {}
+
+private:
+  int asked_ = 0;
+};
+
 }  // namespace
 
 int main(int argc, char** argv)
@@ -72,7 +109,9 @@ int main(int argc, char** argv)
   ros::init(argc, argv, "cpp_robot");
   ros::NodeHandle nh;
   Robot robot;
+  controller_manager::ControllerManager(&robot, ros::NodeHandle("before"));  // gone at once: it must not take ROS along
   controller_manager::ControllerManager manager(&robot, nh);
+  manager.registerControllerLoader(std::make_shared<Loader>());
   ros::AsyncSpinner spinner(1);
   spinner.start();
   ros::Publisher lateness = nh.advertise<std_msgs::Float64MultiArray>("lateness", 1, true);

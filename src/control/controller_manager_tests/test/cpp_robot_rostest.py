@@ -37,6 +37,11 @@ class CppRobotTest(unittest.TestCase):
         self.assertTrue(self.cm.unload("lamp"))
         self.assertEqual(self.cm.states(), {"states": "running", "left": "running", "effort": "running", "unwanted": "initialized"})
 
+    def test_a_loader_of_the_program(self):
+        wait_until(lambda: self.cm.load("own"), "the loader, which comes after the services")
+        self.assertEqual(rospy.get_param("/own/loader_asked"), 1, "once for each controller, as in upstream")
+        self.assertTrue(self.cm.unload("own"))
+
     def controller(self, name):
         return next(controller for controller in self.cm.controllers() if controller.name == name)
 

@@ -27,6 +27,7 @@ class ControllerTypes:
         self.set_time: Callable[[float], None] | None = None
         self._compiled: CompiledTypes | None = None
         self._loaders: list[tuple[str, Callable[[], list[str]], Callable[[str], int]]] = []
+        self._makers: dict[str, Callable[[str], int]] = {}  # what makes those of loaders that were found
         self._lock = threading.Lock()
         self._known: dict[str, PluginClass] | None = None
         self._imported: set[str] = set()
@@ -47,9 +48,13 @@ class ControllerTypes:
 
     def find(self, name: str) -> PluginClass | None:
         found = self._plugins().get(name)
-        if found is None and self._loaders:
-            found = next((plugin for plugin in self.all() if plugin.name == name), None)
-        return found
+        if found is not None:
+            return found
+        for base, names, create in self._loaders:
+            if name in names():  # asked once for each controller, as upstream's manager does
+                self._makers[name] = create
+                return PluginClass(name, name, base, "", "", "")
+        return None
 
     def add_loader(self, base: str, names: Callable[[], list[str]], create: Callable[[str], int]) -> None:
         """Types of a loader in C++: their names, and a function that makes one and gives the address of a shared pointer."""
@@ -92,9 +97,8 @@ class ControllerTypes:
                 self._compiled = CompiledTypes([known.file for known in plugins if known.compiled])
                 self.set_time = self._compiled.set_time
             compiled = self._compiled
-        for _, names, create in self._loaders:
-            if not plugin.file and plugin.name in names():
-                return compiled.take(create(plugin.name), plugin, name)
+        if not plugin.file:
+            return compiled.take(self._makers[plugin.name](plugin.name), plugin, name)
         return compiled.create(plugin, name)
 
     def reload(self) -> None:
