@@ -143,7 +143,8 @@ def build(root: Path, prefix: Path) -> Path:
     )
     run([sys.executable, root / "scripts/forget_moved.py", workspace / "build"], "scripts/forget_moved.py", environment)
     run(
-        ["catkin", "build", "--workspace", workspace, "--no-notify", "--no-status", "--summarize"],
+        # on a terminal catkin says how many packages of how many are done, and for how long it has been at work
+        ["catkin", "build", "--workspace", workspace, "--no-notify", *([] if sys.stdout.isatty() else ["--no-status"]), "--summarize"],
         "catkin build",
         {**environment, "DESTDIR": str(stage)},
     )

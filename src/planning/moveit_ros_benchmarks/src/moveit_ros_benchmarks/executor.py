@@ -25,6 +25,8 @@ from tf.transformations import quaternion_from_euler
 from . import log, metrics
 from .options import Options, OptionsError
 
+_TOLD_EVERY = 10.0  # s: at which run a planner is
+
 
 @dataclass
 class Problem:
@@ -242,9 +244,10 @@ class Executor:
         request = copy.deepcopy(problem.request)
         request.planner_id = planner
         runs, trajectories, times = [], [], []
-        for _ in range(self.options.runs):
+        for number in range(1, self.options.runs + 1):
             if rospy.is_shutdown():
                 break
+            rospy.loginfo_throttle(_TOLD_EVERY, f"{planner} ({pipeline.name}): run {number} of {self.options.runs}")
             start, result = time.monotonic(), None
             try:
                 result = pipeline.generate(self._scene.copy(), request)
