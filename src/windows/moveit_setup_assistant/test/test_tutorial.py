@@ -72,6 +72,19 @@ def student():
         assert window.end() == 0
 
 
+@pytest.mark.slow
+def test_on_a_small_screen_all_of_the_window_is_seen():
+    with Desktop("900x700x24") as desktop:
+        window = desktop.run(["rosrun", "moveit_setup_assistant", "moveit_setup_assistant", "--config_pkg", "myur5_moveit_config"])
+        window.window("MoveIt Setup Assistant")
+        window.wait(lambda: "6 joints that can move" in window.text("said"), "a robot")
+        _, _, x, y, width, height = window.window("MoveIt Setup Assistant")
+        assert x >= 0 and y >= 0 and x + width <= 900 and y + height <= 700
+        left, top, wide, high = window.rect("robot_view")
+        assert left + wide <= 900 and top + high <= 700 and wide >= 200
+        assert window.end() == 0
+
+
 def click_through(student, urdf, folder):
     student.click("start_new")
     student.type("start_path", urdf)

@@ -35,6 +35,7 @@ from moveit_setup_assistant.words import counted
 _MOST_LINES = 4  # of what is missing, below the screen
 _NARROWEST = 465  # pixels, of a screen beside the picture
 _ROW = 34  # pixels, the height of a screen's entry in the list
+_FRAME = QSize(10, 40)  # pixels, at most: what a window manager adds
 _USABLE = Qt.ItemIsSelectable | Qt.ItemIsEnabled
 
 
@@ -311,6 +312,7 @@ def main(words: list[str]) -> int:
         return 1
     app = QApplication([parser.prog])
     window = Window()
+    window.resize(window.size().boundedTo(app.primaryScreen().availableSize() - _FRAME))
     if options.config_pkg:
         window.edit(options.config_pkg)
     elif options.urdf_path:
