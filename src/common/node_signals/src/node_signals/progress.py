@@ -80,5 +80,5 @@ def _bar(count: int | None, name: str, unit: str, even: bool) -> Any:
     tqdm.monitor_interval = 0  # its own thread for what is updated too seldom; ours does that
     time = "{elapsed}<{remaining}" if even else "{elapsed}"
     known = "{desc}: {percentage:3.0f}%|{bar:20}| {n_fmt}/{total_fmt}{unit} [" + time + "]{postfix}"
-    form = known if count else "{desc}: {n_fmt}{unit} [{elapsed}]{postfix}"
+    form = known if count else "{desc}: {n_fmt}{unit} [{elapsed}]{postfix}" if unit else "{desc} [{elapsed}]{postfix}"
     return tqdm(total=count, desc=name, unit=f" {unit}" if unit else "", bar_format=form, leave=False, dynamic_ncols=True, file=sys.stderr)
