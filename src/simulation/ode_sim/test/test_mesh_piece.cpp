@@ -13,8 +13,8 @@ using namespace ode_sim;
 
 namespace {
 
-constexpr int kSide = 100;         // squares of a lawn
-constexpr double kSquare = 0.1;    // m
+constexpr int kSide = 100;       // squares of a lawn
+constexpr double kSquare = 0.1;  // m
 double height(double x, double y) { return 0.05 * std::sin(1.3 * x) * std::cos(0.9 * y); }
 
 // Square hills of 10 x 10 m round the origin.
@@ -128,10 +128,11 @@ TEST(MeshPieces, WhereNothingIsTheyAreEmptyAndWhereTheyWouldSpareNothingTheyAreN
   MeshPieces pieces;
   EXPECT_FALSE(pieces.near(whole, {0, 0, 3}, 0.05)->mesh);
   EXPECT_FALSE(pieces.near(whole, {30, 0, 0}, 0.05)->mesh);
-  EXPECT_EQ(pieces.near(whole, {0, 0, 0}, 6), nullptr);            // as large as the lawn
-  EXPECT_EQ(pieces.near(pebble(5), {0, 0, 0}, 0) , nullptr);       // a point
-  EXPECT_EQ(pieces.near(whole, {1e6, 0, 0}, 1e-9), nullptr);       // more cells than can be counted
-  const auto slab = std::make_shared<MeshData>(std::vector<double>{-9, -9, 0, 9, -9, 0, 0, 9, 0}, std::vector<dTriIndex>{0, 1, 2});
+  EXPECT_EQ(pieces.near(whole, {0, 0, 0}, 6), nullptr);       // as large as the lawn
+  EXPECT_EQ(pieces.near(pebble(5), {0, 0, 0}, 0), nullptr);   // a point
+  EXPECT_EQ(pieces.near(whole, {1e6, 0, 0}, 1e-9), nullptr);  // more cells than can be counted
+  const auto slab =
+      std::make_shared<MeshData>(std::vector<double>{-9, -9, 0, 9, -9, 0, 0, 9, 0}, std::vector<dTriIndex>{0, 1, 2});
   EXPECT_EQ(pieces.near(slab, {0, 0, 0}, 0.05), nullptr);  // a few triangles
 }
 
