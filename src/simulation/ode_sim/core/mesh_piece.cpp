@@ -30,6 +30,11 @@ bool cells_of(const Vec3& middle, double radius, int exponent, std::array<int, 6
   return true;
 }
 
+// Whether a part of the mesh near a ball of this radius is much smaller than all of it.
+bool is_worth_it(const MeshData& whole, double radius) {
+  return whole.indices.size() >= 3 * kFew && radius > 0 && kMuchLarger * radius <= whole.reach;
+}
+
 }  // namespace
 
 std::vector<int> MeshPieces::triangles_in(const std::shared_ptr<MeshData>& mesh, int exponent, const Cells& cells) {
@@ -73,7 +78,7 @@ MeshPiece MeshPieces::made(const std::shared_ptr<MeshData>& whole, const std::ve
 }
 
 const MeshPiece* MeshPieces::near(const std::shared_ptr<MeshData>& whole, const Vec3& middle, double radius) {
-  if (whole->indices.size() < 3 * kFew || !(radius > 0) || kMuchLarger * radius > whole->reach) return nullptr;
+  if (!is_worth_it(*whole, radius)) return nullptr;
   const int exponent = std::ilogb(radius) + 1;
   Cells cells;
   if (!cells_of(middle, radius + kGap, exponent, cells)) return nullptr;
@@ -90,6 +95,7 @@ bool piece_is_of_first(const Shape& a, const Shape& b) { return a.mesh->reach > 
 const MeshPiece* MeshPieces::between(const Shape& a, const Shape& b) {
   if (!a.mesh || !b.mesh) return nullptr;
   const Shape &large = piece_is_of_first(a, b) ? a : b, &small = &large == &a ? b : a;
+  if (!is_worth_it(*large.mesh, small.mesh->reach)) return nullptr;
   const Pose X_LS = inverse(large.link->X_WL * large.X_LC) * (small.link->X_WL * small.X_LC);
   return near(large.mesh, X_LS * small.mesh->middle, small.mesh->reach);
 }
