@@ -9,23 +9,21 @@ import json
 import math
 import os
 import random
-import struct
+import sys
 import tempfile
 import time
 
 import numpy as np
 import ode_sim
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+
+from real_gazebo.scenes_robots import stl  # noqa: E402
+from real_gazebo.sdf import axis, collision, ground, inertial, joint, link, mesh, model, surface, world  # noqa: E402
+
 ROLLERS, WHEEL, ROLLER = 12, 0.08, 0.018  # on a wheel; radii, m
 SPEED, TORQUE = 2.5, 10.0  # rad/s, N m
 WHEELS = {"fl": (0.2, 0.2, 1), "fr": (0.2, -0.2, -1), "rl": (-0.2, 0.2, -1), "rr": (-0.2, -0.2, 1)}  # m, m, which way rollers lean
-
-
-def stl(triangles):
-    """A binary file of these. triangles: (n, 3, 3), m."""
-    record = np.zeros(len(triangles), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])
-    record["corners"] = triangles
-    return b"\0" * 80 + struct.pack("<I", len(triangles)) + record.tobytes()
 
 
 def turned(profile, around):
@@ -62,40 +60,30 @@ def lawn(squares=200, side=20.0, height=0.05):
     return np.concatenate([np.stack([a, b, c], axis=2).reshape(-1, 3, 3), np.stack([a, c, d], axis=2).reshape(-1, 3, 3)])
 
 
-def inertial(mass, moment):
-    moments = "".join(f"<{axis}>{moment}</{axis}>" for axis in ("ixx", "iyy", "izz"))
-    return f"<inertial><mass>{mass}</mass><inertia>{moments}</inertia></inertial>"
-
-
 def of_mesh(file):
-    friction = "<surface><friction><ode><mu>1</mu><mu2>1</mu2></ode></friction></surface>"
-    return f"<collision name='c'><geometry><mesh><uri>file://{{folder}}/{file}</uri></mesh></geometry>{friction}</collision>"
+    return collision(mesh(file), surface(1.0))
 
 
-def hinge(parent, child, axis):
-    return (
-        f"<joint name='{child}_joint' type='revolute'><parent>{parent}</parent><child>{child}</child><axis><xyz>{axis}</xyz>"
-        "<limit><lower>-1e16</lower><upper>1e16</upper></limit></axis></joint>"
-    )
+def hinge(parent, child, xyz):
+    return joint(f"{child}_joint", "revolute", parent, child, axis(xyz, of_model=False))
 
 
 def robot(z):
-    parts = [f"<link name='base'><pose>0 0 {WHEEL} 0 0 0</pose>{inertial(10, 0.2)}</link>"]
+    parts = [link("base", inertial(10, 0.2), pose=f"0 0 {WHEEL} 0 0 0")]
     for name, (x, y, sign) in WHEELS.items():
-        parts += [f"<link name='{name}'><pose>{x} {y} {WHEEL} 0 0 0</pose>{inertial(0.5, 0.001)}</link>", hinge("base", name, "0 1 0")]
+        parts += [link(name, inertial(0.5, 0.001), pose=f"{x} {y} {WHEEL} 0 0 0"), hinge("base", name, "0 1 0")]
         for i in range(ROLLERS):
             a = 2 * math.pi * (i + 0.5) / ROLLERS
             ahead, up = (WHEEL - ROLLER) * math.cos(a), (WHEEL - ROLLER) * math.sin(a)
-            axis = np.array([-math.sin(a), sign, math.cos(a)]) / math.sqrt(2)
-            turn = f"0 {math.atan2(math.hypot(axis[0], axis[1]), axis[2]):.9g} {math.atan2(axis[1], axis[0]):.9g}"
-            pose = f"<pose>{x + ahead:.9g} {y} {WHEEL + up:.9g} {turn}</pose>"
-            parts += [f"<link name='{name}{i}'>{pose}{inertial(0.02, 4e-6)}{of_mesh('barrel.stl')}</link>"]
-            parts += [hinge(name, f"{name}{i}", "0 0 1")]
-    return f"<model name='r'><pose>0 0 {z} 0 0 0</pose>{''.join(parts)}</model>"
+            lean = np.array([-math.sin(a), sign, math.cos(a)]) / math.sqrt(2)
+            turn = f"0 {math.atan2(math.hypot(lean[0], lean[1]), lean[2]):.9g} {math.atan2(lean[1], lean[0]):.9g}"
+            pose = f"{x + ahead:.9g} {y} {WHEEL + up:.9g} {turn}"
+            parts += [link(f"{name}{i}", inertial(0.02, 4e-6), of_mesh("barrel.stl"), pose=pose), hinge(name, f"{name}{i}", "0 0 1")]
+    return model("r", *parts, pose=f"0 0 {z} 0 0 0")
 
 
-def standing(name, collision, x=0.0, y=0.0):
-    return f"<model name='{name}'><static>true</static><pose>{x} {y} 0 0 0 0</pose><link name='l'>{collision}</link></model>"
+def standing(name, shape, x=0.0, y=0.0):
+    return model(name, link("l", shape), pose=f"{x} {y} 0 0 0 0", static=True)
 
 
 def bushes():
@@ -106,35 +94,33 @@ def bushes():
 
 
 def files():
-    return {f"{name}.stl": stl(np.array(make())) for name, make in (("barrel", barrel), ("bush", bush), ("lawn", lawn))}
+    return {f"{name}.stl": stl(make()) for name, make in (("barrel", barrel), ("bush", bush), ("lawn", lawn))}
 
 
 def worlds():
     """(name, title, text of the world, in which {folder} is where the files lie)."""
-    plane = standing("g", "<collision name='c'><geometry><plane><normal>0 0 1</normal></plane></geometry></collision>")
     hills = standing("g", of_mesh("lawn.stl"))
     for name, title, models, z in (
-        ("rollers_plane", "a plane", [plane], 0.0),
+        ("rollers_plane", "a plane", [ground(1.0, 1.0)], 0.0),
         ("rollers_lawn", "a lawn of 80 000 triangles", [hills], 0.06),
         ("rollers_garden", "a garden, that lawn and 20 bushes of 3 120", [hills, *bushes()], 0.06),
     ):
-        physics = "<physics type='ode'><max_step_size>0.001</max_step_size></physics>"
-        text = f"<sdf version='1.6'><world name='w'>{physics}{''.join(models)}{robot(z)}</world></sdf>"
+        text = world(*models, robot(z))
         yield name, f"48 mesh rollers of 6 000 triangles on {title}", text
 
 
 def cost(path, steps):
     """us of processor time a step."""
-    world = ode_sim.World.load(path)
-    if world.problems:
-        raise RuntimeError(world.problems[0].message)
+    loaded = ode_sim.World.load(path)
+    if loaded.problems:
+        raise RuntimeError(loaded.problems[0].message)
     for wheel in WHEELS:
-        world.find_joint(f"r::{wheel}_joint").set_motor(SPEED, TORQUE)
-    world.step(300)
-    start, before = time.process_time(), world.models["r"].pose.p[0]
-    world.step(steps)
-    spent, way = time.process_time() - start, world.models["r"].pose.p[0] - before
-    meant = SPEED * WHEEL * steps * world.dt
+        loaded.find_joint(f"r::{wheel}_joint").set_motor(SPEED, TORQUE)
+    loaded.step(300)
+    start, before = time.process_time(), loaded.models["r"].pose.p[0]
+    loaded.step(steps)
+    spent, way = time.process_time() - start, loaded.models["r"].pose.p[0] - before
+    meant = SPEED * WHEEL * steps * loaded.dt
     if not 0.8 * meant < way < 1.2 * meant:
         raise RuntimeError(f"the base drove {way:.3f} m instead of {meant:.3f}")
     return spent / steps * 1e6

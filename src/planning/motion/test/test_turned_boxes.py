@@ -36,7 +36,7 @@ def touches(scene, shape, pose):
     [
         # The corner of a cube turned by 45 degrees about z reaches 0.1 sqrt 2 along x.
         ("corner to side", motion.Box(0.2, 0.2, 0.2), (1, 0, 0), turn((0, 0, 1), math.pi / 4), 0.1 + 0.1 * math.sqrt(2)),
-        # Along the diagonal both show a side.
+        # Along the diagonal: an edge of the straight cube, a side of the turned one.
         ("side to edge", motion.Box(0.2, 0.2, 0.2), (1, 1, 0), turn((0, 0, 1), math.pi / 4), 0.1 + 0.1 * math.sqrt(2)),
         # An edge along y above a side.
         ("edge down", motion.Box(0.2, 0.2, 0.2), (0, 0, 1), turn((0, 1, 0), math.pi / 4), 0.1 + 0.1 * math.sqrt(2)),
@@ -49,8 +49,6 @@ def touches(scene, shape, pose):
 )
 def test_the_last_place_that_is_free(why, shape, way, turned, apart):
     way = np.array(way, dtype=float) / np.linalg.norm(way)
-    if why == "side to edge":
-        apart = 0.1 * math.sqrt(2) + 0.1  # edge of the straight cube, side of the turned one
     scene = motion.PlanningScene(robot(CUBE))
     assert not touches(scene, shape, (tuple(way * (apart + 1e-4)), turned))
     assert touches(scene, shape, (tuple(way * (apart - 1e-4)), turned))
