@@ -53,7 +53,7 @@ _MOST_PIXELS = 1 << 28
 
 
 def picture_of(message: Any, unnamed: str = "rgb") -> Picture:
-    """Of a sensor_msgs/Image or CompressedImage.
+    """Of ``message``, a sensor_msgs/Image or CompressedImage.
 
     :param unnamed: order of the colours where the encoding names none, as 8UC3: ``rgb`` or ``bgr``
     :raises ImageError: an encoding that is not known, or data that does not fit it
@@ -67,6 +67,7 @@ def raw(encoding: str, height: int, width: int, step: int, data: Any, big_endian
     """From the fields of a sensor_msgs/Image; its pixels are perhaps a view of ``data``.
 
     :param step: bytes per row. :param data: bytes. :param unnamed: see :func:`picture_of`
+    :param big_endian: of values of more than one byte
     :raises ImageError: an encoding that is not known, or data that does not fit height, width and step
     """
     kind, channels = _layout(encoding)

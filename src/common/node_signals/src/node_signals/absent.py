@@ -71,7 +71,7 @@ def in_one_line(error: rospkg.ResourceNotFound) -> str:
 
 
 def no_program(path: Path, package: str) -> str:
-    """What a file is that nobody can run, and what takes it; "" for others."""
+    """What the file ``path`` of ``package`` is that nobody can run, and what takes it; "" for others."""
     kind = ".launch.py" if path.name.endswith(".launch.py") else path.suffix
     if kind not in _NO_PROGRAMS:
         return ""

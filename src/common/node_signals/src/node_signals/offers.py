@@ -35,7 +35,10 @@ class _StandIn:
 
 
 def service(name: str, kind: type, handler: Callable[[Any], Any]) -> Any:
-    """A ``rospy.Service``; where this node has one of that name already, a stand-in with ``shutdown()``."""
+    """A ``rospy.Service`` ``name`` of class ``kind``, answered by ``handler``.
+
+    Where this node has one of that name already, a stand-in with ``shutdown()``.
+    """
     try:
         return rospy.Service(name, kind, handler)
     except rospy.ServiceException as error:
@@ -51,8 +54,9 @@ def service(name: str, kind: type, handler: Callable[[Any], Any]) -> Any:
 
 
 def publisher(name: str, kind: type, **more: Any) -> Any:
-    """A ``rospy.Publisher``; where this node publishes another type there already, a stand-in without subscribers.
+    """A ``rospy.Publisher`` on topic ``name``; where this node publishes another type there already, a stand-in without subscribers.
 
+    :param kind: class of the messages
     :param more: as for ``rospy.Publisher``
     """
     if _of_another_type(name, kind, Registration.PUB, "advertise on"):
@@ -61,8 +65,10 @@ def publisher(name: str, kind: type, **more: Any) -> Any:
 
 
 def subscriber(name: str, kind: type, callback: Callable[[Any], None], **more: Any) -> Any:
-    """A ``rospy.Subscriber``; where this node reads another type there already, a stand-in that never calls back.
+    """A ``rospy.Subscriber`` of topic ``name``; where this node reads another type there already, a stand-in that never calls back.
 
+    :param kind: class of the messages
+    :param callback: is given each, in a thread of rospy
     :param more: as for ``rospy.Subscriber``
     """
     if _of_another_type(name, kind, Registration.SUB, "subscribe to"):

@@ -26,7 +26,10 @@ class ParameterError(ValueError):
 
 
 def is_number(value: Any, least: float = -math.inf, above: float | None = None, finite: bool = True) -> bool:
-    """Whether ``value`` is a number of at least ``least`` and, if that is given, greater than ``above``."""
+    """Whether ``value`` is a number of at least ``least`` and, if that is given, greater than ``above``.
+
+    :param finite: False lets infinity pass; NaN never does
+    """
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return False
     if not abs(value) <= sys.float_info.max and (finite or value != value or isinstance(value, int)):
@@ -67,6 +70,7 @@ def number(name: str, default: float, least: float = -math.inf) -> float:
     """A finite number.
 
     :param name: as for rospy.get_param
+    :param default: where the parameter is not set; checked alike
     :param least: the smallest that is allowed
     :raises ParameterError: it is no number, or too small
     """
@@ -100,6 +104,7 @@ def texts(where: str, value: Any, empty: bool = False, shown: Callable[[Any], st
 
     :param where: as for :func:`of_kind`
     :param empty: whether it may have none
+    :param shown: how the message writes a value that is refused
     :raises ParameterError: it is something else
     """
     if not isinstance(value, list) or not (value or empty) or not all(isinstance(entry, str) for entry in value):

@@ -37,7 +37,10 @@ def command(words: list[str]) -> Command | None:
 
 
 def find(package: str, name: str) -> list[str]:
-    """The files that could be meant; each is run where there is one, where there are several somebody has to choose."""
+    """The files that could be meant by program ``name`` of ``package``; each is run where there is one, else somebody has to choose.
+
+    A ``name`` with a slash is a place in the package.
+    """
     catkins, own = _catkin_folders(["libexec", "share"], package), _folder_of(package)
     if not own:
         return []

@@ -31,7 +31,7 @@ class Progress:
             self._bar.update(number)
 
     def at(self, number: int, now: str = "") -> None:
-        """So many are done in all, and this is done now."""
+        """So many, ``number``, are done in all, and this is done ``now``."""
         if self._bar is not None:
             self._bar.set_postfix_str(now, refresh=False)
             self._bar.update(number - self._bar.n)

@@ -16,6 +16,7 @@ def wait_for_service(name: str, timeout: float | None = None) -> None:
     """As ``rospy.wait_for_service``, which looks three times a second and so holds up every node of a launch; here looks
     are a tenth of the time waited apart.
 
+    :param name: of the service
     :param timeout: wall s; None waits for ever
     :raises rospy.ROSException: it did not come in time
     :raises rospy.ROSInterruptException: the node ends

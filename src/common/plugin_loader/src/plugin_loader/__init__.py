@@ -107,7 +107,11 @@ def _plugin_description(file: str) -> ET.Element:
 
 
 def find_plugins(base: str, attribute: str = "plugin", rospack: rospkg.RosPack | None = None) -> tuple[dict[str, PluginClass], list[str]]:
-    """All classes exported for ``base``: (name -> PluginClass, problems as lines). The first package wins a name."""
+    """All classes exported for ``base``: (name -> PluginClass, problems as lines). The first package wins a name.
+
+    :param attribute: of the export that names the file of descriptions
+    :param rospack: where packages are looked for; None: a new ``rospkg.RosPack``
+    """
     found: dict[str, PluginClass] = {}
     problems: list[str] = []
     for package, _, file in _exports(rospack or rospkg.RosPack(), base, attribute):

@@ -25,7 +25,7 @@ def wait_until(condition: Callable[[], T], what: str = "", timeout: float = 60.0
 
 
 def never(condition: Callable[[], object], what: str, seconds: float, interval: float = 0.01) -> None:
-    """Ask ``condition()`` every ``interval`` s for so long: it must not come true. What is wrong would do so within that time.
+    """Ask ``condition()`` every ``interval`` s for ``seconds`` of wall time: it must not come true. What is wrong would do so by then.
 
     :raises AssertionError: it does; the message says ``what`` came
     """

@@ -22,7 +22,12 @@ class CombinedRobotHW(RobotHW):
         self.parts: list[RobotHW] = []
 
     def init(self, root_nh, robot_hw_nh) -> bool:
-        """:return: False, with one ERROR line, if a part is missing or refuses."""
+        """Load the parts and set them up.
+
+        :param root_nh: handed on to each part.
+        :param robot_hw_nh: where ``robot_hardware`` and the parts' namespaces are.
+        :return: False, with one ERROR line, if a part is missing or refuses.
+        """
         names = robot_hw_nh.param("robot_hardware", None)
         if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
             rospy.logerr("parameter %s must be a list of names of robots, it is %r", robot_hw_nh.resolve("robot_hardware"), names)

@@ -35,19 +35,23 @@ class Base:
             topic.close()
 
     def topic(self, name: str, message_type: type) -> client.Topic:
-        """A topic of the controller that is known to arrive."""
+        """The topic ``name`` of the controller, of class ``message_type``, when a message has come on it."""
         topic = client.Topic(f"/{self.name}/{name}", message_type)
         self._topics.append(topic)
         topic.next()
         return topic
 
     def send(self, linear: float, angular: float) -> None:
+        """Send one command: ``linear`` m/s forwards and ``angular`` rad/s to the left."""
         message = Twist()
         message.linear.x, message.angular.z = linear, angular
         self.command.publish(message)
 
     def drive(self, linear: float, angular: float, seconds: float, obeys: bool = True) -> list[Odometry]:
-        """Command a twist over and over. :return: odometry of ``seconds`` after it came into force"""
+        """Command ``linear`` m/s and ``angular`` rad/s over and over, as :meth:`follow` does with ``obeys``.
+
+        :return: odometry of ``seconds`` after it came into force
+        """
         return self.follow(lambda: self.send(linear, angular), seconds, obeys)
 
     def follow(self, send: Callable[[], None], seconds: float, obeys: bool = True) -> list[Odometry]:

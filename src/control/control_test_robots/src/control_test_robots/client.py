@@ -103,7 +103,7 @@ class Topic:
 
 
 def publisher(name: str, message_type: type) -> rospy.Publisher:
-    """A publisher that is connected to its subscriber."""
+    """A publisher on topic ``name``, of class ``message_type``, that is connected to its subscriber."""
     result = rospy.Publisher(name, message_type, queue_size=10)
     wait_until(lambda: result.get_num_connections() > 0, f"a subscriber of {name}", 60.0)
     return result
@@ -125,6 +125,7 @@ def loads(name: str) -> bool:
 
 
 def switch(start: Sequence[str] = (), stop: Sequence[str] = ()) -> None:
+    """One strict switch: the controllers ``start`` start and ``stop`` stop."""
     assert _call(
         "switch_controller",
         SwitchController,

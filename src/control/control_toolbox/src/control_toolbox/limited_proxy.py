@@ -43,7 +43,7 @@ class LimitedProxy:
         self.reset(0.0, 0.0)
 
     def reset(self, position: float, velocity: float) -> None:
-        """Put the proxy on the joint."""
+        """Put the proxy on the joint, at ``position`` (rad or m) and ``velocity`` (rad/s or m/s), and forget the integral."""
         self.position = position
         self.velocity = velocity
         self._integral = 0.0
@@ -59,7 +59,12 @@ class LimitedProxy:
         return _clamp(velocity, self.vel_limit)
 
     def update(self, pos_target: float, vel_target: float, acc_target: float, position: float, velocity: float, dt: float) -> float:
-        """One step. :return: effort on the joint (N or Nm)."""
+        """One step. :return: effort on the joint (N or Nm); 0 where ``dt`` is not positive.
+
+        :param pos_target, vel_target, acc_target: what the joint is to do (rad or m, and its derivatives by s).
+        :param position, velocity: what the joint does, measured (rad or m, rad/s or m/s).
+        :param dt: s since the step before.
+        """
         if dt <= 0.0:
             return 0.0
         wanted = _clamp(vel_target + self._approach(pos_target - self.position), self.vel_limit)

@@ -38,6 +38,11 @@ class Pid(Law):
         self._set_gains(*gains)
 
     def set_gains(self, p: float, i: float, d: float, i_max: float, i_min: float, antiwindup: bool = False) -> None:
+        """Replace all gains at once: ``p`` in units of the command per unit of the error, ``i`` that per s, ``d`` that times s.
+
+        :param i_max, i_min: clamp of the integral term, in the command's unit.
+        :param antiwindup: the integral itself stops where its term meets the clamp.
+        """
         self._set_gains(p, i, d, i_max, i_min, antiwindup)
 
     def slope_of_position(self, dt: float) -> float:

@@ -24,6 +24,7 @@ class PidGainsSetter:
         nh.service("set_gains", SetPidGains, self._set)
 
     def add(self, pid: Pid) -> None:
+        """Let the service set the gains of ``pid`` too."""
         self._pids.append(pid)
 
     def _set(self, request: Any) -> SetPidGainsResponse:

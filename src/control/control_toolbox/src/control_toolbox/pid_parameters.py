@@ -53,6 +53,7 @@ class RosPid(Pid):
         self.gains = Gains(config["p"], config["i"], config["d"], config["i_clamp_max"], config["i_clamp_min"], config["antiwindup"])
 
     def compute_command(self, error: float, dt: float, error_dot: float | None = None) -> float:
+        """As ``Pid.compute_command`` with ``error``, ``dt`` (s) and ``error_dot`` (per s; None: the quotient); publishes the state too."""
         command = super().compute_command(error, dt, error_dot)
         if self._publisher is not None and self.counted and self._publisher.has_subscribers:
             self._publish(self._publisher, dt)

@@ -29,6 +29,7 @@ class Sinusoid:
         self.phase = phase
 
     def update(self, time: float) -> SinusoidValue:
+        """The signal at ``time`` (s), with its first and second derivative by time."""
         omega = 2.0 * math.pi * self.frequency
         angle = self.phase + omega * time
         return SinusoidValue(
@@ -77,6 +78,7 @@ class Dither:
 
 
 def clamp(value: float, low: float, high: float) -> float:
+    """``value``, or the nearer of ``low`` and ``high`` where it lies outside of them."""
     return min(max(value, low), high)
 
 

@@ -20,7 +20,7 @@ class ActionController(Controller):
     """
 
     def serve(self, controller_nh: NodeHandle, name: str, action: type) -> None:
-        """Offer the action ``name``, say of type ``control_msgs.msg.FollowJointTrajectoryAction``."""
+        """Offer the action ``name`` of type ``action``, say ``control_msgs.msg.FollowJointTrajectoryAction``, in ``controller_nh``."""
         self._lock = threading.Lock()
         self._running = False
         self._goal: RealtimeGoal | None = None

@@ -40,28 +40,36 @@ class ControllerBase:
     # -- for the controller's author -----------------------------------------------------------------------------------
 
     def init(self, hw: Any, root_nh: NodeHandle, controller_nh: NodeHandle) -> bool | None:
-        """Read parameters, take handles, make topics. Return False or raise to refuse."""
+        """Read parameters, take handles, make topics. Return False or raise to refuse.
+
+        :param hw: the interface of a Controller; of a MultiInterfaceController a RobotHW that has its interfaces only.
+        :param root_nh: namespace of the controller manager, the robot's.
+        :param controller_nh: namespace of this controller, where its parameters are.
+        """
 
     def starting(self, time: float) -> None:
-        """Called once before the first update."""
+        """Called once before the first update, at ``time`` (s)."""
 
     def update(self, time: float, period: float) -> None:
-        """Called every cycle while running."""
+        """Called every cycle while running: at ``time`` (s), ``period`` s after the cycle before."""
 
     def stopping(self, time: float) -> None:
-        """Called once after the last update."""
+        """Called once after the last update, at ``time`` (s)."""
 
     def waiting(self, time: float) -> None:
-        """Called every cycle while the hardware is still switching for this controller."""
+        """Called at ``time`` (s), every cycle while the hardware is still switching for this controller."""
 
     def aborting(self, time: float) -> None:
-        """Called when the hardware failed to switch, or an exception came out of this controller."""
+        """Called at ``time`` (s) when the hardware failed to switch, or an exception came out of this controller."""
 
     # -- for the controller manager ---------------------------------------------------------------------------------
 
     def init_request(self, robot_hw: RobotHW, root_nh: NodeHandle, controller_nh: NodeHandle) -> tuple[InterfaceResources, ...]:
         """Initialise. :return: the claimed resources, one entry per interface.
 
+        :param robot_hw: the robot, of whose interfaces ``init`` is given those that it asks for.
+        :param root_nh: namespace of the controller manager.
+        :param controller_nh: namespace of the controller.
         :raises InitError: refused; any other exception of ``init`` passes through.
         """
         raise NotImplementedError
@@ -81,15 +89,19 @@ class ControllerBase:
     # The following four are refused, with False, before the controller is initialised. Exceptions pass through.
 
     def start_request(self, time: float) -> bool:
+        """Call ``starting`` with ``time`` (s); the controller is running then."""
         return self._enter(ControllerState.RUNNING, self.starting, time)
 
     def stop_request(self, time: float) -> bool:
+        """Call ``stopping`` with ``time`` (s); the controller is stopped then."""
         return self._enter(ControllerState.STOPPED, self.stopping, time)
 
     def wait_request(self, time: float) -> bool:
+        """Call ``waiting`` with ``time`` (s); the controller waits for its hardware then."""
         return self._enter(ControllerState.WAITING, self.waiting, time)
 
     def abort_request(self, time: float) -> bool:
+        """Call ``aborting`` with ``time`` (s); the controller is aborted then."""
         return self._enter(ControllerState.ABORTED, self.aborting, time)
 
     def _enter(self, state: ControllerState, call: Any, time: float) -> bool:

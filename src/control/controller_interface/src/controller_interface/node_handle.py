@@ -51,10 +51,11 @@ class NodeHandle:
     # -- parameters -------------------------------------------------------------------------------------------------
 
     def has_param(self, name: str) -> bool:
+        """Whether the parameter ``name`` is set."""
         return rospy.has_param(self._join(name))
 
     def param(self, name: str, default: Any) -> Any:
-        """Value of a parameter, or ``default``. A float default accepts whole numbers, but not NaN.
+        """Value of parameter ``name``, or ``default``. A float default accepts whole numbers, but not NaN.
 
         :raises ParameterError: the value is there and of another kind than the default.
         """
@@ -62,7 +63,7 @@ class NodeHandle:
         return self._get(name, default, kind if kind in _KINDS else None)
 
     def get_param(self, name: str, kind: type | None = None) -> Any:
-        """Value of a required parameter.
+        """Value of the required parameter ``name``.
 
         :param kind: float (whole numbers accepted), int, bool, str, list or dict; None takes anything.
         :raises ParameterError: missing, or of another kind.
@@ -92,6 +93,7 @@ class NodeHandle:
         return f"{self.namespace} has: {one_line(', '.join(sorted(value))) or 'nothing'}"
 
     def set_param(self, name: str, value: Any) -> None:
+        """Set parameter ``name`` to ``value``: numbers, text, lists and maps of them."""
         rospy.set_param(self._join(name), value)
 
     def search_param(self, name: str) -> str | None:
@@ -106,17 +108,26 @@ class NodeHandle:
     # -- communication ------------------------------------------------------------------------------------------------
 
     def publisher(self, name: str, message_type: type, queue_size: int = 1, latch: bool = False) -> rospy.Publisher:
-        """Small messages leave at once (no Nagle delay: it makes a 50 Hz topic stutter by 40 ms)."""
+        """A publisher on topic ``name``. Small messages leave at once (no Nagle delay: it makes a 50 Hz topic stutter by 40 ms).
+
+        :param message_type: class of the messages.
+        :param queue_size: of messages that wait for a slow subscriber; older ones are dropped.
+        :param latch: whoever subscribes later is sent the last message.
+        """
         return self.own(rospy.Publisher(self.resolve(name), message_type, queue_size=queue_size, latch=latch, tcp_nodelay=True))
 
     def subscriber(self, name: str, message_type: type, callback: Callable, queue_size: int = 1) -> rospy.Subscriber:
-        """``callback`` runs in a thread of rospy: it should only store a value.
+        """Call ``callback`` with each message on topic ``name``. It runs in a thread of rospy: it should only store a value.
 
         Without the wish for no delay, TCP holds a command until the one before it is acknowledged: up to 0.2 s.
+
+        :param message_type: class of the messages.
+        :param queue_size: of messages that wait for ``callback``; older ones are dropped.
         """
         return self.own(rospy.Subscriber(self.resolve(name), message_type, callback, queue_size=queue_size, tcp_nodelay=True))
 
     def service(self, name: str, service_type: type, callback: Callable) -> rospy.Service:
+        """Offer service ``name`` of type ``service_type``: ``callback`` makes a response of the request, in a thread of rospy."""
         return self.own(offers.service(self.resolve(name), service_type, callback))
 
     def own(self, thing: Any) -> Any:

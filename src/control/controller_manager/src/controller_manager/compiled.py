@@ -95,7 +95,7 @@ class CompiledTypes:
         self._classes = _compiled.Classes(list(dict.fromkeys(descriptions)))
 
     def create(self, plugin: PluginClass, name: str) -> CompiledController:
-        """An instance, for the controller ``name``.
+        """An instance of the class that ``plugin`` describes, for the controller ``name``.
 
         :raises PluginError: its library is not there or cannot be loaded, or has no such controller.
         """
@@ -120,7 +120,12 @@ class CompiledTypes:
             raise PluginError(f"{what}: {_explained(str(error), plugin, library)}") from error
 
     def take(self, pointer: int, plugin: PluginClass, name: str) -> CompiledController:
-        """A controller that somebody else has made. :param pointer: address of a shared pointer to it, which is freed."""
+        """A controller that somebody else has made.
+
+        :param pointer: address of a shared pointer to it, which is freed.
+        :param plugin: its type, for messages.
+        :param name: of the controller.
+        """
         return CompiledController(_compiled.take(pointer, f"controller '{name}' ({plugin.name})"))
 
     def unload(self) -> None:

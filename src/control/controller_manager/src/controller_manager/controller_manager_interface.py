@@ -42,7 +42,12 @@ def list_controller_types() -> None:
 
 
 def reload_libraries(force_kill: bool, restore: bool = False) -> bool:
-    """:param restore: load and start again what was there before."""
+    """Load the libraries of all controllers anew, which needs them gone.
+
+    :param force_kill: stop and unload what is loaded; False fails if anything is.
+    :param restore: load and start again what was there before.
+    :return: whether it worked.
+    """
     print(f"Restore: {restore}")
     before = _call("list_controllers", ListControllers).controller if restore else []
     ok = _call("reload_controller_libraries", ReloadControllerLibraries, force_kill).ok
@@ -72,35 +77,41 @@ def list_controllers() -> None:
 
 
 def load_controller(name: str) -> bool:
+    """Load the controller ``name``, which its parameters describe. :return: whether it worked."""
     ok = _call("load_controller", LoadController, name).ok
     print(f"Loaded '{name}'" if ok else f"Error when loading '{name}'")
     return ok
 
 
 def unload_controller(name: str) -> bool:
+    """Unload the controller ``name``, which must not run. :return: whether it worked."""
     ok = _call("unload_controller", UnloadController, name).ok
     print(f"Unloaded '{name}' successfully" if ok else f"Error when unloading '{name}'")
     return ok
 
 
 def start_controller(name: str) -> bool:
+    """Start the loaded controller ``name``. :return: whether it worked."""
     return start_controllers([name])
 
 
 def start_controllers(names: Sequence[str]) -> bool:
+    """Start all controllers of ``names`` in one cycle, or none. :return: whether it worked."""
     return start_stop_controllers(start_controllers=names)
 
 
 def stop_controller(name: str) -> bool:
+    """Stop the controller ``name``. :return: whether it worked."""
     return stop_controllers([name])
 
 
 def stop_controllers(names: Sequence[str]) -> bool:
+    """Stop all controllers of ``names`` in one cycle, or none. :return: whether it worked."""
     return start_stop_controllers(stop_controllers=names)
 
 
 def start_stop_controllers(start_controllers: Sequence[str] = (), stop_controllers: Sequence[str] = ()) -> bool:
-    """One strict switch."""
+    """One strict switch: ``start_controllers`` start and ``stop_controllers`` stop, or nothing changes. :return: whether it worked."""
     start, stop = list(start_controllers), list(stop_controllers)
     ok = _call(
         "switch_controller",

@@ -47,6 +47,7 @@ class ControllerTypes:
         return [plugin for _, plugin in sorted(known.items())]
 
     def find(self, name: str) -> PluginClass | None:
+        """The type ``name``, of a package or a loader, or None."""
         found = self._plugins().get(name)
         if found is not None:
             return found
@@ -57,7 +58,12 @@ class ControllerTypes:
         return None
 
     def add_loader(self, base: str, names: Callable[[], list[str]], create: Callable[[str], int]) -> None:
-        """Types of a loader in C++: their names, and a function that makes one and gives the address of a shared pointer."""
+        """Take the types of a loader in C++ too.
+
+        :param base: C++ name of the class that they derive from.
+        :param names: gives the names of its types; asked again for each controller.
+        :param create: makes one of the type that it is given, and gives the address of a shared pointer to it.
+        """
         self._loaders.append((base, names, create))
 
     def suggestion(self, name: str) -> str:
@@ -80,7 +86,7 @@ class ControllerTypes:
         return controller
 
     def create_compiled(self, plugin: PluginClass, name: str) -> ControllerBase:
-        """An instance of a class in C++, for the controller ``name``.
+        """An instance of ``plugin``, a class in C++, for the controller ``name``.
 
         :raises PluginError: its library is not there or cannot be loaded, or has no such controller.
         """

@@ -48,10 +48,10 @@ def end_node() -> None:
 
 
 def address_of(manager: ControllerManager, name: str) -> int:
-    """Of a loaded controller in C++, else 0."""
+    """Address of the C++ object of the controller ``name`` that ``manager`` has loaded; 0 if there is none, or it is Python's."""
     return next((getattr(loaded.controller, "address", 0) for loaded in manager.controllers if loaded.name == name), 0)
 
 
 def add_loader(manager: ControllerManager, base: str, names: Callable[[], list[str]], create: Callable[[str], int]) -> None:
-    """Take the types of a loader in C++ too."""
+    """Let ``manager`` take the types of a loader in C++ too; ``base``, ``names`` and ``create`` as in ControllerTypes.add_loader."""
     manager.add_loader(base, names, create)

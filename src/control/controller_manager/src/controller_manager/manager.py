@@ -308,7 +308,7 @@ class ControllerManager:
     def switch_controller(
         self, start: Sequence[str], stop: Sequence[str], strictness: int = STRICT, start_asap: bool = False, timeout: float = 0.0
     ) -> bool:
-        """Stop some controllers and start others within one cycle; all or nothing.
+        """Stop the controllers ``stop`` and start the controllers ``start`` within one cycle; all or nothing.
 
         Waits for the control loop: as long as it takes while the clock stands still (a paused simulation) or the loop has
         never run, else up to ``switching.PATIENCE`` s without a cycle.
@@ -461,7 +461,10 @@ class ControllerManager:
                 lock.release()
 
     def add_loader(self, base: str, names: Callable[[], list[str]], create: Callable[[str], int]) -> None:
-        """Take types from a loader in C++ too, for those that no package exports; see ControllerTypes.add_loader."""
+        """Take types from a loader in C++ too, for those that no package exports.
+
+        ``base``, ``names`` and ``create`` are as in ControllerTypes.add_loader.
+        """
         self._types.add_loader(base, names, create)
 
     @property

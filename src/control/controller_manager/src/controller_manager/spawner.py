@@ -42,7 +42,7 @@ def _parse(arguments: Sequence[str]) -> argparse.Namespace:
 
 
 def wait_for_service(name: str, timeout: float | None) -> bool:
-    """Wait for a service of a controller manager; after a few s say what is looked for and what is there.
+    """Wait for service ``name`` of a controller manager; after a few s say what is looked for and what is there.
 
     :param timeout: s; None waits for ever.
     :return: False if it did not come in time.

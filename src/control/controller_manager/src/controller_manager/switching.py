@@ -66,6 +66,7 @@ class Switch:
         self._since = 0.0
 
     def begin(self, time: float) -> None:
+        """The control loop takes it up, at ``time`` (s): ``timeout`` counts from here."""
         self.begun = True
         self._since = time
 

@@ -105,20 +105,24 @@ def _matches(text: str, value: str, match_substring: bool) -> bool:
 
 
 def filter_by_name(controllers: Sequence[ControllerState], name: str, match_substring: bool = False) -> list[ControllerState]:
+    """Those of ``controllers`` that are called ``name``, or have it in their name with ``match_substring``."""
     return [controller for controller in controllers if _matches(controller.name, name, match_substring)]
 
 
 def filter_by_type(controllers: Sequence[ControllerState], type_name: str, match_substring: bool = False) -> list[ControllerState]:
+    """Those of ``controllers`` whose type is ``type_name``, or has it in its name with ``match_substring``."""
     return [controller for controller in controllers if _matches(controller.type, type_name, match_substring)]
 
 
 def filter_by_state(controllers: Sequence[ControllerState], state: str, match_substring: bool = False) -> list[ControllerState]:
+    """Those of ``controllers`` whose state ("running", "stopped" ...) is ``state``, or has it within with ``match_substring``."""
     return [controller for controller in controllers if _matches(controller.state, state, match_substring)]
 
 
 def filter_by_hardware_interface(
     controllers: Sequence[ControllerState], hardware_interface: str, match_substring: bool = False
 ) -> list[ControllerState]:
+    """Those of ``controllers`` with a claim through ``hardware_interface``, a C++ name, or part of one with ``match_substring``."""
     return [
         controller
         for controller in controllers
@@ -129,7 +133,7 @@ def filter_by_hardware_interface(
 def filter_by_resources(
     controllers: Sequence[ControllerState], resources: Sequence[str], hardware_interface: str | None = None, match_any: bool = False
 ) -> list[ControllerState]:
-    """Controllers that claim all of ``resources`` (any of them with ``match_any``).
+    """Those of ``controllers`` that claim all of ``resources`` (any of them with ``match_any``).
 
     :param hardware_interface: count only claims through this interface; by default every interface counts.
     """

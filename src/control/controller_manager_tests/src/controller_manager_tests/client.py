@@ -49,6 +49,7 @@ class ManagerClient:
         return self._call("unload_controller", UnloadController, name).ok
 
     def switch(self, start=(), stop=(), strictness=STRICT, start_asap=False, timeout=0.0):
+        """As ControllerManager.switch_controller: ``start``, ``stop``, ``strictness``, ``start_asap``, ``timeout`` (s). :return: ok"""
         return self._call("switch_controller", SwitchController, list(start), list(stop), strictness, start_asap, timeout).ok
 
     def start(self, *names):

@@ -87,6 +87,7 @@ class ExtensibleController(MultiInterfaceController):
 
     @staticmethod
     def take(interface: JointCommandInterface, joint: str):
+        """Claim ``joint`` through ``interface``. :return: its handle"""
         return interface.get_handle(joint)
 
 

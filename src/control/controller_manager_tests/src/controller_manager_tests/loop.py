@@ -33,6 +33,7 @@ class Loop:
         self.manager = ControllerManager(self.hw, namespace)
 
     def command(self, kind, name):
+        """What joint ``name`` is told through the interface of ``kind``: "position", "velocity" or "effort"."""
         offered = self.hw.get(_INTERFACES[kind])
         assert offered is not None  # __init__ registers all of them
         return next(handle.command for handle in offered.handles() if handle.name == name)
@@ -47,6 +48,7 @@ class Loop:
         return all([self.manager.load_controller(name) for name in names])
 
     def switch(self, start=(), stop=()):
+        """Switch to the controllers ``start`` from ``stop``, with as many cycles as that takes."""
         answer = []
         request = threading.Thread(target=lambda: answer.append(self.manager.switch_controller(list(start), list(stop))), daemon=True)
         request.start()

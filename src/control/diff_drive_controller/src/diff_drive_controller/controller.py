@@ -137,6 +137,6 @@ class DiffDriveController(WheeledBase, Controller):
 
 
 def wheel_names(nh: NodeHandle, name: str) -> list[str]:
-    """Joint names from a parameter that is one name or a list of them."""
+    """Joint names from parameter ``name`` below ``nh``, which is one name or a list of them."""
     value = nh.get_param(name)
     return [value] if isinstance(value, str) and value else nh.strings(name)

@@ -32,6 +32,7 @@ class OdometryPublisher:
         self._tf = RealtimePublisher(root_nh, "/tf", TFMessage, queue_size=100)
 
     def restart(self, time: float) -> None:
+        """Begin anew at ``time`` (s): the clock may have gone back."""
         self._now = time
         self._gate.restart(time)
 
@@ -41,7 +42,7 @@ class OdometryPublisher:
         self._gate = RateGate(rate, self._now)
 
     def publish(self, odometry: PlanarOdometry, time: float) -> bool:
-        """Send if it is time to. Realtime safe. :return: whether it was"""
+        """Send ``odometry``, which is of ``time`` (s), if it is time to. Realtime safe. :return: whether it was"""
         self._now = time
         if not self._gate.due(time):
             return False

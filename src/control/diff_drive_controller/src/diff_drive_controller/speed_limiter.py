@@ -11,6 +11,7 @@ def load_limiter(nh, axis: str, jerk: bool = True) -> SpeedLimiter:
     """The limiter of ``axis`` ("linear/x", "angular/z").
 
     :param nh: controller_interface.NodeHandle of the controller
+    :param jerk: whether the parameters of jerk are read; False limits none
     :raises ParameterError: a lower bound above the upper one
     """
 

@@ -29,6 +29,7 @@ class WheeledBase(ControllerBase):
     ) -> None:
         """Parameters and topics common to all bases.
 
+        :param root_nh, controller_nh: as for ``init``
         :param travel: counters to be restarted when a simulation was reset
         :param jerk: whether there are limits of jerk
         :param odom_frame: fixed name of the odometry frame; None reads the parameter ``odom_frame_id``
@@ -91,13 +92,13 @@ class WheeledBase(ControllerBase):
         return True
 
     def limited_command(self, time: float, period: float) -> tuple[float, float]:
-        """(linear x m/s, angular z rad/s) to be done now."""
+        """(linear x m/s, angular z rad/s) to be done at ``time`` (s), with no more change than is allowed in ``period`` (s)."""
         linear, angular = self._command.at(time)
         return self._limit_linear.limit(linear, period), self._limit_angular.limit(angular, period)
 
 
 def length(nh: NodeHandle, name: str, find: Callable[[], float]) -> float:
-    """A length (m) from parameter ``name``, else from ``find``.
+    """A length (m) from parameter ``name`` below ``nh``, else from ``find``.
 
     :raises ParameterError: it is not positive
     """
@@ -108,7 +109,7 @@ def length(nh: NodeHandle, name: str, find: Callable[[], float]) -> float:
 
 
 def multiplier(nh: NodeHandle, name: str) -> float:
-    """A factor from parameter ``name``; 1 without it.
+    """A factor from parameter ``name`` below ``nh``; 1 without it.
 
     :raises ParameterError: it is 0 or infinite
     """

@@ -50,7 +50,10 @@ class Base:
         return Axle(left, right, left_speed, right_speed), Axle(-left, -right, left_speed, right_speed)
 
     def from_steering(self, speed: float, front: float, rear: float) -> tuple[Axle, Axle]:
-        """(front, rear) for steering angles of the middles of the axles."""
+        """(front, rear) that move the base at ``speed`` (m/s).
+
+        :param front, rear: steering angles of the middles of the axles, rad
+        """
         tan_front, tan_rear = math.tan(front), math.tan(rear)
         length = self.wheel_base
         shift = 0.5 * self.steering_track * (tan_front - tan_rear)
@@ -80,7 +83,7 @@ class Base:
         )
 
     def motion(self, front: Axle, rear: Axle) -> tuple[float, float, float]:
-        """(forward m/s, to the left m/s, rad/s) of a base whose wheels do this, the best fit to all four."""
+        """(forward m/s, to the left m/s, rad/s) of a base whose wheels do what ``front`` and ``rear`` say, the best fit to all four."""
         angles = axle_angle(front), axle_angle(rear)
         bend = math.tan(angles[0]) - math.tan(angles[1])
         speeds, rates = [], []

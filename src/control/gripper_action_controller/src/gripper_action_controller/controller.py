@@ -30,7 +30,14 @@ class GripperActionController(ActionController):
         """Called when the controller starts."""
 
     def write_output(self, target: float, max_effort: float, error: float, velocity: float, period: float) -> float:
-        """Command the joint. :return: the effort to report, N or Nm"""
+        """Command the joint. :return: the effort to report, N or Nm
+
+        :param target: position to reach, rad or m
+        :param max_effort: of the goal, N or Nm
+        :param error: from the measured position to ``target``, rad or m
+        :param velocity: measured, rad/s or m/s
+        :param period: s since the cycle before
+        """
         raise NotImplementedError
 
     # -- life-cycle ----------------------------------------------------------------------------------------------------

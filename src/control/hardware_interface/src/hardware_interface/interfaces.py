@@ -64,6 +64,7 @@ class HardwareInterface:
         return name in self._handles
 
     def claim(self, resource: str) -> None:
+        """Note that the controller which is being initialised takes ``resource``, a joint's name."""
         self._claims.add(resource)
 
     def clear_claims(self) -> None:

@@ -100,14 +100,18 @@ class RobotHW:
     # -- life ---------------------------------------------------------------------------------------------------------
 
     def init(self, root_nh, robot_hw_nh) -> bool:
-        """Set up from parameters. :return: False to refuse."""
+        """Set up from parameters. :return: False to refuse.
+
+        :param root_nh: NodeHandle of the node's own namespace.
+        :param robot_hw_nh: NodeHandle of this robot's parameters.
+        """
         return True
 
     def read(self, time: float, period: float) -> None:
         """Bring measured states into the handles. ``time`` and ``period`` in s."""
 
     def write(self, time: float, period: float) -> None:
-        """Send the commands of the handles out."""
+        """Send the commands of the handles out. ``time`` and ``period`` in s."""
 
     # -- switching ----------------------------------------------------------------------------------------------------
 
@@ -127,11 +131,11 @@ class RobotHW:
         return conflict
 
     def prepare_switch(self, start: Sequence[ControllerInfo], stop: Sequence[ControllerInfo]) -> bool:
-        """May refuse a switch (False) before anything has changed."""
+        """May refuse a switch (False) before anything has changed: ``start`` and ``stop`` are the controllers that begin and end."""
         return True
 
     def do_switch(self, start: Sequence[ControllerInfo], stop: Sequence[ControllerInfo]) -> None:
-        """Begin the switch of the hardware."""
+        """Begin the switch of the hardware: for the controllers of ``start``, which begin, and of ``stop``, which end."""
 
     def switch_result(self, controller: ControllerInfo | None = None) -> SwitchState:
         """How far the switch is, for all (None) or for one controller."""

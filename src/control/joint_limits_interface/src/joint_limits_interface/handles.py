@@ -131,6 +131,7 @@ class JointLimitsInterface:
         self._handles: dict[str, _LimitHandle] = {}
 
     def register_handle(self, handle: _LimitHandle) -> None:
+        """Enforce ``handle`` too; a second one for the same joint replaces the first."""
         self._handles[handle.name] = handle
         self._handles = dict(sorted(self._handles.items()))
 
@@ -138,6 +139,7 @@ class JointLimitsInterface:
         return list(self._handles)
 
     def enforce_limits(self, dt: float) -> None:
+        """Bring the commands of all handles within their limits; ``dt``: s since the cycle before."""
         for handle in self._handles.values():
             handle.enforce_limits(dt)
 

@@ -74,7 +74,7 @@ def limits_from_params(nh: Any, joint: str, limits: JointLimits = JointLimits())
 
 
 def apply_limits(values: dict[str, Any], limits: JointLimits) -> JointLimits:
-    """``limits`` overridden by a parameter map. A value counts only beside ``has_<kind>_limits: true``."""
+    """``limits`` overridden by ``values``, a parameter map. A value counts only beside ``has_<kind>_limits: true``."""
     return JointLimits(**_limits.apply_parameters(values, limits))
 
 

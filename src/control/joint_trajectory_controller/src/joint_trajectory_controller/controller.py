@@ -44,7 +44,11 @@ class JointTrajectoryController(ActionController):
     # -- what a variant adds -------------------------------------------------------------------------------------------
 
     def init_output(self, handles: list[Any], controller_nh: NodeHandle) -> None:
-        """Read the variant's parameters."""
+        """Read the variant's parameters.
+
+        :param handles: of the joints, in their order
+        :param controller_nh: namespace of the controller
+        """
 
     def start_output(self) -> None:
         """Write the first command; the joints are to stay where they are."""
@@ -54,6 +58,7 @@ class JointTrajectoryController(ActionController):
 
         :param desired: position, velocity, acceleration of each joint
         :param errors: position and velocity error of each joint; empty unless ``feeds_back``
+        :param period: s since the cycle before
         """
         raise NotImplementedError
 

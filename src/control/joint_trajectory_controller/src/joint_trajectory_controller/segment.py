@@ -48,7 +48,7 @@ class Segment(Spline):
 
     @staticmethod
     def of(spline: Spline, point_time: float, goal, tolerances: JointTolerances) -> Segment:
-        """A segment that moves like another."""
+        """A segment that moves as ``spline`` does, with ``point_time`` (s), ``goal`` and ``tolerances`` as in the class."""
         segment = Segment.__new__(Segment)
         Spline.__init__(segment, spline)
         segment.point_time = point_time
@@ -57,7 +57,7 @@ class Segment(Spline):
         return segment
 
     def moved(self, delay: float, offset: float, goal, tolerances: JointTolerances) -> Segment:
-        """Shift this segment in place by ``delay`` seconds and ``offset`` rad or m, and give it an owner."""
+        """Shift this segment in place by ``delay`` seconds and ``offset`` rad or m, and give it ``goal``, its owner, and ``tolerances``."""
         self.move(delay, offset)
         self.goal = goal
         self.tolerances = tolerances
@@ -69,7 +69,7 @@ class Segment(Spline):
 
 
 def active_index(segments: Sequence[Segment], time: float) -> int:
-    """Index of the last segment that has started by ``time``; -1 before the first one."""
+    """Index of the last of ``segments``, in order of time, that has started by ``time`` (s); -1 before the first one."""
     low, high = 0, len(segments)
     while low < high:
         middle = (low + high) // 2
@@ -81,10 +81,14 @@ def active_index(segments: Sequence[Segment], time: float) -> int:
 
 
 def stop_segment(start: float, position: float, velocity: float, duration: float, goal, tolerances) -> Segment:
-    """Smooth stop from a moving state, without reversing: at rest after ``duration`` seconds."""
+    """Smooth stop from a moving state, without reversing: at rest after ``duration`` seconds.
+
+    :param start: time at which the joint is at ``position`` (rad or m) with ``velocity`` (rad/s or m/s), s
+    :param goal, tolerances: of the segment, see the class
+    """
     return Segment.of(Spline.stop(start, position, velocity, duration), 0.0, goal, tolerances)
 
 
 def point_segments(states: Sequence[State], times: Sequence[float]) -> list[Segment]:
-    """Segments between consecutive way-points of one joint, their times relative to the start of the message."""
+    """Segments between consecutive ``states`` of one joint, which it has at ``times`` (s, relative to the start of the message)."""
     return [Segment(times[i], states[i], times[i + 1], states[i + 1], times[i]) for i in range(len(states) - 1)]

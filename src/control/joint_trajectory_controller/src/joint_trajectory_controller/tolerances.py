@@ -20,7 +20,7 @@ class StateTolerance(NamedTuple):
     acceleration: float = 0.0
 
     def violation(self, position_error: float, velocity_error: float) -> str | None:
-        """What is over its limit, in words, or None. A NaN error is over any limit.
+        """Which of ``position_error`` and ``velocity_error`` is over its limit, in words, or None. A NaN error is over any limit.
 
         The acceleration of joints is not measured: its error counts as 0, which no tolerance forbids.
         """
@@ -61,8 +61,9 @@ def from_parameters(joints: Sequence[str], constraints: dict) -> list[JointToler
 
 
 def overridden(defaults: Sequence[JointTolerances], joints: Sequence[str], goal) -> list[JointTolerances]:
-    """``defaults`` with what a FollowJointTrajectoryGoal says: positive replaces, negative switches off, 0 keeps.
+    """``defaults`` with what ``goal`` says, a FollowJointTrajectoryGoal: positive replaces, negative switches off, 0 keeps.
 
+    :param joints: names in the order of ``defaults``
     :raises ValueError: a NaN tolerance, which nothing would ever violate
     """
     path = {t.name: t for t in goal.path_tolerance}

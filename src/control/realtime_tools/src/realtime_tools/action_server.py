@@ -30,16 +30,19 @@ class RealtimeGoal:
         self._outbox.put(self._handle.set_accepted)
 
     def reject(self, result=None, text: str = "") -> None:
+        """To REJECTED, with the action's ``result`` (None: an empty one) and a ``text`` for people."""
         self._finish(self._handle.set_rejected, result, text)
 
     def cancel(self, result=None, text: str = "") -> None:
-        """To PREEMPTED."""
+        """To PREEMPTED, with the action's ``result`` (None: an empty one) and a ``text`` for people."""
         self._finish(self._handle.set_canceled, result, text)
 
     def succeed(self, result, text: str = "") -> None:
+        """To SUCCEEDED, with the action's ``result`` and a ``text`` for people."""
         self._finish(self._handle.set_succeeded, result, text)
 
     def abort(self, result, text: str = "") -> None:
+        """To ABORTED, with the action's ``result`` and a ``text`` for people."""
         self._finish(self._handle.set_aborted, result, text)
 
     def feedback(self, feedback) -> None:

@@ -33,7 +33,7 @@ class TransmissionPipeline:
 
     @classmethod
     def of_commands(cls, target: str, kind: str) -> TransmissionPipeline:
-        """:param kind: position, velocity or effort."""
+        """Commands of one ``kind`` (position, velocity or effort) to ``target``: "actuator" or "joint"."""
         return cls(target, {"command": kind})
 
     def register(self, name: str, transmission: Transmission, actuators: Sequence[Any], joints: Sequence[Any]) -> None:

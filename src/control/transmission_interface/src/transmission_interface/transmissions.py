@@ -32,12 +32,15 @@ class Transmission:
         raise NotImplementedError
 
     def position_to_joint(self, a: Sequence[float]) -> Sequence[float]:
+        """Positions of the joints, rad or m, for those of the actuators, ``a``, rad or m."""
         raise NotImplementedError
 
     def velocity_to_joint(self, a: Sequence[float]) -> Sequence[float]:
+        """Velocities of the joints, rad/s or m/s, for those of the actuators, ``a``."""
         raise NotImplementedError
 
     def effort_to_joint(self, a: Sequence[float]) -> Sequence[float]:
+        """Efforts of the joints, Nm or N, for those of the actuators, ``a``."""
         raise NotImplementedError
 
     def absolute_to_joint(self, a: Sequence[float]) -> Sequence[float]:
@@ -45,12 +48,15 @@ class Transmission:
         return self.position_to_joint(a)
 
     def position_to_actuator(self, j: Sequence[float]) -> Sequence[float]:
+        """Positions of the actuators, rad or m, for those of the joints, ``j``, rad or m."""
         raise NotImplementedError
 
     def velocity_to_actuator(self, j: Sequence[float]) -> Sequence[float]:
+        """Velocities of the actuators, rad/s or m/s, for those of the joints, ``j``."""
         raise NotImplementedError
 
     def effort_to_actuator(self, j: Sequence[float]) -> Sequence[float]:
+        """Efforts of the actuators, Nm or N, for those of the joints, ``j``."""
         raise NotImplementedError
 
 

@@ -93,7 +93,10 @@ class RobotGeometry:
         return x, y, z
 
     def distance(self, first: str, second: str) -> float:
-        """Distance between the origins of two joints of one parent link, m."""
+        """Distance between the origins of joints ``first`` and ``second``, of one parent link, m.
+
+        :raises GeometryError: there is no such joint
+        """
         return math.dist(self.joint(first).origin, self.joint(second).origin)
 
     def wheel_radius(self, joint: str, shapes: Sequence[str] = ("cylinder", "sphere")) -> float:

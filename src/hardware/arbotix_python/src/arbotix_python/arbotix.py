@@ -83,7 +83,10 @@ class ArbotiX:
             raise ArbotiXException(error) from None
 
     def execute(self, index, ins, params, ret=True):
-        """Sends an instruction; returns the list of bytes answered, None without a valid answer or with ret=False."""
+        """Sends instruction `ins` with the bytes `params` to the servo or board `index` (its id on the bus).
+
+        Returns the list of bytes answered, None without a valid answer or with ret=False.
+        """
         with self._mutex:
             self._guarded(self._ser.reset_input_buffer)
             self._guarded(self._ser.write, encode(index, ins, params))
@@ -94,22 +97,22 @@ class ArbotiX:
         return packet.parameters
 
     def read(self, index, start, length):
-        """`length` bytes from register `start` on, as a list; -1 without an answer."""
+        """`length` bytes of servo `index` from register `start` on, as a list; -1 without an answer."""
         values = self.execute(index, AX_READ_DATA, [start, length])
         return values if values is not None and len(values) == length else -1
 
     def write(self, index, start, values):
-        """Writes bytes from register `start` on; returns the error bits of the answer, -1 without one."""
+        """Writes the bytes `values` to servo `index` from register `start` on; returns the error bits of the answer, -1 without one."""
         answer = self.execute(index, AX_WRITE_DATA, [start] + list(values))
         return -1 if answer is None else self.error
 
     def syncWrite(self, start, values):
-        """Writes to many servos at once: `values` is a list of [id, byte, byte, ...], all of one length."""
+        """Writes to many servos at once, from register `start` on: `values` is a list of [id, byte, byte, ...], all of one length."""
         data = [byte for servo in values for byte in servo]
         self.execute(EVERYONE, AX_SYNC_WRITE, [start, len(values[0]) - 1] + data, ret=False)
 
     def syncRead(self, servos, start, length):
-        """Reads the same registers of many servos: one list of bytes, servo after servo; None without an answer."""
+        """Reads `length` registers from `start` on of many `servos` (ids): one list of bytes, servo after servo; None without an answer."""
         values = self.execute(EVERYONE, AX_SYNC_READ, [start, length] + list(servos))
         return values if values is not None and len(values) == length * len(servos) else None
 
@@ -120,12 +123,14 @@ class ArbotiX:
     # servos
 
     def setBaud(self, index, baud):
+        """Sets the bus speed of servo `index` to the divider `baud`: 2000000 / (baud + 1) bits per second."""
         return self.write(index, P_BAUD_RATE, [baud])
 
     def getReturnLevel(self, index):
         return self._number(index, P_RETURN_LEVEL, 1)
 
     def setReturnLevel(self, index, value):
+        """What servo `index` answers: `value` 0 nothing, 1 reads alone, 2 everything."""
         return self.write(index, P_RETURN_LEVEL, [value])
 
     def enableTorque(self, index):
@@ -135,12 +140,15 @@ class ArbotiX:
         return self.write(index, P_TORQUE_ENABLE, [0])
 
     def setLed(self, index, value):
+        """Switches the light of servo `index` on (`value` 1) or off (0)."""
         return self.write(index, P_LED, [value])
 
     def setPosition(self, index, value):
+        """Sends servo `index` to `value`, in ticks of its encoder."""
         return self.write(index, P_GOAL_POSITION_L, word(value))
 
     def setSpeed(self, index, value):
+        """Bounds the speed of servo `index`: `value` 1..1023 of the servo's own unit, 0 is as fast as it can."""
         return self.write(index, P_GOAL_SPEED_L, word(value))
 
     def getPosition(self, index):
@@ -170,11 +178,11 @@ class ArbotiX:
         self.write(index, P_CCW_ANGLE_LIMIT_L, [0, 0])
 
     def disableWheelMode(self, index, resolution=10):
-        """Back to angles; `resolution` is the encoder's number of bits (12 for MX servos)."""
+        """Turns servo `index` back to angles; `resolution` is the encoder's number of bits (12 for MX servos)."""
         self.write(index, P_CCW_ANGLE_LIMIT_L, word(2**resolution - 1))
 
     def setWheelSpeed(self, index, direction, speed):
-        """In wheel mode: FORWARD or BACKWARD, speed 0..1023."""
+        """Turns servo `index`, in wheel mode, in `direction` FORWARD or BACKWARD at `speed` 0..1023."""
         speed = min(speed, 1023)
         self.write(index, P_GOAL_SPEED_L, word(speed if direction == self.FORWARD else speed + 1024))
 
@@ -185,7 +193,7 @@ class ArbotiX:
         self.write(BOARD, self.REG_RESCAN, [1])
 
     def getAnalog(self, index, leng=1):
-        """Analogue pin 0..7 in `leng` bytes."""
+        """Analogue pin `index` (0..7) in `leng` bytes."""
         return self._number(BOARD, self.ANA_BASE + int(index), leng)
 
     def getDigital(self, index):
@@ -196,14 +204,14 @@ class ArbotiX:
         return bits if bits == -1 else 255 * (bits >> index % 8 & 1)
 
     def setDigital(self, index, value, direction=0xFF):
-        """Digital pin 0..31: output level, or pull-up of an input."""
+        """Sets digital pin `index` (0..31): `value` is the output's level or, with `direction` 0, the pull-up of an input."""
         if not 0 <= index < 32:
             return -1
         self.write(BOARD, self.REG_DIGITAL_OUT0 + int(index), [(1 if direction > 0 else 0) | (2 if value > 0 else 0)])
         return 0
 
     def setServo(self, index, value):
-        """Pulse width of hobby servo 0..7 in microseconds, 500..2500; 0 switches it off."""
+        """Sets hobby servo `index` (0..7) to pulses of `value` microseconds, 500..2500; 0 switches it off."""
         if not 0 <= index < 8 or not (value == 0 or 500 <= value <= 2500):
             return -1
         self.write(BOARD, self.SERVO_BASE + 2 * index, word(value))
@@ -212,11 +220,11 @@ class ArbotiX:
     # the board's differential drive
 
     def setupBase(self, kp, kd, ki, ko):
-        """Gains of the wheels' speed loop, one byte each."""
+        """Sets the gains of the wheels' speed loop, one byte each: proportional `kp`, derivative `kd`, integral `ki`, divider `ko`."""
         self.execute(BOARD, AX_CONTROL_SETUP, [BASE_CONTROLLER, kp, kd, ki, ko])
 
     def setBaseSpeed(self, left, right):
-        """Wheel speeds in encoder ticks per 1/30 s, signed 16 bit."""
+        """Sets the speeds of the wheels, `left` and `right`, in encoder ticks per 1/30 s, signed 16 bit."""
         self.execute(BOARD, AX_CONTROL_WRITE, [BASE_CONTROLLER] + word(left) + word(right))
 
     def getBaseEncoders(self):

@@ -4,7 +4,7 @@ from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
 
 def status(name, message="OK", level=DiagnosticStatus.OK, **values):
-    """A diagnostics entry."""
+    """A diagnostics entry `name` with its `message` and `level` (of DiagnosticStatus); `values` become its table."""
     pairs = [KeyValue(key.replace("_", " "), str(value)) for key, value in values.items()]
     return DiagnosticStatus(level=level, name=name, message=message, values=pairs)
 

@@ -19,7 +19,7 @@ def approach(value, target, step):
 
 
 def ticks_moved(now, before):
-    """Difference of two 32-bit counters that may have wrapped round in between."""
+    """Difference `now` - `before` of a 32-bit counter that may have wrapped round in between."""
     return (now - before + 2**31) % 2**32 - 2**31
 
 

@@ -9,7 +9,7 @@ Packet = collections.namedtuple("Packet", "id kind parameters")  # ints and a li
 
 
 def encode(index, kind, parameters):
-    """The bytes of a packet."""
+    """The bytes of a packet for id `index`: its `kind`, an instruction, and `parameters`, bytes."""
     body = [index, len(parameters) + 2, kind, *parameters]
     return bytes([0xFF, 0xFF, *body, ~sum(body) & 0xFF])
 

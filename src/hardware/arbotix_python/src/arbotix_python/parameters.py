@@ -8,7 +8,7 @@ from node_signals.rates import Spaced
 
 
 def number(name, default=None, above=None):
-    """A finite number from a parameter; without a default it is required.
+    """A finite number from parameter `name`; without a default it is required.
 
     :param above: it must be greater
     :raises ParameterError: it is not there, or something else

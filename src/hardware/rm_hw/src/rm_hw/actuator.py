@@ -52,7 +52,7 @@ class Actuator:
         self._angle: int | None = None
 
     def on_feedback(self, feedback: Feedback, stamp: float, now: float) -> bool:
-        """Take a RoboMaster frame received at ``stamp`` (s since the epoch) and monotonic time ``now`` (s).
+        """Take a RoboMaster frame, ``feedback``, received at ``stamp`` (s since the epoch) and monotonic time ``now`` (s).
 
         :returns: False if it came less than half a millisecond after the previous one and was dropped.
         """
@@ -80,7 +80,9 @@ class Actuator:
         self._angle = angle
 
     def on_cheetah(self, reply: CheetahReply, stamp: float, now: float) -> bool:
-        """Take an MIT driver's reply, as :meth:`on_feedback`; its range of 25 rad is unwrapped in steps of 8 pi."""
+        """Take an MIT driver's ``reply``; ``stamp`` and ``now`` as in :meth:`on_feedback`. Its range of 25 rad is unwrapped in steps of
+        8 pi.
+        """
         if not self._accept(stamp, now):
             return False
         k = self.coefficients

@@ -25,6 +25,8 @@ def open_interface(interface: str, channel: str, bitrate: int = BITRATE) -> can.
     """Open an interface of python-can.
 
     :param interface: ``socketcan`` (its bit rate is set with ``ip link``), ``slcan``, or another one python-can has.
+    :param channel: what that calls the bus: ``can0``, a serial port.
+    :param bitrate: bit/s.
     :raises OSError, ValueError, can.CanError: it cannot be opened.
     """
     make: Any = can.Bus  # makes an object of the class that the interface has
@@ -122,7 +124,7 @@ class CanBus:
             self._rejected = port.rejected
 
     def send(self, identifier: int, data: bytes) -> bool:
-        """Send a standard frame; False if it could not be sent."""
+        """Send ``data`` (up to 8 bytes) in a standard frame with the 11-bit ``identifier``; False if it could not be sent."""
         bus = self._bus
         if bus is None:
             return False

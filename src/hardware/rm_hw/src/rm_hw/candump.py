@@ -14,7 +14,7 @@ from rm_hw.config import BENCH_DIRECTORY
 
 
 def format_frame(channel: str, message: can.Message) -> str:
-    """``  can0  201   [8]  0F 3A 00 00 00 05 1C 00``."""
+    """``message``, of the bus ``channel``, as a line: ``  can0  201   [8]  0F 3A 00 00 00 05 1C 00``."""
     identifier = f"{message.arbitration_id:08X}" if message.is_extended_id else f"{message.arbitration_id:03X}"
     data = "remote request" if message.is_remote_frame else " ".join(f"{byte:02X}" for byte in message.data)
     return f"  {channel}  {identifier}   [{message.dlc}]  {data}"
@@ -23,6 +23,7 @@ def format_frame(channel: str, message: can.Message) -> str:
 def open_bus(name: str, interface: str | None, channel: str | None) -> tuple[can.BusABC, str]:
     """Open bus ``name`` and return it with its name; without ``interface`` the bench's onlooker port if there is one.
 
+    :param channel: as for :func:`open_interface`; None is what the bus is called.
     :raises OSError, ValueError, can.CanError: it cannot be opened.
     """
     monitor = os.path.join(BENCH_DIRECTORY, f"{name}.monitor")

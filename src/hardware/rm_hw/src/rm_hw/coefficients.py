@@ -54,7 +54,7 @@ class Coefficients:
 
     @classmethod
     def from_params(cls, type_name: str, params: Mapping[str, Any]) -> Coefficients:
-        """Coefficients from a parameter mapping.
+        """Coefficients of the actuator type ``type_name`` from ``params``, the mapping below its name.
 
         :raises ConfigError: a required factor is missing or a value is no number.
         """

@@ -76,7 +76,7 @@ class Config:
 
 
 def parse(params: Mapping[str, Any], own_coefficients: Mapping[str, Any]) -> Config:
-    """Check the parameters of rm_hw.
+    """Check ``params``, the parameters of rm_hw.
 
     What is incomplete is left out with an error line; what has a default gets it with a line saying so.
 

@@ -105,7 +105,11 @@ def _bits(value: float, width: int) -> int:
 
 
 def pack_cheetah_command(position: float, velocity: float, kp: float, kd: float, effort: float) -> bytes:
-    """MIT command from values already in counts: position 16 bit, the others 12 bit, most significant bit first."""
+    """MIT command from values already in counts, most significant bit first.
+
+    :param position: 16 bit.
+    :param velocity, kp, kd, effort: 12 bit each.
+    """
     word = _bits(position, 16)
     for value in (velocity, kp, kd, effort):
         word = word << 12 | _bits(value, 12)

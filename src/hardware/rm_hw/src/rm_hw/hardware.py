@@ -76,7 +76,7 @@ _ARRAYS = (
 
 
 def report(level: str, text: str) -> None:
-    """Log a line. :param level: info, warn or error."""
+    """Log ``text``, a line. :param level: info, warn or error."""
     _LOG[level]("%s", text)
 
 

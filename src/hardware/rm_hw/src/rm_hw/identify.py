@@ -60,6 +60,9 @@ def sending_times(arrivals: np.ndarray, period: float) -> np.ndarray:
 def read_log(path: str, feedback_id: int, type_name: str, rate: float = 1000.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(time s, speed rad/s, current A) of one motor, each (N,).
 
+    :param path: of a log that python-can reads.
+    :param feedback_id: identifier of the motor's frames.
+    :param type_name: of the motor, which says how many A a count is.
     :param rate: Hz, of the motor's frames.
     :raises ValueError: there are too few frames of it.
     """
@@ -76,10 +79,11 @@ def read_log(path: str, feedback_id: int, type_name: str, rate: float = 1000.0) 
 
 
 def fit(stamps: np.ndarray, speed: np.ndarray, current: np.ndarray, inertia: float, rate: float = 1000.0) -> Identified:
-    """Fit the three unknowns; arrays as from :func:`read_log`, ``inertia`` in kg m^2 at the rotor.
+    """Fit the three unknowns. Windows in which frames are missing are left out.
 
-    Windows in which frames are missing are left out.
-
+    :param stamps, speed, current: (N,) s, rad/s and A, as from :func:`read_log`.
+    :param inertia: kg m^2 at the rotor.
+    :param rate: Hz, of the motor's frames.
     :raises ValueError: the motor did not move enough.
     """
     dt = np.diff(stamps)
@@ -111,7 +115,11 @@ def fit(stamps: np.ndarray, speed: np.ndarray, current: np.ndarray, inertia: flo
 
 
 def predict(stamps: np.ndarray, speed: np.ndarray, current: np.ndarray, inertia: float, found: Identified) -> np.ndarray:
-    """(N,) rad/s: the speed that the identified motor would have had with the recorded current."""
+    """(N,) rad/s: the speed that the identified motor would have had with the recorded current.
+
+    :param stamps, speed, current, inertia: as for :func:`fit`; of ``speed`` the first value counts.
+    :param found: what :func:`fit` found.
+    """
     result, w = np.empty_like(speed), float(speed[0])
     for k in range(len(stamps)):
         result[k] = w
@@ -124,7 +132,12 @@ def predict(stamps: np.ndarray, speed: np.ndarray, current: np.ndarray, inertia:
 
 
 def plot(path: str, stamps: np.ndarray, speed: np.ndarray, current: np.ndarray, predicted: np.ndarray, found: Identified) -> None:
-    """Write a picture of speed, predicted speed and current."""
+    """Write a picture of speed, predicted speed and current to ``path``; its ending says which kind of file.
+
+    :param stamps, speed, current: as from :func:`read_log`.
+    :param predicted: (N,) rad/s, from :func:`predict`.
+    :param found: what :func:`fit` found, for the title.
+    """
     import matplotlib
 
     matplotlib.use("Agg")

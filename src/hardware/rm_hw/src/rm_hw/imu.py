@@ -65,7 +65,7 @@ class Imu:
         return self._stamp or 0.0
 
     def on_gyro(self, gyro: ImuGyro, stamp: float) -> None:
-        """Take an angular velocity received at ``stamp`` (s): turn the orientation by it."""
+        """Take ``gyro``, an angular velocity received at ``stamp`` (s): turn the orientation by it."""
         k, offset = self.config.angular_vel_coeff, self.config.angular_vel_offset
         rate = (gyro.x * k + offset[0], gyro.y * k + offset[1], gyro.z * k + offset[2])
         self.handle.angular_velocity = rate

@@ -56,6 +56,10 @@ class CallbackList:
         self._lock = threading.Lock()
 
     def connect(self, f: Callable[[], None], owner: PluginInstance | None = None) -> Connection:
+        """Call ``f`` from the next step on. :return: what ends that
+
+        :param owner: the plugin that is told of an error of ``f``, which ends the calls; None: the server's own callback
+        """
         connection = Connection(f, owner, self)
         with self._lock:
             self.connections += (connection,)

@@ -114,6 +114,10 @@ class CompiledPlugin(ModelPlugin, SensorPlugin, WorldPlugin):
             raise PluginError(str(error)) from error
 
     def load_system(self, server, arguments: list[str]) -> None:
+        """Load it as a system plugin of ``server``, with ``arguments``, the words of the command line.
+
+        :raises PluginError: one line
+        """
         try:
             self._core = _core.Plugin(self._library, self._plugin.filename, self._plugin.name, self._label)
             self._core.load_system(arguments)
@@ -135,6 +139,8 @@ class CompiledPlugin(ModelPlugin, SensorPlugin, WorldPlugin):
 def load_system(server, library: str, arguments: list[str]) -> None:
     """A system plugin of the command line (``-s``), before the world's own plugins. One line where it cannot be loaded.
 
+    :param server: that it is loaded into
+    :param library: its file, or the name of one that is looked for
     :param arguments: the words of the command line
     """
     label = f"system plugin {os.path.basename(library)}"
@@ -331,6 +337,13 @@ class Director:
         return _core.actor_wanted(self._name)
 
     def plays(self, script_time: float, active: bool, started_ns: int, anew: bool) -> None:
+        """Tell what the simulator plays.
+
+        :param script_time: s, of the actor's script
+        :param active: whether the script runs
+        :param started_ns: simulated ns at which it started
+        :param anew: it has just started
+        """
         _core.actor_plays(self._name, script_time, active, started_ns, anew)
 
 

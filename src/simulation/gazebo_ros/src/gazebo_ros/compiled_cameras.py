@@ -124,6 +124,7 @@ def save_picture(file: str, pixels: bytes, width: int, height: int, image_format
     """Write what a compiled plugin saves; one line where that cannot be done. Any thread.
 
     :param file: its ending says how. :param image_format: SDF's
+    :param pixels: bytes of ``height`` rows of ``width`` pixels, the first row at the top
     """
     import cv2  # half a second, for the few who save
 

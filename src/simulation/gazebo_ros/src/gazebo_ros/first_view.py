@@ -16,6 +16,7 @@ def first_view(world: str, finder: ResourceFinder) -> Pose | None:
     """X_WE of the eye, which looks along its x axis; None where the world does not say it, or not in numbers that can be used.
 
     :param world: as for ``load_world``
+    :param finder: of files that worlds name
     """
     file = finder.find_world(world)
     try:

@@ -37,6 +37,11 @@ def spawn_sdf_model_client(
 ) -> bool | None:
     """Spawn SDF text. True when it worked, False when the simulator refused, None when the call failed.
 
+    :param model_name: that the model gets. :param model_xml: the text
+    :param robot_namespace: of the model's plugins that name none
+    :param initial_pose: of the model in ``reference_frame``, m
+    :param reference_frame: a model or link; "" or "world" is the world
+    :param gazebo_namespace: of the simulator's services, "/gazebo"
     :param origin: where the text was read: errors name its lines by that
     """
     return _call(
@@ -55,7 +60,10 @@ def spawn_sdf_model_client(
 def spawn_urdf_model_client(
     model_name: str, model_xml: str, robot_namespace: str, initial_pose: Pose, reference_frame: str, gazebo_namespace: str, origin: str = ""
 ) -> bool | None:
-    """Spawn URDF text; returns as :func:`spawn_sdf_model_client`."""
+    """Spawn URDF text; parameters and answer as of :func:`spawn_sdf_model_client`.
+
+    ``model_name``, ``model_xml``, ``robot_namespace``, ``initial_pose``, ``reference_frame``, ``gazebo_namespace``, ``origin``
+    """
     return _call(
         "Spawn",
         gazebo_namespace + "/spawn_urdf_model",
@@ -72,7 +80,13 @@ def spawn_urdf_model_client(
 def set_model_configuration_client(
     model_name: str, model_param_name: str, joint_names: list[str], joint_positions: list[float], gazebo_namespace: str
 ) -> bool | None:
-    """Put joints to positions (rad, m), one wall second after the service is there, when controllers have started."""
+    """Put joints to positions, one wall second after the service is there, when controllers have started.
+
+    :param model_name: of the model. :param model_param_name: of its URDF on the parameter server; not used
+    :param joint_names, joint_positions: which, and where to (rad, m)
+    :param gazebo_namespace: of the simulator's services, "/gazebo"
+    :return: as :func:`spawn_sdf_model_client`
+    """
     name = gazebo_namespace + "/set_model_configuration"
     wait_for_service(name)
     time.sleep(1.0)

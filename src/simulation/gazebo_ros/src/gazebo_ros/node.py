@@ -189,7 +189,11 @@ def _load_world(name: str, finder: ResourceFinder) -> tuple[str, d.World, list[P
 
 
 def make_server(options, sim_time: bool = True) -> Server:
-    """The world, its node and everything the node offers; plugins are started by ``Server.run``."""
+    """The world, its node and everything the node offers; plugins are started by ``Server.run``.
+
+    :param options: of the command line, parsed
+    :param sim_time: ROS's time is the simulation's
+    """
     rospack = rospkg.RosPack()
     finder = make_finder(rospack)
     name, description, problems = _load_world(options.world, finder)

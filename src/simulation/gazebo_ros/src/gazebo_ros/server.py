@@ -369,7 +369,7 @@ class Server:
         self._start(plugin, WorldPlugin, self._world_plugins)
 
     def spawn(self, model: d.Model, resolved: ResolvedModel):
-        """Put a model into the world and start its plugins. Physics thread.
+        """Put ``model`` into the world and start its plugins, ``resolved``. Physics thread.
 
         :returns: ``ode_sim.ModelHandle``
         """
@@ -463,7 +463,7 @@ class Server:
 
 
 def log_problems(problems: Iterable[d.Problem], what: str) -> None:
-    """One line each; what upstream says nothing of goes to debug."""
+    """One line for each of ``problems``, begun with ``what``; what upstream says nothing of goes to debug."""
     logs = {"error": rospy.logerr, "note": rospy.logdebug}
     for problem in problems:
         log = logs.get(problem.severity, rospy.logwarn)

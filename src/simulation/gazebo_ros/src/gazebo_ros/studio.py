@@ -44,6 +44,7 @@ class Shooting:
 
         In lock-step this returns when ``deliver`` has. Without it the picture may come later, with the stamp of now.
 
+        :param outputs: which pictures the frame holds, see ``ode_sim_rendering.OUTPUTS``
         :returns: False when the picture is left out because too many are under way
         """
         return self._shared.process.draw(self._key, outputs, lambda frame: self._arrived(frame, deliver), self._wait, self._most)

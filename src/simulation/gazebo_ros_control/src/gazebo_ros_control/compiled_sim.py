@@ -14,7 +14,12 @@ from .robot_hw_sim import RobotHWSim
 
 
 def make(library: str, type_name: str, label: str, clock: bool) -> CompiledRobotHWSim:
-    """:raises PluginError: its constructor failed"""
+    """The hardware ``type_name`` of ``library``, a path.
+
+    :param label: for messages
+    :param clock: the clock of roscpp is to be moved by the steps
+    :raises PluginError: its constructor failed
+    """
     try:
         return CompiledRobotHWSim(_compiled.Sim(library, type_name, label, clock))
     except RuntimeError as error:

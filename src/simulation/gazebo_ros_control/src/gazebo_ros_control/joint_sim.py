@@ -172,6 +172,7 @@ class JointSim:
         self.modes: dict[str, Mode] = {}  # by C++ name of the interface
 
     def add(self, interface: str, mode: Mode) -> None:
+        """Let the joint be commanded through ``interface``, a C++ name, as ``mode`` does it; the first one is in force."""
         if not self.modes:
             self.mode = mode
         self.modes[interface] = mode

@@ -25,6 +25,7 @@ class RobotHWSim(RobotHW):
         :param model_nh: handle of that namespace; what is made through it goes with the model.
         :param model: ode_sim.ModelHandle.
         :param urdf: the robot description.
+        :param transmissions: of the description.
         :return: False to refuse.
         """
         raise NotImplementedError
@@ -33,7 +34,10 @@ class RobotHWSim(RobotHW):
         """Joint states from the simulation into the handles. ``time``, ``period`` in s of sim time."""
 
     def write_sim(self, time: float, period: float) -> None:
-        """Commands of the handles into the simulation; called every step, also between two control periods."""
+        """Commands of the handles into the simulation; called every step, also between two control periods.
+
+        ``time`` and ``period`` in s.
+        """
 
     def e_stop_active(self, active: bool) -> None:
         """Told every step whether the emergency stop is pressed."""

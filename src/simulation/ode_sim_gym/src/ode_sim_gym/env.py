@@ -44,7 +44,10 @@ class RobotEnv(gymnasium.Env):
         self._done = 0
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[np.ndarray, dict[str, Any]]:
-        """With a seed: the same episodes as the last time that this seed was given. Without: the next of the same row."""
+        """With a ``seed``: the same episodes as the last time that it was given. Without: the next of the same row.
+
+        :param options: of Gymnasium's interface, not used.
+        """
         super().reset(seed=seed)
         self.episodes.begin(int(self.np_random.integers(2**63)))
         self._done = 0

@@ -45,7 +45,10 @@ class Part:
 
 
 def look_of(material: d.Material | None, own: d.Material | None, transparency: float) -> Look:
-    """``material`` as written in the visual wins over the mesh's ``own``; what neither says is white."""
+    """``material`` as written in the visual wins over the mesh's ``own``; what neither says is white.
+
+    :param transparency: of the visual, 0 (none) to 1; the colour's own alpha counts too.
+    """
     named = material if material is not None and _says_something(material) else own
     diffuse = (named and named.diffuse) or (named and named.ambient) or _WHITE
     ambient = (named and named.ambient) or diffuse
@@ -79,7 +82,7 @@ class Assets:
         self._shapes = {"box": geometry.box, "sphere": geometry.sphere, "cylinder": geometry.cylinder, "plane": geometry.plane}
 
     def note(self, name: str, trouble: str) -> None:
-        """A problem of the visual of that scoped name."""
+        """A problem of the visual of that scoped ``name``; ``trouble`` is what is wrong with it."""
         self.problems.append(f"{_describe(name)} {trouble}")
 
     def parts(self, visual: d.Visual, name: str) -> list[Part]:
@@ -146,8 +149,9 @@ class Assets:
         return self._files[shape]
 
     def texture(self, path: str, name: str, most: int = 4096) -> np.ndarray | None:
-        """RGBA bytes (H,W,4), first row at the bottom, of an image file; None (and a problem noted) if unreadable.
+        """RGBA bytes (H,W,4), first row at the bottom, of the image file ``path``; None (and a problem noted) if unreadable.
 
+        :param name: scoped, of the visual that wants it.
         :param most: pixels along a side; of a larger image only every second, third ... row and column is taken.
         """
         try:

@@ -193,7 +193,7 @@ def read_distortion(element: ET.Element | None) -> Distortion:
 
 
 def read_lens(element: ET.Element | None, hfov: float) -> WideLens:
-    """From a ``<lens>`` element (None: stereographic) of a camera of this horizontal field of view, rad.
+    """From a ``<lens>`` ``element`` (None: stereographic) of a camera of horizontal field of view ``hfov``, rad.
 
     :raises CameraError: a value that no lens can have.
     """

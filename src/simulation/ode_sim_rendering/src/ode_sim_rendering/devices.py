@@ -52,7 +52,7 @@ def _pci_address(file: bytes | None) -> str | None:
 
 
 def index_of(wanted: str, known: Sequence[str]) -> int:
-    """Which of ``known`` is meant by an index, a PCI address (``65:00.0``) or ``software``.
+    """Which of ``known`` is meant by ``wanted``: an index, a PCI address (``65:00.0``) or ``software``.
 
     :raises UnknownDevice: none is
     """

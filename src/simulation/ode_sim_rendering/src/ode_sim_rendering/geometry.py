@@ -103,7 +103,7 @@ def cylinder() -> TriMesh:
 
 
 def capsule(radius: float, length: float) -> TriMesh:
-    """Two half spheres ``length`` apart and the cylinder between them."""
+    """Two half spheres of ``radius`` (m), ``length`` (m) apart along z, and the cylinder between them."""
     lower = np.linspace(-np.pi / 2, 0, _SEGMENTS // 4 + 1)
     latitude = np.concatenate([lower, lower + np.pi / 2])
     offset = np.concatenate([np.full(len(lower), -length / 2), np.full(len(lower), length / 2)])
@@ -129,7 +129,10 @@ def ribbon(points: np.ndarray, width: float) -> TriMesh:
 
 
 def extrusion(points: np.ndarray, height: float) -> TriMesh:
-    """A closed polygon (N,2) extruded from z = 0 to ``height``; caps are triangulated by ear clipping."""
+    """A closed polygon, ``points`` (N,2), extruded from z = 0 to ``height``, m; caps are triangulated by ear clipping.
+
+    :raises ValueError: fewer than three points.
+    """
     ring = np.asarray(points, float)
     if len(ring) > 1 and np.allclose(ring[0], ring[-1]):
         ring = ring[:-1]

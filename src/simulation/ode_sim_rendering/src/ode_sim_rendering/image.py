@@ -45,7 +45,10 @@ def add_noise(rgb: np.ndarray, camera: Camera, seed: int, time_ns: int) -> np.nd
 
 
 def encode(rgb: np.ndarray, encoding: str) -> np.ndarray:
-    """RGB bytes as an image of a sensor_msgs ``encoding``: (H,W) or (H,W,3), uint8 or uint16."""
+    """``rgb``, (H,W,3) bytes, as an image of a sensor_msgs ``encoding``: (H,W) or (H,W,3), uint8 or uint16.
+
+    :raises ValueError: an encoding that is not known.
+    """
     if encoding == "rgb8":
         return rgb
     if encoding == "bgr8":
@@ -66,9 +69,10 @@ def encode(rgb: np.ndarray, encoding: str) -> np.ndarray:
 
 
 def compress(image: np.ndarray, encoding: str, kind: str, level: int) -> np.ndarray:
-    """An encoded image as a file in memory, (N,) uint8.
+    """``image``, of a sensor_msgs ``encoding``, as a file in memory, (N,) uint8.
 
     :param kind: ``jpeg`` with ``level`` 1..100 (quality), or ``png`` with ``level`` 1..9 (effort).
+    :raises ValueError: OpenCV cannot write it.
     """
     if encoding.startswith("rgb"):
         image = cv2.cvtColor(image, cv2.COLOR_RGB2BGR)  # the order that OpenCV writes from
@@ -86,7 +90,11 @@ def compress(image: np.ndarray, encoding: str, kind: str, level: int) -> np.ndar
 def cloud(depth: np.ndarray, image: np.ndarray, camera: Camera, valid: np.ndarray) -> np.ndarray:
     """Organised cloud (H,W,8) float32: x y z in the optical frame (x right, y down, z forward), one unused, colour,
     three unused. The colour is the image's bytes in their own order in the low bytes of one float; invalid points are
-    NaN."""
+    NaN.
+
+    :param depth: (H,W) m along the optical axis. :param valid: (H,W) bool, where it is one.
+    :param image: (H,W) or (H,W,3) colours. :param camera: whose pixels these are.
+    """
     height, width = depth.shape
     points = np.zeros((height, width, 8), np.float32)
     column = ((np.arange(width) - (width - 1) / 2) / camera.focal_length).astype(np.float32)

@@ -65,7 +65,10 @@ class Lens:
         return np.where((np.abs(error).max(axis=-1) < 1e-3)[..., None], ideal, np.nan)
 
     def distort(self, picture: np.ndarray, kind: str) -> np.ndarray:
-        """The image (camera's size) of a pinhole ``picture``. Colours are interpolated, depths and indices are not."""
+        """The image (camera's size) of a pinhole ``picture``. Colours are interpolated, depths and indices are not.
+
+        :param kind: ``color``, ``depth`` or ``ident``.
+        """
         if kind == "color":
             return cv2.remap(picture, *self._fast, cv2.INTER_LINEAR)
         border = np.inf if kind == "depth" else -1

@@ -62,9 +62,11 @@ class Portrait:
 
 
 def extent(portrait: Portrait, assets: Assets | None = None) -> np.ndarray:
-    """(N,3) corners, world frame, m, of the boxes around each visual that is to fill the frame; (0,3) if there is none.
+    """(N,3) corners, world frame, m, of the boxes around each visual of ``portrait`` that is to fill the frame; (0,3) if there is none.
 
     A plane has no end and a height map is the ground: both count only when they belong to ``model``.
+
+    :param assets: meshes that are loaded; None loads them.
     """
     assets, corners = assets or Assets(), []
     ground = () if portrait.model else (d.Plane, d.Heightmap)
@@ -94,12 +96,19 @@ def _moved(points: np.ndarray, p, q) -> np.ndarray:
 
 
 def camera_for(corners: np.ndarray, view: str, width: int, height: int) -> Camera:
-    """The camera that has all ``corners`` (N,3) in its frame from the side of that name, as near as that allows."""
+    """The camera of ``width`` x ``height`` pixels that has all ``corners`` (N,3) in its frame from the side ``view``, as near as it can.
+
+    :param view: one of :data:`VIEWS`.
+    """
     return camera_from(corners, *VIEWS[view], width, height)
 
 
 def camera_from(corners: np.ndarray, azimuth: float, elevation: float, width: int, height: int, hfov: float = _HFOV) -> Camera:
-    """The camera that has all ``corners`` (N,3) in its frame from a side given in rad, as near as that allows."""
+    """The camera that has all ``corners`` (N,3) in its frame from a side given in rad, as near as that allows.
+
+    :param azimuth, elevation: where the camera is, seen from the middle: from x to the left, and up.
+    :param width, height: pixels. :param hfov: horizontal field of view, rad.
+    """
     level = math.cos(elevation)
     towards = -np.array([level * math.cos(azimuth), level * math.sin(azimuth), math.sin(elevation)])
     left = np.array([-towards[1], towards[0], 0.0]) / math.hypot(towards[0], towards[1])
@@ -125,7 +134,10 @@ def camera_from(corners: np.ndarray, azimuth: float, elevation: float, width: in
 
 
 def camera_at(eye: Pose, corners: np.ndarray, width: int, height: int) -> Camera:
-    """The camera that stands there, with the field of view of Gazebo's window; it sees as far as all ``corners`` (N,3) are."""
+    """The camera that stands at ``eye`` (X_WE), with the field of view of Gazebo's window; it sees as far as all ``corners`` (N,3) are.
+
+    :param width, height: pixels.
+    """
     farthest = float(np.linalg.norm(corners - np.asarray(eye.p), axis=1).max())
     return Camera("portrait", width, height, _WINDOW_HFOV, near=0.05, far=farthest + 500.0, pose=eye)
 
@@ -214,7 +226,7 @@ class Painter:
         self._scene = b""
 
     def take(self, portrait: Portrait, seconds: float = 60.0) -> tuple[bytes, list[str]]:
-        """As :meth:`Studio.draw`.
+        """As :meth:`Studio.draw` with ``portrait``.
 
         :raises Refused: nothing to draw, no OpenGL, or not done within ``seconds``
         """

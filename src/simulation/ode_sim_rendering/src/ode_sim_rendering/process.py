@@ -91,7 +91,7 @@ class RenderProcess:
     # ------------------------------------------------------------------------------------------ physics thread
 
     def add_camera(self, camera: Camera, depth_range: tuple[float, float] = (0.0, np.inf)) -> int:
-        """A key for :meth:`draw`. ``depth_range``: m, depths outside of it are invalid."""
+        """A key of ``camera`` for :meth:`draw`. ``depth_range``: m, depths outside of it are invalid."""
         key = self._next_key
         self._next_key += 1
         room = -(-(camera.width * camera.height * _BYTES_PER_PIXEL + 65536) // mmap.PAGESIZE) * mmap.PAGESIZE
@@ -108,7 +108,7 @@ class RenderProcess:
         return key
 
     def change_camera(self, key: int, camera: Camera) -> None:
-        """From the next picture on. The size has to be the same: another one is another camera."""
+        """``key`` draws ``camera`` from the next picture on. The size has to be the same: another one is another camera."""
         entry = self._cameras[key]
         entry.camera, entry.message = camera, replace(entry.message, camera=camera)
         self._send(self._connection, entry.message)
@@ -123,9 +123,10 @@ class RenderProcess:
             self._spare.setdefault(entry.room, []).append(entry.offset)
 
     def draw(self, key: int, outputs: tuple[str, ...], deliver: Callable[[Frame], None], wait: bool = False, most: int = _SLOTS) -> bool:
-        """Take the picture of this moment.
+        """Take the picture of this moment. :return: False when it is left out, or cannot be drawn
 
-        :param outputs: of :data:`OUTPUTS`. :param deliver: called once with the :class:`Frame`, from another thread.
+        :param key: from :meth:`add_camera`. :param outputs: of :data:`OUTPUTS`.
+        :param deliver: called once with the :class:`Frame`, from another thread.
         :param wait: return only when ``deliver`` has returned; without it the call takes microseconds, and a picture
             is left out (False is returned) while ``most`` (1 to 8) of this camera are under way.
         """

@@ -274,22 +274,31 @@ class Renderer:
     # ------------------------------------------------------------------------------------------ images
 
     def color(self, camera: Camera, link_poses: np.ndarray) -> np.ndarray:
-        """(H,W,3) uint8 RGB, first row at the top: what an ideal sensor sees (no noise; with lens distortion).
+        """(H,W,3) uint8 RGB, first row at the top: what an ideal sensor ``camera`` sees (no noise; with lens distortion).
 
         :param link_poses: (L,7) x y z qx qy qz qw of the scene's links, world frame.
         """
         return self.images(camera, link_poses, ("color",))["color"]
 
     def depth(self, camera: Camera, link_poses: np.ndarray) -> np.ndarray:
-        """(H,W) float32 m along the optical axis; +inf where nothing is nearer than the far clip."""
+        """(H,W) float32 m along the optical axis; +inf where nothing is nearer than the far clip.
+
+        ``camera``, ``link_poses``: as for :meth:`color`.
+        """
         return self.images(camera, link_poses, ("depth",))["depth"]
 
     def segmentation(self, camera: Camera, link_poses: np.ndarray) -> np.ndarray:
-        """(H,W) int32: index into :attr:`visual_names`, :data:`~ode_sim_rendering.target.NOTHING` for the background."""
+        """(H,W) int32: index into :attr:`visual_names`, :data:`~ode_sim_rendering.target.NOTHING` for the background.
+
+        ``camera``, ``link_poses``: as for :meth:`color`.
+        """
         return self.images(camera, link_poses, ("ident",))["ident"]
 
     def images(self, camera: Camera, link_poses: np.ndarray, outputs: Sequence[str]) -> dict[str, np.ndarray]:
-        """Several images of one moment from one pass: any of ``color``, ``depth``, ``ident``."""
+        """Several ``outputs`` of one moment from one pass: any of ``color``, ``depth``, ``ident``.
+
+        ``camera``, ``link_poses``: as for :meth:`color`. :raises ValueError: fewer poses than the scene has links.
+        """
         outputs = tuple(name for name in ("color", "depth", "ident") if name in outputs)
         link_poses = np.asarray(link_poses, float).reshape(-1, 7)
         if len(link_poses) < len(self._scene.links):

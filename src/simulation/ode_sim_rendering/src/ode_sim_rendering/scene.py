@@ -62,8 +62,9 @@ def describe(world) -> SceneDescription:
 
 
 def arrange(models: Iterable[Model], lights: Iterable[Light] = (), scene: Scene = Scene()) -> tuple[SceneDescription, np.ndarray]:
-    """The scene of models that stand where their descriptions put them, without physics.
+    """The scene of ``models`` that stand where their descriptions put them, without physics.
 
+    :param lights: of the world, beside those of the links. :param scene: its background, ambient light, fog.
     :return: (scene, link poses (L,7): x y z qx qy qz qw, world frame).
     """
     names: list[str] = []

@@ -22,7 +22,7 @@ void main() {{
 
 def vertex_shader(flags: frozenset, lights: Sequence[str] = ()) -> str:
     """``flags``: any of color, by_vertex (light is computed here and interpolated), specular, textured, position, ident
-    (and depth, which needs nothing here).
+    (and depth, which needs nothing here). ``lights``: kind of each, as for :func:`fragment_shader`.
 
     ``base`` is emissive + ambient * scene ambient, and the opacity; ``world`` rows of the model matrix.
     """
@@ -98,7 +98,10 @@ float lit() {
 
 
 def fragment_shader(flags: frozenset, lights: Sequence[str] = (), shadow_of: int = -1) -> str:
-    """``lights``: kind of each light (directional, point, spot); ``shadow_of``: index of the one with a shadow map."""
+    """``flags``: as for :func:`vertex_shader`; ``lights``: kind of each light (directional, point, spot).
+
+    ``shadow_of``: index of the one with a shadow map, -1 for none.
+    """
     head, body, target = ["#version 330"], [], 0
     if "color" in flags:
         specular, textured = "specular" in flags, "textured" in flags

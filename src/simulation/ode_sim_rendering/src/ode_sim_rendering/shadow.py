@@ -21,8 +21,9 @@ class ShadowMap:
         self._matrix = np.eye(4)
 
     def aim(self, direction: np.ndarray, centres: np.ndarray, radii: np.ndarray, eye: np.ndarray) -> np.ndarray:
-        """Fit the map around the casters' bounding spheres (``centres`` (P,3), ``radii`` (P,), world frame).
+        """Fit the map around the casters' bounding spheres (``centres`` (P,3), ``radii`` (P,), world frame, m).
 
+        :param direction: (3,) unit vector of the rays. :param eye: (3,) m: where a map that cannot hold all is laid around.
         :return: (4,4) clip matrix from the world frame.
         """
         z = -direction
@@ -54,6 +55,7 @@ class ShadowMap:
         self._drawn = None
 
     def bind(self, program, unit: int = 1) -> None:
+        """Let ``program`` (moderngl's) read the map from the texture ``unit``."""
         self._texture.use(unit)
         program["shadow_map"].value = unit
         program["shadow_matrix"].write((_TO_TEXTURE @ self._matrix).T.astype("f4").tobytes())

@@ -128,7 +128,10 @@ class Worker:
 
 
 def main(connection_fd: int, memory_fd: int) -> None:
-    """Entry point of the child process. Ctrl-C is for the simulator; when that goes, the socket closes."""
+    """Entry point of the child process. Ctrl-C is for the simulator; when that goes, the socket closes.
+
+    :param connection_fd: descriptor of the socket. :param memory_fd: of the shared memory that images go to.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     np.seterr(all="ignore")  # what flew off the map is not seen; that its numbers overflow is no news for the terminal
     cv2.setNumThreads(1)  # the other core is for the physics

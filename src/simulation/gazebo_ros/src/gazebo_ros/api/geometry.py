@@ -19,8 +19,9 @@ def pose_msg(pose: Pose) -> PoseMsg:
 
 
 def pose_of(message: PoseMsg, what: str = "pose") -> Pose:
-    """With the quaternion normalised; all zeros mean no rotation.
+    """The pose in ``message``, its quaternion normalised; all zeros mean no rotation.
 
+    :param what: it is, for the error
     :raises Refused: a number is not finite, or the place beyond what can be simulated
     """
     p, q = message.position, message.orientation
@@ -31,8 +32,9 @@ def pose_of(message: PoseMsg, what: str = "pose") -> Pose:
 
 
 def vector_of(message: Any, what: str) -> Vec3:
-    """Of a Vector3 or Point.
+    """x, y, z of ``message``, a Vector3 or Point.
 
+    :param what: it is, for the error
     :raises Refused: a number is not finite
     """
     finite(what, message.x, message.y, message.z)
@@ -40,6 +42,7 @@ def vector_of(message: Any, what: str) -> Vec3:
 
 
 def twist_msg(linear: Vec3, angular: Vec3) -> Twist:
+    """A Twist of ``linear`` (m/s) and ``angular`` (rad/s)."""
     return Twist(Vector3(*linear), Vector3(*angular))
 
 

@@ -13,7 +13,9 @@ from gazebo_ros.server import Server, Stopped
 
 
 def worded(gazebo: str, more: str) -> Refused:
-    """A refusal in the words that Gazebo's own service has for it, which scripts compare with, and what it leaves unsaid."""
+    """A refusal in the words that Gazebo's own service has for it, ``gazebo``, which scripts compare with, and what it leaves unsaid,
+    ``more``.
+    """
     return Refused(f"{gazebo}{' ' if gazebo[-1] in '.?!' else '; '}{more}")
 
 
@@ -31,6 +33,8 @@ def advertise(
 
     :param service: class of the service, as in ``std_srvs.srv.Empty``
     :param prefix: begins the status line of a failure; by default the service's name in camel case
+    :param server: whose node offers it
+    :param in_physics_thread: ``f`` is called between two steps; False calls it in a thread of rospy
     """
     prefix = prefix or "".join(word.capitalize() for word in name.split("_"))
 
@@ -63,7 +67,7 @@ def finite(what: str, *values: float) -> None:
 
 
 def listing(names: Iterable[str], limit: int = 12) -> str:
-    """``a, b, c`` for a message; long lists end in a count."""
+    """``a, b, c`` of ``names`` for a message; of more than ``limit`` the rest is counted."""
     names = list(names)
     if not names:
         return "none"

@@ -107,7 +107,7 @@ def plugins_of(model: Model) -> list[Plugin]:
 
 
 def set_robot_namespace(model: Model, namespace: str) -> None:
-    """Give every plugin without a ``<robotNamespace>`` this one (nothing for an empty namespace)."""
+    """Give every plugin of ``model`` without a ``<robotNamespace>`` this ``namespace`` (nothing for an empty one)."""
     if not namespace:
         return
     for plugin in plugins_of(model):

@@ -37,7 +37,7 @@ from gazebo_ros.srv import StepWorld
 
 
 def call(name: str, service: type, *arguments: Any) -> Any:
-    """The answer of ``/gazebo/<name>``.
+    """The answer of ``/gazebo/<name>``, a ``service`` of that class, to ``arguments``.
 
     :raises Failure: no simulator, or it refuses
     """

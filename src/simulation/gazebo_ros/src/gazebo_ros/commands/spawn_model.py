@@ -123,7 +123,9 @@ def model_text(options: argparse.Namespace) -> tuple[str, str]:
 
 
 def wait_for_model(name: str, gazebo_namespace: str) -> None:
-    """Asks ten times a wall second: a paused simulation publishes nothing, and its time stands still.
+    """Wait until the simulator in ``gazebo_namespace`` has the model ``name``.
+
+    Asks ten times a wall second: a paused simulation publishes nothing, and its time stands still.
 
     :raises Failure: the simulator is gone
     """
