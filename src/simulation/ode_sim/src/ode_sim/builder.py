@@ -55,7 +55,7 @@ class Builder:
         self.problems: list[d.Problem] = []
 
     def build(self, world, model: d.Model, name: str, pose: d.Pose) -> ModelHandle:
-        """The handle of the model put at X_WM ``pose``.
+        """The handle of ``model`` in ``world``, called ``name`` and put at X_WM ``pose``.
 
         :raises ValueError: a number that no world can hold; nothing of the model is left in the core then.
         """

@@ -29,7 +29,7 @@ _ENCODING = re.compile(rb"""\s*<\?xml[^>]*\sencoding\s*=\s*["']([^"']*)["']""")
 
 
 def read_dae(path: str, data: bytes) -> list[MeshPart]:
-    """The shapes of the visual scene, in metres.
+    """The shapes of the visual scene of ``data``, in metres; ``path`` is where it was read, for errors and textures.
 
     :raises DescriptionError: one line that names the file. A broken file may raise anything else.
     """
@@ -134,7 +134,11 @@ def _is_shading(told: ElementTree.Element) -> bool:
 
 
 def parts_of(primitive, geometry, material, path: str, unit: float = 1.0) -> list[tuple[MeshPart, np.ndarray]]:
-    """Its triangles as parts, each with the numbers of the shape's corners (V,) that its own are."""
+    """Its triangles as parts, each with the numbers of the shape's corners (V,) that its own are.
+
+    :param primitive, geometry, material: pycollada's. :param path: of the file, for textures.
+    :param unit: of the file, m.
+    """
     if hasattr(primitive, "triangleset"):
         primitive = primitive.triangleset()
     if (
@@ -164,7 +168,7 @@ def parts_of(primitive, geometry, material, path: str, unit: float = 1.0) -> lis
 
 
 def sound_document(path: str, data: bytes) -> bytes:
-    """What parsers of XML can be fed with: the file, or what its exporter meant where Gazebo's parser is not as strict.
+    """What parsers of XML can be fed with: ``data`` of the file ``path``, or what was meant where Gazebo's parser is not as strict.
 
     :raises DescriptionError: what no parser should be fed with.
     """

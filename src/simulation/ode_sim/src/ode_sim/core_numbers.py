@@ -9,7 +9,7 @@ from ode_sim.math3 import quat_normalize
 
 
 def finite(values, what: str) -> None:
-    """Refuse NaN and infinity where they would poison the physics.
+    """Refuse NaN and infinity among ``values`` where they would poison the physics.
 
     :raises ValueError: one line that names ``what``.
     """
@@ -18,9 +18,9 @@ def finite(values, what: str) -> None:
 
 
 def flat(pose: Pose, what: str = "pose") -> tuple[float, ...]:
-    """Seven floats for the core.
+    """Seven floats for the core: x y z qx qy qz qw of ``pose``.
 
-    :raises ValueError: not finite, or further than :data:`FARTHEST` from the origin of its frame.
+    :raises ValueError: not finite, or further than :data:`FARTHEST` from the origin of its frame; the line names ``what``.
     """
     values = (*pose.p, *pose.q)
     finite(values, what)

@@ -30,7 +30,7 @@ def one_line(text: object, most: int = 1000) -> str:
 
 
 def quoted(text: object, most: int = 60) -> str:
-    """A value of an input for a message: :func:`one_line`, short, without the white space around and inside."""
+    """``text`` of an input for a message: :func:`one_line` of up to ``most`` characters, without the white space around and inside."""
     return " ".join(one_line(text, most).split())
 
 

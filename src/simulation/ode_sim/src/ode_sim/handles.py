@@ -119,13 +119,13 @@ class LinkHandle:
         return self.core.velocity_at(p_W)
 
     def set_twist(self, linear: Vec3, angular: Vec3) -> None:
-        """Velocity of the centre of mass and angular velocity."""
+        """Set the velocity of the centre of mass, ``linear`` (m/s, world axes), and the angular velocity, ``angular`` (rad/s)."""
         finite((*linear, *angular), f"twist of link {self.scoped_name}")
         arm = np.subtract(self.core.pose()[:3], self.core.com())
         self.core.set_twist(tuple(np.add(linear, np.cross(angular, arm))), tuple(angular))
 
     def add_force(self, f_W: Vec3, p_W: Vec3 | None = None) -> None:
-        """Force in N at the point ``p_W``, at the centre of mass if None. Forces beyond 1e12 N are cut to it."""
+        """Force ``f_W``, N, at the point ``p_W``, m, at the centre of mass if None. Forces beyond 1e12 N are cut to it."""
         finite(f_W, f"force on link {self.scoped_name}")
         if p_W is None:
             self.core.add_force(tuple(f_W))
@@ -134,7 +134,11 @@ class LinkHandle:
             self.core.add_force_at(tuple(f_W), tuple(p_W))
 
     def run_belt(self, speed: float, left_W: Vec3, linear: Vec3 = (0.0, 0.0, 0.0), angular: Vec3 = (0.0, 0.0, 0.0)) -> None:
-        """In the next step the surface runs round the link, as a track's, and drives it; m/s. ``linear``, ``angular``: what is meant."""
+        """In the next step the surface runs round the link at ``speed`` m/s, as a track's, and drives it; ``left_W`` points to the left
+        of it.
+
+        ``linear``, ``angular``: how the link is meant to move, m/s and rad/s, world axes.
+        """
         self.core.run_belt(speed, left_W, linear, angular)
 
     def add_torque(self, t_W: Vec3) -> None:
@@ -233,7 +237,10 @@ class JointHandle:
         return self.core.axis_count
 
     def add_force(self, force: float, axis: int = 0) -> None:
-        """N m or N, for the next step; cut to the effort limit, and to 0 in the direction of motion above the velocity limit."""
+        """``force`` N m or N about ``axis``, for the next step.
+
+        It is cut to the effort limit, and to 0 in the direction of motion above the velocity limit.
+        """
         if not math.isfinite(force):
             raise ValueError(f"force on joint {self.scoped_name} must be a finite number, not {force}")
         self.core.add_force(force, axis)
@@ -253,7 +260,7 @@ class JointHandle:
         self.core.add_law(force, slope, bound, axis)
 
     def set_motor(self, velocity: float, max_force: float, axis: int = 0) -> None:
-        """Drive to ``velocity`` (rad/s, m/s) with at most ``max_force`` until changed; 0 switches the motor off."""
+        """Drive ``axis`` to ``velocity`` (rad/s, m/s) with at most ``max_force`` (N m, N) until changed; 0 switches the motor off."""
         finite((velocity,), f"motor velocity of joint {self.scoped_name}")
         if math.isnan(max_force):
             raise ValueError(f"motor force of joint {self.scoped_name} must be a number")
@@ -292,7 +299,7 @@ class JointHandle:
         self.core.follow(leader.core if leader else None, multiplier, offset)
 
     def set_position(self, q: float, axis: int = 0) -> bool:
-        """Teleport: what is beyond moves along, its velocities become zero; ``q`` is clamped to the limits.
+        """Teleport ``axis``: what is beyond moves along, its velocities become zero; ``q`` (rad, m) is clamped to the limits.
 
         :returns: False for a joint in a closed loop, which stays as it is.
         :raises ValueError: no number, or a place beyond what can be simulated.
@@ -305,6 +312,7 @@ class JointHandle:
         return self.core.get(axis)[:2]
 
     def set_limits(self, lower: float, upper: float, axis: int = 0) -> None:
+        """Let ``axis`` move from ``lower`` to ``upper`` (rad, m; infinity is no limit). :raises ValueError: no position is between them."""
         if not lower <= upper:
             raise ValueError(f"joint {self.scoped_name}: lower limit {lower} is above upper limit {upper}")
         if unlimited(lower) == math.inf or unlimited(upper) == -math.inf:
@@ -443,12 +451,14 @@ class ModelHandle:
         return Twist(link.com_velocity(), link.angular_velocity()) if link else Twist((0, 0, 0), (0, 0, 0))
 
     def set_twist(self, linear: Vec3, angular: Vec3) -> None:
-        """The same velocity of the centre of mass, and angular velocity, for every link."""
+        """The same velocity of the centre of mass, ``linear`` (m/s), and angular velocity, ``angular`` (rad/s), for every link."""
         for link in self.links.values():
             link.set_twist(linear, angular)
 
     def move_as_one(self, linear: Vec3, angular: Vec3, origin_W: Vec3) -> None:
-        """The first link gets these velocities, ``linear`` at the point ``origin_W``; the others go along, their joints go on."""
+        """The first link gets ``linear`` (m/s, at the point ``origin_W``) and ``angular`` (rad/s); the others go along, their joints go
+        on.
+        """
         link = self.canonical_link
         if link:
             finite((*linear, *angular), f"twist of model {self.name}")

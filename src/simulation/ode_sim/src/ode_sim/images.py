@@ -18,7 +18,7 @@ _FORMATS = ("PNG", "JPEG", "BMP", "TIFF", "TGA", "GIF", "PPM", "WEBP", "DDS")
 
 
 def read_rgba(path: str, most: int = MOST_PIXELS) -> np.ndarray:
-    """(H, W, 4) uint8, first row at the top.
+    """(H, W, 4) uint8 of the file ``path``, first row at the top.
 
     :param most: pixels that the caller can make use of.
     :raises DescriptionError: one line that names the file: no image, a broken one, or one of too many pixels.
@@ -27,8 +27,9 @@ def read_rgba(path: str, most: int = MOST_PIXELS) -> np.ndarray:
 
 
 def read_grey(path: str, most: int = MOST_PIXELS) -> np.ndarray:
-    """(H, W) float64 from 0 (black) to 1, first row at the top; of 16 bits where the file has them.
+    """(H, W) float64 of the file ``path`` from 0 (black) to 1, first row at the top; of 16 bits where the file has them.
 
+    :param most: as for :func:`read_rgba`.
     :raises DescriptionError: as :func:`read_rgba`.
     """
     pixels = _pixels(path, lambda mode: "I" if mode.startswith("I") else "L", most)

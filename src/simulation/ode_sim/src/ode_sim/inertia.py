@@ -18,7 +18,7 @@ _SINGULAR = 1e-12  # of the largest moment: what rounding leaves of 0
 
 
 def usable_mass(mass: float, where: str) -> tuple[float, str | None]:
-    """The mass in kg, and what was wrong with it."""
+    """``mass`` in kg, as it can be simulated, and what was wrong with it, a line that begins with ``where``, or None."""
     if SMALLEST_MASS <= mass <= LARGEST_MASS:
         return float(mass), None
     if math.isfinite(mass) and mass > LARGEST_MASS:
@@ -34,6 +34,8 @@ def usable_inertia(inertial: Inertial, mass: float, where: str) -> tuple[tuple[f
     A tensor up to :data:`LARGEST_MOMENT` is taken as it is, its moments raised to the smallest that a body of this mass may have.
     One that is not positive definite becomes :data:`UNTOLD_MOMENT` about every axis: so does ODE in Gazebo, and arms whose tensors
     were miscalculated stand there.
+
+    :param inertial: as written. :param mass: of the body, kg, usable. :param where: begins the line of a problem.
     """
     tensor = np.array(
         [

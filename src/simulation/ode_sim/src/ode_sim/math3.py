@@ -37,22 +37,27 @@ def vec3(values: Iterable[float]) -> Vec3:
 
 
 def add(a: Vec3, b: Vec3) -> Vec3:
+    """``a`` + ``b``."""
     return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
 
 
 def sub(a: Vec3, b: Vec3) -> Vec3:
+    """``a`` - ``b``."""
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
 def scale(a: Vec3, s: float) -> Vec3:
+    """``a`` times ``s``."""
     return (a[0] * s, a[1] * s, a[2] * s)
 
 
 def dot(a: Vec3, b: Vec3) -> float:
+    """The scalar product of ``a`` and ``b``."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def cross(a: Vec3, b: Vec3) -> Vec3:
+    """The vector product ``a`` x ``b``."""
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
@@ -70,7 +75,7 @@ def unit(a: Vec3) -> Vec3:
 
 
 def quat_multiply(a: Quat, b: Quat) -> Quat:
-    """q_AC from q_AB and q_BC."""
+    """q_AC from ``a``, q_AB, and ``b``, q_BC."""
     ax, ay, az, aw = a
     bx, by, bz, bw = b
     return (
@@ -94,7 +99,7 @@ def quat_normalize(q: Sequence[float]) -> Quat:
 
 
 def quat_rotate(q: Quat, v: Vec3) -> Vec3:
-    """v_A of v_B, for a unit q_AB."""
+    """v_A of ``v``, v_B, for a unit ``q``, q_AB."""
     x, y, z, w = q
     tx = 2.0 * (y * v[2] - z * v[1])
     ty = 2.0 * (z * v[0] - x * v[2])
@@ -110,6 +115,7 @@ def quat_from_axis_angle(axis: Vec3, angle: float) -> Quat:
 
 
 def quat_from_rpy(roll: float, pitch: float, yaw: float) -> Quat:
+    """The rotation of ``roll``, ``pitch`` and ``yaw``, rad, about the fixed axes x, y, z in that order."""
     cr, sr = math.cos(0.5 * roll), math.sin(0.5 * roll)
     cp, sp = math.cos(0.5 * pitch), math.sin(0.5 * pitch)
     cy, sy = math.cos(0.5 * yaw), math.sin(0.5 * yaw)
@@ -187,7 +193,7 @@ def slerp(a: Quat, b: Quat, t: float) -> Quat:
 
 
 def compose(x_ab: Pose, x_bc: Pose) -> Pose:
-    """X_AC = X_AB X_BC."""
+    """X_AC = X_AB X_BC, of ``x_ab`` and ``x_bc``."""
     return Pose(add(x_ab.p, quat_rotate(x_ab.q, x_bc.p)), quat_multiply(x_ab.q, x_bc.q))
 
 
@@ -198,21 +204,22 @@ def inverse(x_ab: Pose) -> Pose:
 
 
 def relative(x_wa: Pose, x_wb: Pose) -> Pose:
-    """X_AB = X_WA^-1 X_WB."""
+    """X_AB = X_WA^-1 X_WB, of ``x_wa`` and ``x_wb``."""
     return compose(inverse(x_wa), x_wb)
 
 
 def transform(x_ab: Pose, p_b: Vec3) -> Vec3:
-    """The point ``p_b`` of frame B, in A."""
+    """The point ``p_b`` of frame B, in A, for ``x_ab``, X_AB."""
     return add(x_ab.p, quat_rotate(x_ab.q, p_b))
 
 
 def rotate(x_ab: Pose, v_b: Vec3) -> Vec3:
-    """The free vector ``v_b`` of frame B, in A."""
+    """The free vector ``v_b`` of frame B, in A, for ``x_ab``, X_AB."""
     return quat_rotate(x_ab.q, v_b)
 
 
 def from_rpy(x: float = 0.0, y: float = 0.0, z: float = 0.0, roll: float = 0.0, pitch: float = 0.0, yaw: float = 0.0) -> Pose:
+    """The pose at ``x``, ``y``, ``z`` (m) turned by ``roll``, ``pitch``, ``yaw`` (rad, about the fixed axes in that order)."""
     return Pose((x, y, z), quat_from_rpy(roll, pitch, yaw))
 
 
@@ -240,7 +247,7 @@ def mat3(rows: Sequence[Sequence[float]]) -> Mat3:
 
 
 def rotate_inertia(q_ab: Quat, i_b: Sequence[Sequence[float]]) -> Mat3:
-    """The tensor (rows, kg m^2 about one point) given in the axes of B, in those of A: R I R^T."""
+    """The tensor ``i_b`` (rows, kg m^2 about one point) given in the axes of B, in those of A for ``q_ab``: R I R^T."""
     r = quat_to_matrix(q_ab)
     ri = [[sum(r[i][k] * i_b[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
     rows = [[sum(ri[i][k] * r[j][k] for k in range(3)) for j in range(3)] for i in range(3)]

@@ -64,7 +64,10 @@ def load(mesh: Mesh) -> Surface:
 
 
 def load_surface(path: str, scale: Vec3 = UNIT_SCALE, submesh: str = "", center: bool = False) -> Surface:
-    """As :func:`load`. The arrays are shared between callers and read-only."""
+    """As :func:`load` of the file ``path``. The arrays are shared between callers and read-only.
+
+    :param scale: by axis. :param submesh: of which alone is asked, "" for all. :param center: put the submesh's middle at the origin.
+    """
     return _surface(path, _usable_scale(scale, path), submesh, center, file_stamp(path))
 
 
@@ -72,6 +75,7 @@ def load_visual(path: str, scale: Vec3 = UNIT_SCALE, submesh: str = "", center: 
     """The parts to draw, one for each material: tuples (vertices, triangles, normals, uv or None, Material).
 
     Normals are those of the file; where it has none, faces that meet at less than 40 degrees are smoothed together.
+    ``path``, ``scale``, ``submesh``, ``center``: as for :func:`load_surface`.
 
     :raises DescriptionError: one line that names the file.
     """
@@ -177,7 +181,11 @@ def _drawn(part: MeshPart, scale: np.ndarray) -> VisualPart:
 
 
 def with_normals(vertices, triangles, uv, crease: float = np.radians(40.0)):
-    """Vertices split where faces meet at a sharp edge; normals weighted by area within a smooth patch."""
+    """Vertices split where faces meet at a sharp edge; normals weighted by area within a smooth patch.
+
+    :param vertices: (V, 3) m. :param triangles: (T, 3) their corners. :param uv: (V, 2) or None.
+    :param crease: rad, of an edge that is sharp.
+    """
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
     weighted = np.cross(b - a, c - a)
     length = np.linalg.norm(weighted, axis=1, keepdims=True)

@@ -39,7 +39,12 @@ class MeshPart:
 
 @functools.lru_cache(maxsize=64)
 def read_parts(path: str, stamp, groups: bool = False) -> list[MeshPart]:
-    """:param groups: the groups of an OBJ file are pieces of their own, for who asks for one of them; fewer are drawn quicker"""
+    """The parts of the file ``path``.
+
+    :param groups: the groups of an OBJ file are pieces of their own, for who asks for one of them; fewer are drawn quicker
+    :param stamp: of the file, by which what was read is remembered
+    :raises DescriptionError: one line that names the file.
+    """
     readers: dict[str, Callable[[str, bytes], list[MeshPart]]] = {
         ".stl": _read_stl,
         ".stlb": _read_stl,
@@ -69,7 +74,7 @@ def read_parts(path: str, stamp, groups: bool = False) -> list[MeshPart]:
 
 
 def file_content(path: str, suffix: str) -> bytes:
-    """:raises DescriptionError: no file, or larger than makes sense."""
+    """The bytes of the file ``path``; its ``suffix`` says how many make sense. :raises DescriptionError: no file, or larger."""
     most = MOST_BYTES if suffix.startswith(".stl") else MOST_TEXT
     if not os.path.isfile(path):
         raise DescriptionError(f"mesh {path}: is no file")  # a pipe would be waited for
@@ -81,13 +86,13 @@ def file_content(path: str, suffix: str) -> bytes:
 
 
 def check_triangles(count: int, path: str) -> None:
-    """:raises DescriptionError: more of them than :data:`MOST_TRIANGLES`."""
+    """:raises DescriptionError: ``count`` of them, in the file ``path``, is more than :data:`MOST_TRIANGLES`."""
     if count > MOST_TRIANGLES:
         raise DescriptionError(f"mesh {path}: has more than {MOST_TRIANGLES // 1_000_000} million triangles; reduce them")
 
 
 def usable(part: MeshPart, path: str) -> MeshPart:
-    """With vertices that can be drawn and collided with; normals and texture coordinates that are no use are left out.
+    """``part`` of the file ``path`` with vertices that can be drawn and collided with; normals and uv of no use are left out.
 
     :raises DescriptionError: broken.
     """

@@ -45,7 +45,7 @@ BOUNDS: dict[str, Bounds] = {
 
 
 def check_physics(physics: Physics, gravity: Vec3 | None = None) -> Physics:
-    """The settings, with whole numbers where counts are wanted; nothing is changed anywhere.
+    """``physics`` with whole numbers where counts are wanted; nothing is changed anywhere.
 
     :param gravity: m/s^2, checked too if given.
     :raises ValueError: one line that names the first setting that no world can run with, and what it may be.
@@ -70,7 +70,7 @@ def check_gravity(gravity: Vec3) -> Vec3:
 
 
 def check_setting(name: str, value: Any) -> Any:
-    """One setting, converted to the type that the description has for it.
+    """``value`` of the setting ``name``, converted to the type that the description has for it.
 
     :raises ValueError: out of bounds, or not a number where one is wanted.
     """

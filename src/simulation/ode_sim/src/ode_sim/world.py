@@ -92,7 +92,7 @@ class World:
 
     @classmethod
     def load(cls, source: str, seed: int = 0, finder=None) -> World:
-        """A world from a path, a ``model://`` or world name, or XML text.
+        """A world from ``source``: a path, a ``model://`` or world name, or XML text; ``seed`` and ``finder`` as in the class.
 
         :raises DescriptionError: one line that says what cannot be read; smaller trouble goes to ``problems``.
         """
@@ -210,13 +210,13 @@ class World:
         return handle
 
     def spawn_urdf(self, text: str, name: str | None = None, pose: d.Pose | None = None) -> ModelHandle:
-        """Spawn URDF text at ``pose`` composed with the model's own origin."""
+        """Spawn URDF text at ``pose`` composed with the model's own origin; ``name`` takes the place of the text's."""
         from ode_sim.description import read_urdf
 
         return self._spawn_text(read_urdf(text, name=name, finder=self.finder), pose)
 
     def spawn_sdf(self, text: str, name: str | None = None, pose: d.Pose | None = None) -> ModelHandle:
-        """Spawn the first model of SDF text at ``pose`` composed with the model's own pose."""
+        """Spawn the first model of SDF text at ``pose`` composed with the model's own pose; ``name`` takes the place of the text's."""
         from ode_sim.description import read_sdf_model
 
         return self._spawn_text(read_sdf_model(text, name=name, finder=self.finder), pose)
@@ -408,7 +408,7 @@ class World:
         return self.core.contacts()
 
     def watch_contacts(self, collision: CollisionHandle, on: bool = True) -> None:
-        """Have the forces of this collision's contacts measured, until as many as asked for it need them no more."""
+        """Have the forces of this ``collision``'s contacts measured, until as many as asked for it (``on``) need them no more (False)."""
         collision.watchers = max(0, collision.watchers + (1 if on else -1))
         collision.core.watched = collision.watchers > 0
 

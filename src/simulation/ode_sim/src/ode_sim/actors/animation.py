@@ -82,7 +82,7 @@ def load_animation(path: str) -> Animation:
 
 
 def animation_for(path: str, skin: Skeleton) -> Animation:
-    """The animation of a file as the bones of a skin play it.
+    """The animation of the file ``path`` as the bones of ``skin`` play it.
 
     :raises DescriptionError: one line that names the file: it cannot be read, or is of another skeleton.
     """
@@ -120,7 +120,11 @@ def _read(tree: ColladaTree) -> Animation:
 
 
 def assembled(tree, skeleton: Skeleton, moved: dict[int, tuple[np.ndarray, np.ndarray]]) -> Animation:
-    """Of times (T,) and matrices (T, 4, 4) of each bone that moves: all at all times."""
+    """All bones of ``skeleton`` at all times, of those at which each moves.
+
+    :param tree: the file, for errors. :param moved: by the bone's index, times (T,) s and matrices (T, 4, 4) in its parent.
+    :raises DescriptionError: no frames that could be played.
+    """
     times = np.unique(np.concatenate([own for own, _ in moved.values()]))
     count = len(skeleton.bones)
     if len(times) * count > _MOST_NUMBERS:

@@ -112,7 +112,7 @@ def read_bvh(path: str) -> Animation:
 
 
 def fitted(animation: Animation, skin: Skeleton) -> Animation:
-    """The same motion in the bones of the skin: each as long as the skin's, turned by how the two point elsewhere at rest.
+    """The motion of ``animation`` in the bones of ``skin``: each as long as the skin's, turned by how the two point elsewhere at rest.
 
     Its root stays where the script has it, in the file's own axes: what is up there is up, as Gazebo has it.
     """

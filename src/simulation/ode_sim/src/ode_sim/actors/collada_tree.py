@@ -19,6 +19,7 @@ def tag(element: Element) -> str:
 
 
 def children(element: Element | None, name: str) -> list[Element]:
+    """The children of ``element`` with the tag ``name``; none of None."""
     return [child for child in element if tag(child) == name] if element is not None else []
 
 
@@ -47,6 +48,10 @@ class ColladaTree:
         return DescriptionError(f"{self.path}: {reason}")
 
     def number(self, text: str, what: str) -> float:
+        """``text`` as a number; ``what`` it is, for the error.
+
+        :raises DescriptionError: it is none, or not finite.
+        """
         try:
             value = float(text)
         except ValueError:
@@ -56,7 +61,10 @@ class ColladaTree:
         return value
 
     def numbers(self, element: Element | None, what: str) -> np.ndarray:
-        """Those in the text of an element."""
+        """(N,) the numbers in the text of ``element``; ``what`` they are, for the error.
+
+        :raises DescriptionError: there is no element, or one is no finite number.
+        """
         if element is None:
             raise self.fault(f"{what} is missing")
         try:
@@ -68,22 +76,29 @@ class ColladaTree:
         return values
 
     def matrix(self, element: Element | None, what: str) -> np.ndarray:
-        """(4, 4)."""
+        """(4, 4) of the text of ``element``; ``what`` it is, for the error.
+
+        :raises DescriptionError: as :meth:`numbers`, or they are not sixteen.
+        """
         values = self.numbers(element, what)
         if len(values) != 16:
             raise self.fault(f"{what} holds {len(values)} numbers; a matrix has 16")
         return values.reshape(4, 4)
 
     def by_url(self, url: str | None, kind: str) -> Element | None:
-        """The element of that tag and id: another one may have the same id."""
+        """The element with tag ``kind`` and the id ``url`` (``#`` before it or not): one of another tag may have the same id."""
         return self._ids.get((kind, (url or "").strip().lstrip("#")))
 
     def source(self, inputs: Element, semantic: str) -> Element | None:
-        """The ``<source>`` that an ``<input>`` of that meaning names."""
+        """The ``<source>`` that the ``<input>`` of meaning ``semantic`` among ``inputs``' children names."""
         found = next((entry for entry in children(inputs, "input") if entry.get("semantic") == semantic), None)
         return self.by_url(found.get("source"), "source") if found is not None else None
 
     def words(self, source: Element | None, what: str) -> list[str]:
+        """The names in ``source``; ``what`` they are, for the error.
+
+        :raises DescriptionError: it has none.
+        """
         array = child(source, "Name_array")
         array = child(source, "IDREF_array") if array is None else array
         if array is None:

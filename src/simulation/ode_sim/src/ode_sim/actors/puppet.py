@@ -27,7 +27,7 @@ class Rig:
         self.stands = tuple(self._rest[0, 3:].tolist())  # rotation of the root, as the skin was bound
 
     def bend(self, animation: tuple[Animation, ActorAnimation] | None, time: float) -> np.ndarray:
-        """(N, 7) x y z qx qy qz qw of each bone in its parent; at rest without an animation."""
+        """(N, 7) x y z qx qy qz qw of each bone in its parent at ``time`` (s) of ``animation``; at rest without one."""
         poses = self._rest.copy()
         if animation is not None:
             moved = animation[0].moved

@@ -81,7 +81,7 @@ def _load(path: str, _stamp) -> Skeleton:
 
 
 def told_in_one_line(path: str, read: Callable[[], T]) -> T:
-    """What ``read`` returns; what a broken file makes it raise becomes a ``DescriptionError``."""
+    """What ``read`` returns; what a broken file ``path`` makes it raise becomes a ``DescriptionError``."""
     try:
         with np.errstate(all="ignore"):
             return read()
@@ -156,7 +156,7 @@ def matrix_of(transforms: tuple[NodeTransform, ...]) -> np.ndarray:
 
 
 def matrices_of(kind: str, values: np.ndarray) -> np.ndarray:
-    """(T, 4, 4) of a transform whose numbers (T, n) change over time."""
+    """(T, 4, 4) of a transform of ``kind`` matrix, translate, scale or rotate whose numbers ``values`` (T, n) change over time."""
     count = len(values)
     if kind == "matrix":
         return values.reshape(count, 4, 4)

@@ -36,13 +36,17 @@ def piece_name(bone: str, animation: str = "") -> str:
 def load_pieces(path: str, animation: str = "") -> dict[str, list[MeshPart]]:
     """Pieces by the name of their bone; bones without skin have none. Lengths in metres.
 
+    :param path: of the skin. :param animation: of the file that bends it, "" for none
     :raises DescriptionError: one line that names the file.
     """
     return _load(path, animation, file_stamp(path), file_stamp(animation) if animation else ())
 
 
 def load_piece(path: str, submesh: str) -> list[MeshPart]:
-    """The piece that :func:`piece_name` names."""
+    """The piece of the skin ``path`` that ``submesh`` means, see :func:`piece_name`.
+
+    :raises DescriptionError: there is none.
+    """
     bone, _, animation = submesh[len(SKIN_PIECE) :].partition(_BENT_BY)
     pieces = load_pieces(path, animation)
     if bone not in pieces:

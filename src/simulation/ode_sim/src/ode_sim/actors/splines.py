@@ -36,7 +36,7 @@ class PositionSpline:
         return tangents
 
     def at(self, index: int, t: float) -> Vec3:
-        """Between point ``index`` and the next."""
+        """The point at ``t`` (0 to 1) of the way from point ``index`` to the next."""
         p, q = self._points[index], self._points[index + 1]
         u, v = self._tangents[index], self._tangents[index + 1]
         t2, t3 = t * t, t * t * t
@@ -66,7 +66,7 @@ class RotationSpline:
         return tangents
 
     def at(self, index: int, t: float) -> Quat:
-        """Between point ``index`` and the next."""
+        """The rotation at ``t`` (0 to 1) of the way from point ``index`` to the next."""
         direct = _slerp(t, self._points[index], self._points[index + 1], True)
         bent = _slerp(t, self._tangents[index], self._tangents[index + 1], False)
         return quat_normalize(_slerp(2.0 * t * (1.0 - t), direct, bent, False))

@@ -88,7 +88,7 @@ class ResourceFinder:
     # ------------------------------------------------------------------ names to files
 
     def find(self, uri: str, base: str = "") -> str | None:
-        """Absolute path of an existing file or directory, or None.
+        """Absolute path of the existing file or directory ``uri``, or None.
 
         A URI never leads out of the folder that it names (``model://cup/../../secret`` is not found): what is loaded may
         come from a stranger. A plain path may lead anywhere.
@@ -188,7 +188,7 @@ class ResourceFinder:
     # ------------------------------------------------------------------ models
 
     def find_model_sdf(self, uri: str, base: str = "") -> str | None:
-        """The SDF file of a model directory, chosen by its model.config, or of a URI that names a file.
+        """The SDF file of a model directory, chosen by its model.config, or of a ``uri`` that names a file; ``base`` as for :meth:`find`.
 
         :raises DescriptionError: the directory is there, but its model.config or SDF file is not usable.
         """

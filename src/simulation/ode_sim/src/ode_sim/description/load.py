@@ -16,8 +16,9 @@ from ode_sim.description.xmlsource import Element, fault, parse_xml, read_bytes
 
 
 def load_world(path_or_text: str, finder: ResourceFinder | None = None) -> tuple[World, list[Problem]]:
-    """A world from XML text (it starts with ``<``), a path, a URI, or a name such as ``worlds/empty.world``.
+    """A world from ``path_or_text``: XML text (it starts with ``<``), a path, a URI, or a name such as ``worlds/empty.world``.
 
+    :param finder: of the files that it names; None is a :class:`ResourceFinder` of the environment.
     :returns: the world, and what was noticed while reading it, in file order.
     :raises DescriptionError: no such file, not XML, or no ``<world>`` in it.
     """
@@ -83,7 +84,7 @@ class Entity:
 
 
 def root_kind(text: str, finder: ResourceFinder | None = None) -> str:
-    """What a text to spawn is: ``urdf``, ``model``, ``light`` or ``actor``.
+    """What a text to spawn is: ``urdf``, ``model``, ``light`` or ``actor``. ``finder``: as for :func:`load_world`.
 
     :raises DescriptionError: none of these, or not XML.
     """
@@ -95,12 +96,17 @@ def read_model(text: str, *, name: str | None = None, finder: ResourceFinder | N
 
     :param name: takes the place of the one in the text.
     :param file: where the text is from: for messages, and for file names relative to it.
+    :param finder: as for :func:`load_world`.
+    :raises DescriptionError: not XML, or no model in it.
     """
     return Entity(text, finder, file).model(name)
 
 
 def read_urdf(text: str, *, name: str | None = None, finder: ResourceFinder | None = None, file: str = "") -> tuple[Model, list[Problem]]:
-    """A model from URDF text, by Gazebo's conversion rules."""
+    """A model from URDF text, by Gazebo's conversion rules. ``name``, ``finder``, ``file``: as for :func:`read_model`.
+
+    :raises DescriptionError: not XML, or no robot that could be read.
+    """
     reader = SdfReader(finder, os.path.dirname(file))
     root = parse_xml(text, file)
     reader.warn_of_text(root)
@@ -111,7 +117,10 @@ def read_urdf(text: str, *, name: str | None = None, finder: ResourceFinder | No
 def read_sdf_model(
     text: str, *, name: str | None = None, finder: ResourceFinder | None = None, file: str = ""
 ) -> tuple[Model, list[Problem]]:
-    """The first model of SDF text: ``<sdf><model>``, or in a ``<world>``, there also by ``<include>``."""
+    """The first model of SDF text: ``<sdf><model>``, or in a ``<world>``, there also by ``<include>``.
+
+    ``name``, ``finder``, ``file``: as for :func:`read_model`. :raises DescriptionError: not XML, URDF, or without a model.
+    """
     entity = Entity(text, finder, file)
     if entity.kind == "urdf":
         raise DescriptionError(f"{file or 'text'}: is URDF; expected <sdf version='1.6'> as the root element")
@@ -119,7 +128,10 @@ def read_sdf_model(
 
 
 def read_light(text: str, *, name: str | None = None, finder: ResourceFinder | None = None, file: str = "") -> tuple[Light, list[Problem]]:
-    """The first light of SDF text."""
+    """The first light of SDF text. ``name``, ``finder``, ``file``: as for :func:`read_model`.
+
+    :raises DescriptionError: not XML, or without a light.
+    """
     return Entity(text, finder, file).light(name)
 
 

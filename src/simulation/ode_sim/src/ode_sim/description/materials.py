@@ -92,7 +92,7 @@ NAMES = tuple(sorted("Gazebo/" + name for name in _LOOKS))
 
 
 def gazebo_material(name: str, finder: ResourceFinder | None = None) -> Material | None:
-    """The material ``Gazebo/<Colour>`` (case matters), or None if there is no such name."""
+    """The material ``name``, ``Gazebo/<Colour>`` (case matters), or None if there is no such one. ``finder`` finds its texture."""
     look = _LOOKS.get(name[7:]) if name.startswith("Gazebo/") else None
     if look is None:
         return None
@@ -150,7 +150,7 @@ def script_material(name: str, locations: Iterable[str]) -> Material | None:
 
 
 def resource_material(name: str, finder: ResourceFinder) -> Material | None:
-    """The material ``name`` of the scripts on the resource paths (GAZEBO_RESOURCE_PATH, ``gazebo_media_path`` exports)."""
+    """The material ``name`` of the scripts on ``finder``'s resource paths (GAZEBO_RESOURCE_PATH, ``gazebo_media_path`` exports)."""
     return script_material(name, [os.path.join(path, folder) for path in finder.resource_paths for folder in _RESOURCES])
 
 

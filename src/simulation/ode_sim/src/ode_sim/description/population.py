@@ -19,6 +19,7 @@ def population(reader, element: ET.Element, template: ET.Element | None) -> Iter
 
     :param reader: the :class:`~ode_sim.description.sdf.SdfReader` that reads the numbers and takes the warnings.
     :param template: the ``<model>`` to copy; None if there is none, or it could not be included.
+    :param element: the ``<population>``.
     """
     if template is None:
         reader.warn(element, "a population needs a <model> or <include>; left out")

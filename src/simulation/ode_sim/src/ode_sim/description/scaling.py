@@ -16,7 +16,7 @@ def _times(a: Vec3, b: Vec3) -> Vec3:
 
 
 def scaled_geometry(shape: Geometry, scale: Vec3) -> Geometry:
-    """``shape`` stretched along its axes; what is round stays round, as wide as the larger factor makes it."""
+    """``shape`` stretched along its axes by ``scale``, three factors; what is round stays so, as wide as the larger factor makes it."""
     x, y, z = scale
     if isinstance(shape, Box):
         return Box(_times(shape.size, scale))

@@ -11,8 +11,9 @@ ENTITIES = ("model", "light", "actor")
 
 
 def parse_sdf(text: str | bytes, file: str = "") -> Element:
-    """The ``<sdf>`` element (``<gazebo>`` in files before 1.3, or a bare ``<world>``, ``<model>``, ``<light>``).
+    """The ``<sdf>`` element of ``text`` (``<gazebo>`` in files before 1.3, or a bare ``<world>``, ``<model>``, ``<light>``).
 
+    :param file: where the text is from, for messages.
     :raises DescriptionError: not XML, or not SDF.
     """
     return sdf_root(parse_xml(text, file))

@@ -81,7 +81,7 @@ class _Solver:
 
 
 def world_frames(reader, world: ET.Element) -> dict[str, Pose]:
-    """X_W of the ``<frame>``s of a world, as far as they refer to earlier ones."""
+    """X_W of the ``<frame>``s of the element ``world``, as far as they refer to earlier ones; ``reader`` reads their poses."""
     frames: dict[str, Pose] = {}
     for element in world.findall("frame"):
         pose = element.find("pose")

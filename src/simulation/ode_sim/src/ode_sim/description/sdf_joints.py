@@ -64,6 +64,10 @@ class SdfJoints(SdfShapes):
         raise NotImplementedError
 
     def joint(self, element: ET.Element, parts: Parts, known: set[str]) -> list[Joint]:
+        """The joints of a ``<joint>`` ``element``: one, none if it is at fault (a warning says why).
+
+        :param parts: the model as far as it is read, with its frames. :param known: names of its links.
+        """
         name = element.get("name") or ""
         kind = (element.get("type") or "").strip()
         endless = kind == "continuous"

@@ -31,6 +31,7 @@ class SdfValues:
     # ------------------------------------------------------------------ values
 
     def warn(self, element: ET.Element | Source | None, message: str, severity: str = "warning") -> None:
+        """Add ``message`` about ``element`` to the problems, once; ``severity`` is "note", "warning" or "error"."""
         source = element if isinstance(element, Source) else source_of(element) if element is not None else Source()
         problem = Problem(severity, message, source)
         if problem not in self._noticed:
@@ -43,7 +44,9 @@ class SdfValues:
             self.warn(Source(getattr(root, "file", ""), line), f"{what}; the text is not well-formed XML, Gazebo reads it so")
 
     def warn_missing(self, element: ET.Element, uri: str, consequence: str) -> None:
-        """One warning for each name, however often it is used."""
+        """One warning for each ``uri`` that is not found, however often it is used; ``element`` names it, ``consequence`` is what
+        follows.
+        """
         if uri not in self._missing:
             self._missing.add(uri)
             self.warn(element, f"cannot find '{quoted(uri, 200)}' ({self.finder.explain(uri)}); {consequence}")
@@ -52,6 +55,7 @@ class SdfValues:
         """As many numbers as ``default`` has. As in Gazebo, numbers that stand first count, whatever follows them; those
         that are missing, or are a NaN, are taken from the default, with a warning.
 
+        :param element: whose text it is; None or an empty one is the default, without a warning.
         :param nan: the caller deals with values that are not a number.
         :param most: the largest that makes sense, of either sign; beyond it the default is taken, with a warning.
         """
@@ -72,10 +76,11 @@ class SdfValues:
         return cast(Numbers, values)
 
     def number(self, parent: ET.Element | None, path: str, default: float, nan: bool = False, most: float = math.inf) -> float:
+        """The number at ``path`` below ``parent``; ``default``, ``nan`` and ``most`` as for :meth:`numbers`."""
         return self.numbers(parent.find(path), (default,), nan, most)[0] if parent is not None else default
 
     def between(self, parent: ET.Element | None, path: str, default: float, lowest: float, highest: float) -> float:
-        """A number of that range; outside of it the default, with a warning."""
+        """The number at ``path`` below ``parent``, if it is from ``lowest`` to ``highest``; else ``default``, with a warning."""
         value = self.number(parent, path, default)
         if not lowest <= value <= highest:
             self.warn(
@@ -85,18 +90,21 @@ class SdfValues:
         return value
 
     def whole(self, parent: ET.Element | None, path: str, default: int, lowest: int, highest: int) -> int:
-        """As :meth:`between`, without what stands behind the decimal point."""
+        """As :meth:`between` of ``parent``, ``path``, ``default``, ``lowest`` and ``highest``, without what is behind the decimal point."""
         return int(self.between(parent, path, default, lowest, highest))
 
     def vector(self, parent: ET.Element | None, path: str, default: Numbers, most: float = math.inf) -> Numbers:
+        """The numbers at ``path`` below ``parent``, as many as ``default`` has; ``most`` as for :meth:`numbers`."""
         return self.numbers(parent.find(path), default, most=most) if parent is not None else default
 
     @staticmethod
     def boolean(parent: ET.Element, path: str, default: bool) -> bool:
+        """Whether the text at ``path`` below ``parent`` is true; ``default`` where there is none."""
         text = text_of(parent.find(path))
         return is_true(text) if text else default
 
     def rgba(self, parent: ET.Element | None, tag: str, default=None):
+        """The colour ``tag`` of ``parent``, red green blue alpha from 0 to 1, alpha 1 where three are given; else ``default``."""
         element = parent.find(tag) if parent is not None else None
         if element is None or not text_of(element):
             return default

@@ -165,6 +165,7 @@ class Extensions:
             model.extend(block.others)
 
     def insert_in_link(self, element: Element, link: str) -> None:
+        """Put what is said about ``link`` into ``element``, its SDF."""
         for block in self._blocks.get(link, ()):
             if "turnGravityOff" in block.values and block.origin == link:
                 keeps = text_of(block.values["turnGravityOff"]).lower() in ("false", "no", "0")
@@ -176,11 +177,13 @@ class Extensions:
             element.extend(block.others)
 
     def insert_in_collision(self, element: Element, link: str) -> None:
+        """Put what is said about the shapes of ``link`` into ``element``, the SDF of one of its ``<collision>``s."""
         for block in self._blocks_for(element, link, "_collision"):
             self._insert_blobs(element, block.in_collision, "surface")
             self._insert(element, block, _COLLISION_TAGS)
 
     def insert_in_visual(self, element: Element, link: str) -> None:
+        """Put what is said about the looks of ``link`` into ``element``, the SDF of one of its ``<visual>``s."""
         for block in self._blocks_for(element, link, "_visual"):
             self._insert_blobs(element, block.in_visual, "material")
             name = text_of(block.values.get("material"))
@@ -195,6 +198,7 @@ class Extensions:
         return [element for block in self._blocks.get(joint, ()) for element in block.others if element.tag == "sensor"]
 
     def insert_in_joint(self, element: Element, joint: str) -> None:
+        """Put what is said about ``joint`` into ``element``, its SDF."""
         for block in self._blocks.get(joint, ()):
             self._insert(element, block, _JOINT_TAGS)
             element.extend(block.others)

@@ -50,7 +50,7 @@ class JointParts:
 
 
 def name_of(element: ET.Element, key: str = "name") -> str:
-    """:raises DescriptionError: not there, or empty."""
+    """The attribute ``key`` of ``element``. :raises DescriptionError: not there, or empty."""
     value = (element.get(key) or "").strip()
     if not value:
         raise fault(element, f"attribute '{key}' is missing")
@@ -58,7 +58,9 @@ def name_of(element: ET.Element, key: str = "name") -> str:
 
 
 def number(element: ET.Element, key: str, default: float | None = None) -> float:
-    """:param default: where the attribute is not there; without one it must be.
+    """The attribute ``key`` of ``element``.
+
+    :param default: where the attribute is not there; without one it must be.
     :raises DescriptionError: no number, or none at all.
     """
     text = element.get(key)
@@ -73,7 +75,7 @@ def number(element: ET.Element, key: str, default: float | None = None) -> float
 
 
 def floats(element: ET.Element, key: str, default: Numbers) -> Numbers:
-    """The numbers of an attribute, as many as ``default`` has.
+    """The numbers of the attribute ``key`` of ``element``, as many as ``default`` has.
 
     :raises DescriptionError: more, or less, or something else.
     """
@@ -121,7 +123,7 @@ def _hint(text: str) -> str:
 
 
 def inertial(element: ET.Element, problems: Callable[[DescriptionError], None]) -> tuple[float, Pose, tuple[float, ...]]:
-    """Mass (kg), pose and tensor (kg m^2) of an ``<inertial>``; what is at fault is 0, and goes to ``problems``."""
+    """Mass (kg), pose and tensor (kg m^2) of ``element``, an ``<inertial>``; what is at fault is 0, and goes to ``problems``."""
 
     def read(value: Callable[[], Read], otherwise: Read) -> Read:
         try:
@@ -138,7 +140,7 @@ def inertial(element: ET.Element, problems: Callable[[DescriptionError], None]) 
 
 
 def part(inertial: ET.Element, tag: str) -> ET.Element:
-    """:raises DescriptionError: it is not there."""
+    """The child ``tag`` of ``inertial``. :raises DescriptionError: it is not there."""
     found = inertial.find(tag)
     if found is None:
         raise fault(inertial, f"<{tag}> is missing")
@@ -189,7 +191,9 @@ def mesh_scale(mesh: ET.Element) -> tuple[float, ...]:
 
 
 def joint(element: ET.Element, name: str, problems: Callable[[ET.Element, str], None]) -> JointParts:
-    """:param problems: takes what is odd and does no harm.
+    """What ``element``, the ``<joint>`` ``name``, says.
+
+    :param problems: takes what is odd and does no harm.
     :raises DescriptionError: whatever ends the robot in urdfdom.
     """
     kind = name_of(element, "type")

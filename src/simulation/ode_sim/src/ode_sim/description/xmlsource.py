@@ -34,6 +34,7 @@ def parse_xml(text: str | bytes, file: str = "") -> Element:
     As Gazebo's parser does, it tolerates blank lines before the XML declaration, ``--`` inside comments and anything
     after the root element; what is not well-formed is read as TinyXML reads it, and the root's ``oddities`` say what that was.
 
+    :param file: where the text is from, for messages.
     :raises DescriptionError: not well-formed for TinyXML either (the line of text is quoted), too long, too deep, or with entities
         of its own: these may hold other files, or gigabytes.
     """
@@ -191,7 +192,7 @@ def clone(element: ET.Element) -> Element:
 
 
 def child(parent: ET.Element, tag: str, text: str = "", attrib: dict | None = None, like: ET.Element | None = None) -> Element:
-    """Append a new element to ``parent``; it takes the line of ``like``, or of ``parent``."""
+    """Append a new element ``tag`` with ``text`` and ``attrib`` to ``parent``; it takes the line of ``like``, or of ``parent``."""
     element = Element(tag, attrib or {})
     element.text = text
     origin = parent if like is None else like
@@ -214,7 +215,7 @@ def source_of(element: ET.Element) -> Source:
 
 
 def text_of(element: ET.Element | None, default: str = "") -> str:
-    """Stripped text of an element, or its ``value`` attribute as old files have it."""
+    """Stripped text of ``element``, or its ``value`` attribute as old files have it; ``default`` of None."""
     if element is None:
         return default
     value = element.get("value")
@@ -222,7 +223,7 @@ def text_of(element: ET.Element | None, default: str = "") -> str:
 
 
 def joint_end(joint: ET.Element, tag: str) -> str:
-    """The link that a ``<joint>`` names as ``parent`` or ``child``; SDF 1.0 has it in an attribute ``link``."""
+    """The link that a ``<joint>`` names as ``tag``, ``parent`` or ``child``; SDF 1.0 has it in an attribute ``link``."""
     element = joint.find(tag)
     if element is None:
         return ""
