@@ -49,11 +49,13 @@ def cartesian_path(
 ) -> CartesianResult:
     """Joint values that bring a link from way point to way point along straight lines.
 
+    :param scene: with the robot's state, which counts without a ``start``, and what it must not touch with ``avoid_collisions``.
     :param waypoints: poses of the link in the model frame, or in the link's start frame if ``relative``.
     :param link: default the last link of the group.
     :param max_step: largest distance between two steps, m.
     :param jump_threshold: the path ends before a joint-space step above this many times the mean one; 0 = any step will do.
     :param prismatic_jump: the same as an absolute step of a sliding joint, m. ``revolute_jump``: of a turning one, rad.
+    :param constraints: that each step must keep; the path ends before one that does not.
     :param timeout: s that a step may search from other joint values when the last ones do not lead on; 0 = it may not.
     :param position_only: the link's orientation is free: arms with few joints.
     """
@@ -88,7 +90,11 @@ def explain(
     constraints: _core.Constraints | None = None,
     padded: bool = True,
 ) -> str:
-    """Why a state may not be used: limits, constraints, then collision; "" if it may."""
+    """Why ``state`` may not be used in ``scene``: limits, constraints, then collision; "" if it may.
+
+    :param state: default that of the scene. :param group: whose joints and links count, "" for all.
+    :param padded: the links are as thick as the scene's padding makes them.
+    """
     state = state if state is not None else scene.state
     for variable, value, lower, upper in state.violations(group or None, 1e-6):
         return f"'{variable}' is at {value:.4g}, outside its limits {lower:.4g} to {upper:.4g}"
@@ -105,7 +111,7 @@ def explain(
 def is_valid(
     scene: _core.PlanningScene, state: _core.RobotState | None = None, group: str = "", constraints: _core.Constraints | None = None
 ) -> bool:
-    """Within limits, within the constraints and touching nothing."""
+    """Whether ``state`` is within limits and ``constraints`` and touches nothing; ``scene``, ``group``: as for :func:`explain`."""
     return not explain(scene, state, group, constraints)
 
 
@@ -117,7 +123,10 @@ def path_valid(
     constraints: _core.Constraints | None = None,
     padded: bool = True,
 ) -> list[int]:
-    """Indices of the (k, n) way points that collide or break the constraints."""
+    """Indices of the way points ``path`` (k, n) of ``group`` that collide in ``scene`` or break the ``constraints``.
+
+    :param start: where all other joints are. :param padded: as for :func:`explain`.
+    """
     if not len(path):
         return []
     bad = scene.check_states(group, path, start, padded)

@@ -54,7 +54,10 @@ def find_package(name: str) -> str | None:
 
 
 def resolve(uri: str, package: FindPackage = find_package) -> str:
-    """Absolute path of what ``package://``, ``file://`` or a plain name says; "" when there is no such file."""
+    """Absolute path of what ``uri`` says, ``package://``, ``file://`` or a plain name; "" when there is no such file.
+
+    :param package: gives the folder of a package, or "".
+    """
     scheme, separator, rest = uri.strip().partition("://")
     if not separator:
         path: str | None = uri.strip()
@@ -71,9 +74,10 @@ def resolve(uri: str, package: FindPackage = find_package) -> str:
 
 
 def load_mesh(path: str, scale: tuple[float, float, float] = (1.0, 1.0, 1.0), package: FindPackage = find_package) -> _core.Mesh:
-    """A mesh of an STL, DAE, OBJ ... file; ``package://`` will do.
+    """A mesh of ``path``, an STL, DAE, OBJ ... file; ``package://`` will do.
 
     :param scale: per axis.
+    :param package: as for :func:`resolve`.
     :raises InvalidInputError: there is no such file, or it holds no triangles.
     """
     found = resolve(path, package)

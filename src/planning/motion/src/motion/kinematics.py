@@ -77,17 +77,17 @@ def ik(
     random_seed: int | None = None,
     max_restarts: int = -1,
 ) -> IkResult:
-    """Joint values that bring a link to a pose.
+    """Joint values of ``group`` that bring a link to a pose.
 
+    :param scene_or_model: a scene is needed for ``avoid_collisions`` and ``constraints``, which the solution must keep.
     :param pose: in the model frame; a mapping {link: pose} for groups with several tips.
     :param link: the link (or attached body, or ``body/subframe``) of the pose; default the tip of the group.
     :param seed: where to start: a state, which also says where the other joints are, or (n,) group values.
     :param timeout: s. The first solution usually takes some 0.02 ms.
-    :param tolerance: largest norm of the pose error, m and rad together.
-    :param consistency: (n,) largest distance of each joint from the seed.
-    :param valid: an extra test of (n,) group values.
-    :param solutions: how many different ones are wanted.
-    :param max_restarts: tries from random states after the first from the seed; -1: until time is up.
+    :param tolerance: largest norm of the pose error, m and rad together; ``position_only`` leaves the orientation free.
+    :param consistency: (n,) largest distance of each joint from the seed. :param valid: an extra test of (n,) group values.
+    :param solutions: how many different ones are wanted. :param return_approximate: the nearest that was found will do.
+    :param max_restarts: tries from random states, drawn by ``random_seed``, after the first from the seed; -1: until time is up.
     :raises UnknownNameError, InvalidInputError: for what no search can answer.
     """
     scene = scene_or_model if isinstance(scene_or_model, _core.PlanningScene) else None

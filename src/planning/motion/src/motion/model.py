@@ -39,7 +39,10 @@ def load_model(
 
 
 def by_variable(limits: Mapping[str, Any], above: str = "") -> dict[str, dict[str, Any]]:
-    """The tables of joint_limits.yaml by variable name: ``{"base": {"x": {...}}}`` is ``{"base/x": {...}}``."""
+    """The tables ``limits`` of joint_limits.yaml by variable name: ``{"base": {"x": {...}}}`` is ``{"base/x": {...}}``.
+
+    :param above: stands before each name, with its slash.
+    """
     found: dict[str, dict[str, Any]] = {}
     for name, values in limits.items():
         if not isinstance(values, Mapping):

@@ -138,7 +138,7 @@ def _tool(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRe
 
 
 def slerp(a: Pose, b: Pose) -> tuple[float, Callable[[float], np.ndarray]]:
-    """(angle between, quaternion at a share of the way)."""
+    """(angle between ``a`` and ``b``, rad; the quaternion x y z w at a share of the way, 0 to 1, the short way)."""
     qa, qb = np.asarray(a.quaternion), np.asarray(b.quaternion)
     cosine = float(np.dot(qa, qb))
     if cosine < 0:
@@ -167,7 +167,10 @@ def _joint_limits(scene: _core.PlanningScene, group: str, unset: float) -> tuple
 
 
 def check_limits(scene: _core.PlanningScene, trajectory: Trajectory, what: str) -> None:
-    """Refuse what is too fast for the joints between or at its points; what has no limit may be as fast as it likes."""
+    """Refuse a ``trajectory`` that is too fast for the joints between or at its points; what has no limit may be as fast as it likes.
+
+    :param scene: whose robot has the limits. :param what: it is, for the message.
+    """
     velocity, acceleration = _joint_limits(scene, trajectory.group, np.inf)
     assert trajectory.times is not None and trajectory.velocities is not None and trajectory.accelerations is not None
     steps = np.diff(trajectory.positions, axis=0) / np.diff(trajectory.times)[:, None]
@@ -187,7 +190,10 @@ def check_limits(scene: _core.PlanningScene, trajectory: Trajectory, what: str) 
 
 
 def trajectory_of(scene, group: str, start: _core.RobotState, at: Sequence[float], points: Sequence[np.ndarray]) -> Trajectory:
-    """Velocities and accelerations are those of the differences; it starts and ends at rest."""
+    """The trajectory of ``group`` from ``start`` through ``points`` (k, n) at the times ``at`` (s), in ``scene``.
+
+    Velocities and accelerations are those of the differences; it starts and ends at rest.
+    """
     times, positions = np.asarray(at, float), np.asarray(points, float)
     velocities, accelerations = np.zeros_like(positions), np.zeros_like(positions)
     if len(times) > 2:
@@ -281,7 +287,11 @@ def _along(
 def follow(
     scene: _core.PlanningScene, group: str, link: str, pose: Pose, seed: _core.RobotState, problem: str, position_only: bool = False
 ) -> np.ndarray:
-    """Joint values near those of ``seed``, which is put there: no joint is turned back from its limit."""
+    """(n,) joint values of ``group`` that bring ``link`` to ``pose`` in ``scene``, near those of ``seed``, which is put there.
+
+    No joint is turned back from its limit. ``position_only``: the orientation is free.
+    ``problem`` begins the message where there are none.
+    """
     size = scene.model.group(group).size
     found = ik(
         scene,
@@ -389,7 +399,9 @@ def pilz_plan(
 ) -> PlanResult:
     """A timed trajectory without a search: ``request.planner`` is PTP, LIN or CIRC.
 
-    Obstacles are not avoided; a Pipeline checks the result.
+    Obstacles of ``scene`` are not avoided; a Pipeline checks the result.
+
+    :param cancel: ends it from another thread. :param limits: of the tool's speed.
     """
     begun = time.perf_counter()
     start = request.start if request.start is not None else scene.state

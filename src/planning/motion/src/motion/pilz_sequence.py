@@ -83,6 +83,8 @@ def pilz_sequence(
     :param items: (request, blend radius in m to the next one); the last radius must be 0. Only the first motion of a group may
         have a start. Motions of one group that follow each other become one trajectory.
     :param plan: what plans each of them; default :func:`pilz_plan`. The result is looked at for collisions where motions are blended.
+    :param scene: with the robot's state, where the first motion begins without a start of its own.
+    :param cancel: ends it from another thread. :param limits: of the tool's speed.
     """
     begun = time.perf_counter()
     plan = plan or (lambda scene, request, cancel: pilz_plan(scene, request, cancel, limits))

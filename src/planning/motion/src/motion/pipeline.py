@@ -81,6 +81,7 @@ class Pipeline:
                 self.warnings.append(f"request adapter '{name}' is not known and left out (there is: {', '.join(sorted(_ADAPTERS))})")
 
     def number(self, key: str, default: float) -> float:
+        """The pipeline's parameter ``key``, or ``default``. :raises InvalidInputError: it is not a number"""
         try:
             value = float(self.params.get(key, default))
         except (TypeError, ValueError):
@@ -90,7 +91,10 @@ class Pipeline:
     def generate(
         self, scene: _core.PlanningScene, request: MotionRequest, cancel: _core.CancelToken | None = None, planner: Planner = plan
     ) -> PlanResult:
-        """Plan, time and check again. Never raises for what the request says: see the result's status."""
+        """Plan ``request`` in ``scene`` by ``planner``, time and check again. Never raises for what it says: see the result's status.
+
+        :param cancel: ends it from another thread.
+        """
 
         def inner(index: int) -> Planner:
             if index == len(self.adapters):

@@ -148,7 +148,11 @@ class PlanResult:
 def pose_goal(
     link: str, pose: AnyPose, position_tolerance: float = 1e-4, orientation_tolerance: float = 1e-3, frame: str = ""
 ) -> _core.Constraints:
-    """The link at a pose given in ``frame`` ("" = model frame), within a ball (m) and three angles (rad)."""
+    """``link`` at ``pose``, given in ``frame`` ("" = model frame).
+
+    :param position_tolerance: radius of a ball, m. :param orientation_tolerance: of three angles, rad.
+    :raises InvalidInputError: a quaternion of zero.
+    """
     position, quaternion = pose
     region = [(_core.Sphere(position_tolerance), Pose(np.asarray(position, float), np.array([0.0, 0, 0, 1])))]
     norm = float(np.linalg.norm(quaternion))
@@ -163,7 +167,10 @@ def pose_goal(
 def joint_goal(
     model: _core.RobotModel, group: str, values: Mapping[str, float] | Sequence[float], tolerance: float = 1e-4
 ) -> _core.Constraints:
-    """Joint values: a mapping of variables, or all of the group in its order."""
+    """Joint ``values`` of ``group``: a mapping of variables, or all of the group in the order that ``model`` has; rad or m.
+
+    :param tolerance: to either side. :raises InvalidInputError: more or fewer values than the group has variables.
+    """
     if not isinstance(values, Mapping):
         names = model.group(group).variables
         if len(values) != len(names):
@@ -173,7 +180,7 @@ def joint_goal(
 
 
 def named_goal(model: _core.RobotModel, group: str, name: str) -> _core.Constraints:
-    """A named state of the SRDF; joints it does not name are where they are by default."""
+    """The state ``name`` of ``group`` in the SRDF of ``model``; joints that it does not name are where they are by default."""
     model.group(group).named_state(name)
     state = model.state()
     state.set_named(group, name)
@@ -181,7 +188,7 @@ def named_goal(model: _core.RobotModel, group: str, name: str) -> _core.Constrai
 
 
 def planner_problem(name: str, params: Mapping[str, object] = {}) -> str:
-    """What is wrong with a planner's name or its parameters; "" if nothing."""
+    """What is wrong with a planner's ``name`` or its parameters ``params``; "" if nothing."""
     return _core._planner_problem(name, {str(key): _text(value) for key, value in params.items()})
 
 
@@ -219,7 +226,7 @@ def _refusal(error: _core.MotionError) -> str:
 
 
 def plan(scene: _core.PlanningScene, request: MotionRequest, cancel: _core.CancelToken | None = None) -> PlanResult:
-    """A path from the start to one of the goals that touches nothing. Never raises for what a request says: see status.
+    """A path from the start to one of the goals that touches nothing in ``scene``. Never raises for what a request says: see status.
 
     A planner looks at states that are `longest_valid_segment_fraction` apart, and a path may cut a corner between them.
     Each path is therefore looked at closely in the end; one that does is planned again with a quarter of that distance.

@@ -24,7 +24,9 @@ class Pose(NamedTuple):
 
     @staticmethod
     def from_rpy(xyz: Sequence[float], rpy: Sequence[float]) -> Pose:
-        """:param rpy: turns about the fixed axes x, y, z in this order, rad (the rule of URDF)."""
+        """:param xyz: the position, m.
+        :param rpy: turns about the fixed axes x, y, z in this order, rad (the rule of URDF).
+        """
         (cr, cp, cy), (sr, sp, sy) = np.cos(np.asarray(rpy) / 2), np.sin(np.asarray(rpy) / 2)
         return Pose(
             np.asarray(xyz, float),

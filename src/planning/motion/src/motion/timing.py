@@ -23,7 +23,7 @@ def _scaling(value: float) -> float:
 
 
 def above_zero(name: str, what: str, most: float) -> None:
-    """:raises InvalidInputError: ``most``, a joint's velocity or acceleration limit, is none that it can move with"""
+    """:raises InvalidInputError: ``most``, the limit of joint ``name``'s ``what`` (velocity, acceleration), is none it can move with"""
     if not most > 0:
         raise _core.InvalidInputError(f"the {what} limit of joint '{name}' is {most:g}: it must be above 0 (joint_limits.yaml)")
 
@@ -64,6 +64,7 @@ def time_parameterize(
     :param acceleration_scaling: the same for accelerations.
     :param path_tolerance: how far ``time_optimal`` may cut a corner (norm over the joints, rad).
     :param min_angle_change: points nearer than this (largest joint, rad) to the one before are skipped by ``time_optimal``.
+    :param model: whose joints' limits are kept.
     :raises InvalidInputError: unknown method, or limits of zero.
     """
     if method not in _METHODS:

@@ -20,7 +20,7 @@ def msg_to_string(msg) -> bytes:
 
 
 def msg_from_string(msg, data: bytes) -> None:
-    """Fill ``msg`` from its serialised form."""
+    """Fill ``msg`` from ``data``, its serialised form."""
     msg.deserialize(data)
 
 
@@ -44,7 +44,7 @@ def list_to_pose(pose_list: Sequence[float]) -> Pose:
 
 
 def list_to_pose_stamped(pose_list: Sequence[float], target_frame: str) -> PoseStamped:
-    """A PoseStamped in ``target_frame``, stamped now."""
+    """A PoseStamped of ``pose_list`` (x y z m, then qx qy qz qw or roll pitch yaw in rad) in ``target_frame``, stamped now."""
     message = PoseStamped(pose=list_to_pose(pose_list))
     message.header.frame_id = target_frame
     message.header.stamp = rospy.Time.now()

@@ -140,7 +140,7 @@ class GroupRequests:
         return result is not None and self._tell("Moving", result.error_code.val, self._move)
 
     def execute(self, trajectory: RobotTrajectory, wait: bool) -> bool:
-        """Execute a trajectory."""
+        """Execute a ``trajectory``; True when it has ended well or, without ``wait``, at once."""
         self.session.outlast_stop()
         goal = ExecuteTrajectoryGoal(trajectory=trajectory)
         if not wait:
@@ -165,7 +165,10 @@ class GroupRequests:
     # --- services ---
 
     def call(self, name: str, kind: type, request):
-        """Call a service of move_group; None (and an error line) when it cannot be reached within 5 s."""
+        """Call the service ``name`` of move_group, of class ``kind``, with ``request``.
+
+        :return: its response; None (and an error line) when it cannot be reached within 5 s.
+        """
         full = self.session.name(name)
         try:
             rospy.wait_for_service(full, timeout=5.0)
@@ -185,7 +188,11 @@ class GroupRequests:
         return rospy.get_param(f"{node}/default_planning_pipeline", "")
 
     def cartesian(self, waypoints: Sequence, step: float, jump: float, avoid: bool, constraints: Constraints | None, frame: str, link: str):
-        """The response of compute_cartesian_path; None if it does not answer."""
+        """The response of compute_cartesian_path; None if it does not answer.
+
+        :param waypoints: poses of ``link`` in ``frame``. :param step: m between two points.
+        :param jump: as GetCartesianPath's ``jump_threshold``. :param avoid: collisions. :param constraints: to be kept all the way.
+        """
         request = GetCartesianPathRequest(
             group_name=self.group,
             waypoints=list(waypoints),
@@ -205,14 +212,14 @@ class GroupRequests:
     # --- objects ---
 
     def attach(self, name: str, link: str, touch_links: Sequence[str]) -> bool:
-        """Ask move_group to attach an object of the scene."""
+        """Ask move_group to attach the object ``name`` of the scene to ``link``, where it may touch ``touch_links`` (none: that link)."""
         message = AttachedCollisionObject(link_name=link, touch_links=list(touch_links) or [link])
         message.object.id, message.object.operation = name, CollisionObject.ADD
         publish(self._attach, message)
         return True
 
     def detach(self, name: str, links: Sequence[str]) -> bool:
-        """Ask move_group to detach an object, those of a link, or all."""
+        """Ask move_group to detach ``name``, an object or a link with all that it bears; "" is what ``links`` bear."""
         targets: list[AttachedCollisionObject] = []
         if name and self.session.model.has_link(name):
             targets.append(AttachedCollisionObject(link_name=name))
@@ -226,7 +233,9 @@ class GroupRequests:
         return bool(targets)
 
     def pick(self, name: str, grasps: Sequence, plan_only: bool) -> int:
-        """Pick an object; the error code."""
+        """Pick the object ``name`` by one of ``grasps`` (none: move_group finds some), with ``plan_only`` without moving; the error
+        code.
+        """
         goal = PickupGoal(
             target_name=name,
             group_name=self.group,
@@ -244,7 +253,7 @@ class GroupRequests:
         return self._manipulate(self._pick, goal, "Pick")
 
     def place(self, name: str, locations: Sequence, plan_only: bool) -> int:
-        """Place an attached object; the error code."""
+        """Place the attached object ``name`` at one of ``locations``, with ``plan_only`` without moving; the error code."""
         goal = PlaceGoal(
             attached_object_name=name,
             group_name=self.group,

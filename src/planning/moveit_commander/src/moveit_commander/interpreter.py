@@ -194,7 +194,7 @@ class MoveGroupCommandInterpreter:
     # --- for the active group ---
 
     def execute_group_command(self, g: MoveGroupCommander, cmdorig: str) -> Answer:
-        """Execute a line with one group."""
+        """Execute the line ``cmdorig`` with the group ``g``."""
         words = cmdorig.split()
         words[0] = words[0].lower()
         answer = self._assignment(g, cmdorig)

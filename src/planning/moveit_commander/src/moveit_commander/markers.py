@@ -19,7 +19,10 @@ _GREY = ColorRGBA(0.5, 0.5, 0.5, 1.0)
 
 
 def robot_markers(description: RobotDescription, state: motion.RobotState, *args) -> MarkerArray:
-    """Markers of the visual shapes, in the planning frame; for ``args`` see RobotCommander.get_robot_markers."""
+    """Markers of the visual shapes of ``description`` as ``state`` has its joints, in the planning frame.
+
+    For ``args`` see RobotCommander.get_robot_markers; they change ``state``.
+    """
     model, links = description.model, list(description.model.links)
     values: dict[str, float] | None = None
     if args and isinstance(args[0], RobotState):

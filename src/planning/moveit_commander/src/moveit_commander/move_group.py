@@ -119,6 +119,7 @@ class MoveGroupCommander(TargetCommands):
         return self._reference
 
     def set_pose_reference_frame(self, reference_frame: str) -> None:
+        """Poses without a frame are in ``reference_frame`` from now on."""
         self._reference = reference_frame
 
     def get_planning_frame(self) -> str:
@@ -194,12 +195,15 @@ class MoveGroupCommander(TargetCommands):
         self.set_goal_orientation_tolerance(value)
 
     def set_goal_joint_tolerance(self, value: float) -> None:
+        """``value``: rad or m, of each joint."""
         self._targets.joint_tolerance = float(value)
 
     def set_goal_position_tolerance(self, value: float) -> None:
+        """``value``: m, radius of a ball."""
         self._targets.position_tolerance = float(value)
 
     def set_goal_orientation_tolerance(self, value: float) -> None:
+        """``value``: rad, about each axis."""
         self._targets.orientation_tolerance = float(value)
 
     # --- settings of requests ---
@@ -244,7 +248,7 @@ class MoveGroupCommander(TargetCommands):
         self._requests.trajectory_constraints = None
 
     def set_constraints_database(self, host: str, port: int) -> None:
-        """Take names of constraints from the warehouse that runs, or from the database file that ``host`` names.
+        """Take names of constraints from the warehouse that runs, or from the database file that ``host`` names; ``port`` is not used.
 
         :raises MoveItCommanderException: there is none.
         """
@@ -253,6 +257,7 @@ class MoveGroupCommander(TargetCommands):
         self._warehouse = StoredConstraints(host, self._model.name, self._name)
 
     def set_planning_time(self, seconds: float) -> None:
+        """Plan for up to ``seconds``; 0 or less changes nothing."""
         if seconds > 0:
             self._requests.planning_time = float(seconds)
 
@@ -285,9 +290,11 @@ class MoveGroupCommander(TargetCommands):
         self._requests.workspace = tuple([*values[:2], 0.0, *values[2:], 0.0] if len(values) == 4 else values)
 
     def set_max_velocity_scaling_factor(self, value: float) -> None:
+        """``value``: share of the joints' velocity limits, above 0 and up to 1."""
         self._requests.velocity = self._factor(value)
 
     def set_max_acceleration_scaling_factor(self, value: float) -> None:
+        """``value``: share of the joints' acceleration limits, above 0 and up to 1."""
         self._requests.acceleration = self._factor(value)
 
     @staticmethod
@@ -297,7 +304,7 @@ class MoveGroupCommander(TargetCommands):
         return float(value)
 
     def limit_max_cartesian_link_speed(self, speed: float, link_name: str = "") -> None:
-        """The largest speed (m/s) of a link."""
+        """The largest ``speed`` (m/s) of link ``link_name`` (default: the end effector)."""
         if not speed > 0.0:
             raise MoveItCommanderException("Expected speed value to be greater than 0")
         self._requests.speed, self._requests.speed_link = float(speed), link_name or self._eef
@@ -308,7 +315,10 @@ class MoveGroupCommander(TargetCommands):
     # --- doing ---
 
     def go(self, joints=None, wait: bool = True) -> bool:
-        """Plan and move to the target, or to ``joints``: values, a dict, a JointState, a Pose, or a remembered name."""
+        """Plan and move to the target, or to ``joints``: values, a dict, a JointState, a Pose, or a remembered name.
+
+        :param wait: until the motion has ended; False returns as soon as it is asked for. :return: whether that worked.
+        """
         if isinstance(joints, bool):
             wait, joints = joints, None
         self._take_target(joints)
@@ -339,7 +349,7 @@ class MoveGroupCommander(TargetCommands):
         )
 
     def execute(self, trajectory, wait: bool = True) -> bool:
-        """Execute a planned RobotTrajectory (or JointTrajectory, or what :meth:`plan` returned)."""
+        """Execute ``trajectory``, a RobotTrajectory (or JointTrajectory, or what :meth:`plan` returned); ``wait`` as for :meth:`go`."""
         if isinstance(trajectory, tuple):
             if not isinstance(trajectory, PlanTuple):
                 raise MoveItCommanderException("plan() returns (success, trajectory, time, code): execute its second element, plan()[1]")
@@ -368,7 +378,8 @@ class MoveGroupCommander(TargetCommands):
         ``eef_step`` metres:
         (trajectory, fraction that could be followed); the fraction is -1.0 on an error.
 
-        ``jump_threshold`` may be left out: ``compute_cartesian_path(waypoints, step, True)``.
+        ``jump_threshold`` may be left out: ``compute_cartesian_path(waypoints, step, True)``. The path ends before what collides
+        (with ``avoid_collisions``) or breaks ``path_constraints``.
         """
         if isinstance(jump_threshold, bool):  # newer versions have no jump_threshold
             if not isinstance(avoid_collisions, bool):
@@ -392,7 +403,11 @@ class MoveGroupCommander(TargetCommands):
         acceleration_scaling_factor: float = 1.0,
         algorithm: str = "iterative_time_parameterization",
     ) -> RobotTrajectory:
-        """A trajectory with new times. An unknown algorithm gives an empty one."""
+        """``traj_in`` with new times, within these shares of the joints' limits. An unknown ``algorithm`` gives an empty one.
+
+        :param ref_state_in: where the joints are that it does not move.
+        :param velocity_scaling_factor, acceleration_scaling_factor: above 0 and up to 1.
+        """
         if algorithm not in _ALGORITHMS:
             rospy.logerr("Unknown time parameterization algorithm: %s; there are: %s", algorithm, ", ".join(_ALGORITHMS))
             return RobotTrajectory()
@@ -413,7 +428,7 @@ class MoveGroupCommander(TargetCommands):
         return state
 
     def get_jacobian_matrix(self, joint_values: Sequence[float], reference_point: Sequence[float] | None = None) -> np.ndarray:
-        """The (6, n) Jacobian of the end effector at ``joint_values``, rows v and w."""
+        """The (6, n) Jacobian of the end effector's ``reference_point`` (its frame, m) at ``joint_values``, rows v and w."""
         state = self._model.state()
         state.set_group(self._name, np.asarray(joint_values, dtype=float))
         point = (0.0, 0.0, 0.0) if reference_point is None else tuple(reference_point)
@@ -433,8 +448,10 @@ class MoveGroupCommander(TargetCommands):
     # --- objects ---
 
     def attach_object(self, object_name: str, link_name: str = "", touch_links: Sequence[str] = ()) -> bool:
-        """Ask move_group to attach an object of the scene to a link (default: the end effector). True: the request was
-        sent."""
+        """Ask move_group to attach ``object_name`` of the scene to ``link_name`` (default: the end effector). True: it was asked.
+
+        ``touch_links`` may touch the object; none named: the link itself.
+        """
         link = link_name or self._eef or (self._group.links[0] if self._group.links else "")
         if not link:
             rospy.logerr("No known link to attach object '%s' to", object_name)
@@ -446,11 +463,14 @@ class MoveGroupCommander(TargetCommands):
         return self._requests.detach(name, self._group.links)
 
     def pick(self, object_name: str, grasp: Grasp | Sequence[Grasp] = (), plan_only: bool = False) -> int:
-        """Pick an object; the error code."""
+        """Pick ``object_name`` by ``grasp``, or the best of several, with ``plan_only`` without moving; the error code."""
         return self._requests.pick(object_name, [grasp] if isinstance(grasp, Grasp) else list(grasp), plan_only)
 
     def place(self, object_name: str, location=None, plan_only: bool = False) -> bool:
-        """Place an attached object: at a Pose, PoseStamped or PlaceLocation, or at any of a list of the latter two."""
+        """Place the attached ``object_name`` at ``location``: a Pose, PoseStamped or PlaceLocation, or any of a list of the latter two.
+
+        ``plan_only``: do not move.
+        """
         locations = location if isinstance(location, list) else [location] if location else []
         wrong = [entry for entry in locations if not isinstance(entry, (Pose, PoseStamped, PlaceLocation))]
         if wrong:

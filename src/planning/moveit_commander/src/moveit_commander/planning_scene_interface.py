@@ -75,31 +75,41 @@ class PlanningSceneInterface:
     # --- adding ---
 
     def add_object(self, collision_object: CollisionObject) -> None:
+        """Add ``collision_object``, or do with it what its ``operation`` says."""
         self._submit(collision_object)
 
     def add_sphere(self, name: str, pose, radius: float = 1) -> None:
+        """Add a sphere ``name`` of ``radius`` m at ``pose``: a PoseStamped, a Pose in the planning frame, or a list x y z (r p y)."""
         self._submit(self.make_sphere(name, pose, radius))
 
     def add_cylinder(self, name: str, pose, height: float, radius: float) -> None:
+        """Add a cylinder ``name`` at ``pose``, ``height`` m along its z axis, of ``radius`` m."""
         self._submit(self.make_cylinder(name, pose, height, radius))
 
     def add_cone(self, name: str, pose, height: float, radius: float) -> None:
+        """Add a cone ``name`` at ``pose``, ``height`` m along its z axis, of ``radius`` m at the bottom."""
         self._submit(self.make_cone(name, pose, height, radius))
 
     def add_mesh(self, name: str, pose, filename: str, size: Sequence[float] = (1, 1, 1)) -> None:
-        """``size`` is a scale; all meshes of the file are taken as one."""
+        """Add the mesh of ``filename`` as ``name`` at ``pose``; ``size`` is a scale; all meshes of the file are taken as one."""
         self._submit(self.make_mesh(name, pose, filename, size))
 
     def add_box(self, name: str, pose, size: Sequence[float] = (1, 1, 1)) -> None:
+        """Add a box ``name`` at ``pose``, its middle, with sides of ``size``, m."""
         self._submit(self.make_box(name, pose, size))
 
     def add_plane(self, name: str, pose, normal: Sequence[float] = (0, 0, 1), offset: float = 0) -> None:
+        """Add the plane ``normal`` . p + ``offset`` = 0 as ``name``, p in the frame of ``pose``."""
         self._submit(self.make_plane(name, pose, normal, offset))
 
     # --- attaching ---
 
     def attach_object(self, object, link: str | None = None, touch_links: Sequence[str] | None = None) -> None:
-        """Attach a CollisionObject, an AttachedCollisionObject, or the object of the scene that has a name."""
+        """Attach ``object``: a CollisionObject, an AttachedCollisionObject, or the name of an object of the scene.
+
+        :param link: that bears it; None: the one that an AttachedCollisionObject names.
+        :param touch_links: that may touch it; None: ``link`` alone.
+        """
         if isinstance(object, str):
             object = CollisionObject(id=object)
         if isinstance(object, CollisionObject):
@@ -118,20 +128,36 @@ class PlanningSceneInterface:
         size: Sequence[float] = (1, 1, 1),
         touch_links: Sequence[str] | None = None,
     ) -> None:
+        """Attach the mesh of ``filename`` at ``pose``, or the object ``name`` of the scene without them, to ``link``.
+
+        ``size`` is a scale; ``touch_links``: as for :meth:`attach_object`.
+        """
         item = self.make_mesh(name, pose, filename, size) if pose is not None and filename else name
         self.attach_object(item, link, touch_links)
 
     def attach_box(
         self, link: str, name: str, pose=None, size: Sequence[float] = (1, 1, 1), touch_links: Sequence[str] | None = None
     ) -> None:
+        """Attach a box of ``size`` (m) at ``pose``, or the object ``name`` of the scene without one, to ``link``.
+
+        ``touch_links``: as for :meth:`attach_object`.
+        """
         self.attach_object(self.make_box(name, pose, size) if pose is not None else name, link, touch_links)
 
     def attach_sphere(self, link: str, name: str, pose=None, radius: float = 1, touch_links: Sequence[str] | None = None) -> None:
+        """Attach a sphere of ``radius`` (m) at ``pose``, or the object ``name`` of the scene without one, to ``link``.
+
+        ``touch_links``: as for :meth:`attach_object`.
+        """
         self.attach_object(self.make_sphere(name, pose, radius) if pose is not None else name, link, touch_links)
 
     def attach_cylinder(
         self, link: str, name: str, pose=None, height: float = 1, radius: float = 1, touch_links: Sequence[str] | None = None
     ) -> None:
+        """Attach a cylinder of ``height`` and ``radius`` (m) at ``pose``, or the object ``name`` of the scene without one, to ``link``.
+
+        ``touch_links``: as for :meth:`attach_object`.
+        """
         self.attach_object(self.make_cylinder(name, pose, height, radius) if pose is not None else name, link, touch_links)
 
     # --- removing ---
@@ -146,7 +172,7 @@ class PlanningSceneInterface:
         self._submit(CollisionObject(id=name or "", operation=CollisionObject.REMOVE))
 
     def remove_attached_object(self, link: str | None = None, name: str | None = None) -> None:
-        """Detach an object, those of a link, or all; they stay in the world."""
+        """Detach the object ``name``, those of ``link``, or all; they stay in the world."""
         message = AttachedCollisionObject(link_name=link or "")
         message.object.id, message.object.operation = name or "", CollisionObject.REMOVE
         self._submit(message, attach=True)
@@ -164,7 +190,10 @@ class PlanningSceneInterface:
     def get_known_object_names_in_roi(
         self, minx: float, miny: float, minz: float, maxx: float, maxy: float, maxz: float, with_type: bool = False
     ) -> list[str]:
-        """Objects of which all shapes have their origin in a box of the planning frame."""
+        """Objects of which all shapes have their origin in a box of the planning frame; ``with_type``: only those of a known type.
+
+        :param minx, miny, minz, maxx, maxy, maxz: the box, m.
+        """
         names = []
         for item in self._world():
             poses = [*item.primitive_poses, *item.mesh_poses]
@@ -181,6 +210,7 @@ class PlanningSceneInterface:
         return names
 
     def get_object_poses(self, object_ids: Sequence[str]) -> dict[str, Pose]:
+        """{name: pose in the planning frame} of those of ``object_ids`` that are there."""
         return {item.id: item.pose for item in self._world() if item.id in object_ids}
 
     def get_objects(self, object_ids: Sequence[str] = ()) -> dict[str, CollisionObject]:
@@ -237,24 +267,29 @@ class PlanningSceneInterface:
 
     @staticmethod
     def make_box(name: str, pose, size: Sequence[float]) -> CollisionObject:
+        """The message of :meth:`add_box` with ``name``, ``pose`` and ``size``."""
         return PlanningSceneInterface._make_primitive(name, pose, SolidPrimitive.BOX, size)
 
     @staticmethod
     def make_sphere(name: str, pose, radius: float) -> CollisionObject:
+        """The message of :meth:`add_sphere` with ``name``, ``pose`` and ``radius``."""
         return PlanningSceneInterface._make_primitive(name, pose, SolidPrimitive.SPHERE, [radius])
 
     @staticmethod
     def make_cylinder(name: str, pose, height: float, radius: float) -> CollisionObject:
+        """The message of :meth:`add_cylinder` with ``name``, ``pose``, ``height`` and ``radius``."""
         return PlanningSceneInterface._make_primitive(name, pose, SolidPrimitive.CYLINDER, [height, radius])
 
     @staticmethod
     def make_cone(name: str, pose, height: float, radius: float) -> CollisionObject:
+        """The message of :meth:`add_cone` with ``name``, ``pose``, ``height`` and ``radius``."""
         return PlanningSceneInterface._make_primitive(name, pose, SolidPrimitive.CONE, [height, radius])
 
     @staticmethod
     def make_mesh(name: str, pose, filename: str, scale: Sequence[float] = (1, 1, 1)) -> CollisionObject:
-        """A mesh from a file (STL, DAE, OBJ; also package:// and file://).
+        """The message of :meth:`add_mesh`: ``name`` at ``pose``, from ``filename`` (STL, DAE, OBJ; also package:// and file://).
 
+        :param scale: along each axis.
         :raises MoveItCommanderException: the file cannot be read.
         """
         message = PlanningSceneInterface._make(name, pose)
@@ -266,6 +301,7 @@ class PlanningSceneInterface:
         return message
 
     def make_plane(self, name: str, pose, normal: Sequence[float] = (0, 0, 1), offset: float = 0) -> CollisionObject:
+        """The message of :meth:`add_plane` with ``name``, ``pose``, ``normal`` and ``offset``."""
         message = self._make(name, pose)
         message.planes, message.plane_poses = [Plane([*(float(value) for value in normal), float(offset)])], [message.pose]
         message.pose = Pose()

@@ -55,7 +55,7 @@ class RobotCommander:
             return values[0] if len(values) == 1 else values
 
         def move(self, position, wait: bool = True) -> bool:
-            """Move this joint alone, with the smallest group that has it."""
+            """Move this joint alone to ``position`` (rad or m), with the smallest group that has it; ``wait`` as MoveGroupCommander.go."""
             group = self._robot.get_default_owner_group(self._name)
             if group is None:
                 raise MoveItCommanderException(f"There is no known group containing joint {self._name}. Cannot move.")
@@ -142,11 +142,13 @@ class RobotCommander:
         return {name: float(value) for name, value in self._state().as_dict().items()}
 
     def get_joint(self, name: str) -> RobotCommander.Joint:
+        """The joint ``name``. :raises MoveItCommanderException: there is none"""
         if not self._model.has_joint(name):
             raise MoveItCommanderException(f"There is no joint named {name}")
         return self.Joint(self, name)
 
     def get_link(self, name: str) -> RobotCommander.Link:
+        """The link ``name``. :raises MoveItCommanderException: there is none"""
         if not self._model.has_link(name):
             raise MoveItCommanderException(f"There is no link named {name}")
         return self.Link(self, name)
@@ -159,6 +161,7 @@ class RobotCommander:
         return self._groups[name]
 
     def has_group(self, name: str) -> bool:
+        """Whether the SRDF has the group ``name``."""
         return self._model.has_group(name)
 
     def get_default_owner_group(self, joint_name: str) -> str | None:

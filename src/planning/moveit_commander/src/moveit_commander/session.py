@@ -91,7 +91,7 @@ class Session:
 
 
 def session(description: str, ns: str = "") -> Session:
-    """The session of a description and namespace, made at the first call.
+    """The session of ``description``, a parameter's name, and the namespace ``ns`` of move_group, made at the first call.
 
     :raises RuntimeError: the robot cannot be loaded.
     """
@@ -158,8 +158,9 @@ class Action:
 
 
 def publish(publisher: rospy.Publisher, message, patience: float = 5.0) -> None:
-    """Publish once somebody listens, or after ``patience`` wall seconds: what is sent before is lost. To a publisher that
-    was closed and made again, rospy comes back half a second, one and two seconds after it has noticed."""
+    """Publish ``message`` once somebody listens, or after ``patience`` wall seconds: what is sent before is lost. To a publisher that
+    was closed and made again, rospy comes back half a second, one and two seconds after it has noticed.
+    """
     end = time.monotonic() + patience
     while publisher.get_num_connections() == 0 and time.monotonic() < end and not rospy.is_shutdown():
         time.sleep(0.01)

@@ -64,9 +64,9 @@ class TargetCommands:
         return [float(value) for value in self._targets.state.get_group(self._name)]
 
     def set_joint_value_target(self, arg1, arg2=None, arg3=None) -> None:
-        """A target of joint values: a list or a dict or a JointState; a joint name and its value (or values); or a
-        Pose or PoseStamped
-        with, optionally, a link and whether an approximate solution will do: its inverse kinematics is computed here.
+        """A target of joint values, rad or m: a list or a dict or a JointState (``arg1``); a joint name and its value (or values:
+        ``arg1``, ``arg2``); or a Pose or PoseStamped with, optionally, a link and whether an approximate solution will do
+        (``arg2``, ``arg3``): its inverse kinematics is computed here.
 
         :raises MoveItCommanderException: not understood, or out of bounds (the target is changed all the same).
         """
@@ -160,21 +160,24 @@ class TargetCommands:
         return message
 
     def set_rpy_target(self, rpy: Sequence[float], end_effector_link: str = "") -> None:
-        """Only an orientation: [roll, pitch, yaw], radians, in the pose reference frame."""
+        """Only an orientation: ``rpy`` [roll, pitch, yaw], radians, in the pose reference frame.
+
+        ``end_effector_link``: "" is the group's; so it is in the methods below.
+        """
         link = self._link(end_effector_link)
         if len(rpy) != 3:
             raise MoveItCommanderException("Expected [roll, pitch, yaw]")
         self._set_part(link, targets.ORIENTATION, orientation=quaternion_from_euler(*rpy))
 
     def set_orientation_target(self, q: Sequence[float], end_effector_link: str = "") -> None:
-        """Only an orientation: [qx, qy, qz, qw]."""
+        """Only an orientation of ``end_effector_link``: ``q`` [qx, qy, qz, qw], in the pose reference frame."""
         link = self._link(end_effector_link)
         if len(q) != 4:
             raise MoveItCommanderException("Expected [qx, qy, qz, qw]")
         self._set_part(link, targets.ORIENTATION, orientation=q)
 
     def set_position_target(self, xyz: Sequence[float], end_effector_link: str = "") -> None:
-        """Only a position: [x, y, z], metres, in the pose reference frame."""
+        """Only a position of ``end_effector_link``: ``xyz`` [x, y, z], metres, in the pose reference frame."""
         self._set_part(self._link(end_effector_link), targets.POSITION, position=xyz)
 
     def _set_part(self, link: str, kind: str, position=None, orientation=None) -> None:
@@ -186,7 +189,9 @@ class TargetCommands:
         self._targets.set_poses(link, [self._stamped(conversions.list_to_pose(values))], kind)
 
     def set_pose_target(self, pose, end_effector_link: str = "") -> None:
-        """A pose: PoseStamped, Pose, or a list [x y z r p y] or [x y z qx qy qz qw] in the pose reference frame."""
+        """A ``pose`` of ``end_effector_link``: PoseStamped, Pose, or a list [x y z r p y] or [x y z qx qy qz qw] in the pose reference
+        frame.
+        """
         link = self._link(end_effector_link)
         self._targets.set_poses(link, [self._pose_target(pose)])
 
@@ -198,14 +203,16 @@ class TargetCommands:
         return self._stamped(pose if isinstance(pose, Pose) else conversions.list_to_pose(pose))
 
     def set_pose_targets(self, poses: Sequence, end_effector_link: str = "") -> None:
-        """Poses any of which will do."""
+        """Of ``poses`` of ``end_effector_link``, as for :meth:`set_pose_target`, any one will do."""
         link = self._link(end_effector_link, "There is no end effector to set poses for")
         if not poses:
             raise MoveItCommanderException("Unable to set target poses")
         self._targets.set_poses(link, [self._pose_target(pose) for pose in poses])
 
     def shift_pose_target(self, axis: int, value: float, end_effector_link: str = "") -> None:
-        """The present pose, shifted by ``value`` along an axis: 0 1 2 for x y z (m), 3 4 5 for roll pitch yaw (rad)."""
+        """The present pose of ``end_effector_link``, shifted by ``value`` along ``axis``: 0 1 2 for x y z (m), 3 4 5 for roll pitch yaw
+        (rad).
+        """
         link = self._link(end_effector_link, "There is no end effector to set poses for")
         if not 0 <= axis < 6:
             raise MoveItCommanderException("An axis value between 0 and 5 expected")
@@ -231,6 +238,10 @@ class TargetCommands:
         return [*self._group.named_states, *(name for name in self._remembered if name not in self._group.named_states)]
 
     def set_named_target(self, name: str) -> None:
+        """Joint values that were remembered as ``name``, or the state of that name in the SRDF.
+
+        :raises MoveItCommanderException: there is neither.
+        """
         if name in self._remembered:
             self.set_joint_value_target(self._remembered[name])
         elif name in self._group.named_states:

@@ -43,7 +43,7 @@ class Targets:
         return not wrong
 
     def set_poses(self, link: str, poses: Sequence[PoseStamped], kind: str = POSE) -> None:
-        """Take poses of ``link``, any of which will do."""
+        """Take ``poses`` of ``link``, any of which will do; ``kind``: what of them counts, POSE, POSITION or ORIENTATION."""
         self.kind = kind
         self.poses[link] = list(poses)
 

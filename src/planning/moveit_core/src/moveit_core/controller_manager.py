@@ -88,7 +88,7 @@ class ControllerManager(ABC):
         return controller in self.active_controllers()
 
     def switch(self, activate: Sequence[str], deactivate: Sequence[str]) -> bool:
-        """Activate and deactivate controllers; False when that cannot be done."""
+        """Activate the controllers ``activate`` and stop ``deactivate`` (names); False when that cannot be done."""
         return False
 
     def reload(self) -> None:
@@ -127,6 +127,7 @@ class Completion:
             return True
 
     def wait(self, timeout: float | None = None) -> bool:
+        """Wait until it has ended, up to ``timeout`` wall s (None: for ever). :return: whether it has"""
         return self._done.wait(timeout)
 
     @property

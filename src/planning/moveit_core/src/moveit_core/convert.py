@@ -28,7 +28,7 @@ def strip(frame: str) -> str:
 def finite(values: Iterable[float], what: str) -> tuple[float, ...]:
     """``values`` as a tuple.
 
-    :raises ValueError: one of them is NaN or infinite.
+    :raises ValueError: one of them is NaN or infinite; the line begins with ``what`` they are.
     """
     result = tuple(float(value) for value in values)
     if not all(math.isfinite(value) for value in result):
@@ -37,8 +37,9 @@ def finite(values: Iterable[float], what: str) -> tuple[float, ...]:
 
 
 def pose(message, what: str = "the pose", empty_is_identity: bool = True) -> motion.Pose:
-    """A geometry_msgs/Pose (or Transform) as a Pose; the quaternion is normalised, an empty one is no rotation.
+    """``message``, a geometry_msgs/Pose (or Transform), as a Pose; the quaternion is normalised, an empty one is no rotation.
 
+    :param what: it is, for the error.
     :raises ValueError: not finite, or the quaternion is zero and ``empty_is_identity`` is False.
     """
     at = message.translation if isinstance(message, Transform) else message.position
@@ -65,7 +66,7 @@ def transform_message(value) -> Transform:
 
 
 def pose_stamped(frame: str, value, stamp=None) -> PoseStamped:
-    """A PoseStamped of ``value`` in ``frame``."""
+    """A PoseStamped of ``value`` in ``frame``, with ``stamp`` if that is given."""
     message = PoseStamped(pose=pose_message(value))
     message.header.frame_id = frame
     if stamp is not None:
@@ -130,7 +131,7 @@ def plane(message: Plane):
 
 
 def shapes(message, owner: str) -> tuple[list, list[motion.Pose]]:
-    """Shapes and their poses of a CollisionObject or BoundingVolume, primitives first, then meshes, then planes.
+    """Shapes and their poses of ``message``, a CollisionObject or BoundingVolume: primitives first, then meshes, then planes.
 
     Missing poses are identities.
 
@@ -156,7 +157,10 @@ def shapes(message, owner: str) -> tuple[list, list[motion.Pose]]:
 
 
 def fill_shapes(message, found: Sequence, poses: Sequence) -> None:
-    """Append shapes and poses to the fields of a CollisionObject or BoundingVolume; octrees have no message there."""
+    """Append the shapes ``found`` and their ``poses`` to the fields of ``message``, a CollisionObject or BoundingVolume.
+
+    Octrees have no message there.
+    """
     for shape, where in zip(found, poses):
         if isinstance(shape, motion.Mesh):
             message.meshes.append(
@@ -185,8 +189,9 @@ def primitive_message(shape) -> SolidPrimitive:
 
 
 def constraints(message: Constraints, scene) -> motion.Constraints:
-    """A Constraints message, as a planner takes it.
+    """A Constraints ``message``, as a planner takes it.
 
+    :param scene: in which its frames are looked up, and the robot's joints and links.
     :raises ValueError: a constraint that cannot be used (unknown joint or link, no region, not finite).
     """
     result = motion.Constraints(name=message.name)
@@ -198,7 +203,7 @@ def constraints(message: Constraints, scene) -> motion.Constraints:
 
 
 def path_constraints(message: Constraints, scene, warn: Callable[[str], None]) -> motion.Constraints:
-    """Constraints that are to be kept all the way, as a planner takes them.
+    """Constraints of ``message`` that are to be kept all the way, as a planner takes them; ``scene`` as for :func:`constraints`.
 
     Position and orientation constraints without a link's name are left out, as MoveIt does; ``warn`` is told so.
 

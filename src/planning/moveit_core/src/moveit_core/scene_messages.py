@@ -285,7 +285,7 @@ class SceneEditor:
 
 
 def attached_body(scene, state, message: AttachedCollisionObject) -> motion.AttachedBody:
-    """The body that an AttachedCollisionObject with shapes describes, placed as ``state`` has the link.
+    """The body that ``message``, with shapes, describes, placed as ``state`` has the link; its frame is looked up in ``scene``.
 
     :raises ValueError: impossible shapes, or a frame that nobody knows.
     """
@@ -414,7 +414,7 @@ def acm_message(matrix: motion.AllowedCollisionMatrix) -> AllowedCollisionMatrix
 
 
 def object_message(scene, name: str, geometry: bool = True) -> CollisionObject:
-    """An object of the world as an ADD message in the model frame."""
+    """The object ``name`` of ``scene``'s world as an ADD message in the model frame; without ``geometry`` its name and type alone."""
     item = scene.object(name)
     message = CollisionObject(id=name, operation=CollisionObject.ADD)
     message.header.frame_id = scene.frame

@@ -75,7 +75,7 @@ def _frame_of_joints(scene, state: motion.RobotState, multi: MultiDOFJointState)
 
 
 def set_multi_dof(state: motion.RobotState, joint: str, pose: motion.Pose) -> None:
-    """Put a floating or planar joint at ``pose`` (of its child in its parent frame); joints of other types are left."""
+    """Put the floating or planar ``joint`` of ``state`` at ``pose`` (of its child in its parent frame); other joints are left."""
     if not state.model.has_joint(joint):
         return
     kind = state.model.joint(joint).type
@@ -94,7 +94,7 @@ def set_multi_dof(state: motion.RobotState, joint: str, pose: motion.Pose) -> No
 
 
 def multi_dof_pose(state: motion.RobotState, joint: str) -> motion.Pose:
-    """Pose of a floating or planar joint."""
+    """Pose of the floating or planar ``joint`` in ``state``, of its child in its parent frame."""
     values = [float(value) for value in state.get_joint(joint)]
     if state.model.joint(joint).type == "floating":
         return motion.Pose(np.array(values[:3]), np.array(values[3:]))
@@ -107,7 +107,10 @@ def _multi_dof_joints(model) -> list[str]:
 
 
 def robot_state_message(state: motion.RobotState, attached: bool = True, velocities: bool = False) -> RobotState:
-    """The whole state: all one-variable joints by position, the others by transform, and the attached bodies."""
+    """The whole ``state``: all one-variable joints by position, the others by transform.
+
+    :param attached: with the attached bodies. :param velocities: with those of the one-variable joints, where they are known.
+    """
     model, message = state.model, RobotState()
     message.joint_state.header.frame_id = message.multi_dof_joint_state.header.frame_id = model.frame
     names = one_variable_joints(model)
@@ -144,13 +147,13 @@ def attached_message(body: motion.AttachedBody) -> AttachedCollisionObject:
 
 
 def fill_type(item: CollisionObject, kind: str | None) -> None:
-    """Write the type that a scene keeps of an object into a CollisionObject."""
+    """Write ``kind``, the type that a scene keeps of an object, into ``item``; None changes nothing."""
     if kind:
         item.type = ObjectType(*kind.split("\t", 1))
 
 
 def fill_subframes(item: CollisionObject, subframes) -> None:
-    """Write a dict name -> pose into a CollisionObject."""
+    """Write ``subframes``, a dict name -> pose, into ``item``."""
     for name, where in sorted(subframes.items()):
         item.subframe_names.append(name)
         item.subframe_poses.append(convert.pose_message(where))
@@ -198,7 +201,7 @@ def trajectory_message(trajectory: motion.Trajectory | None) -> RobotTrajectory:
 
 
 def trajectory_from_message(model, group: str, reference: motion.RobotState, message: RobotTrajectory) -> motion.Trajectory:
-    """A trajectory of ``group`` from a message; joints that the message lacks stay as in ``reference``.
+    """A trajectory of ``group`` of ``model`` from ``message``; joints that it lacks stay as in ``reference``.
 
     :raises ValueError: points without the positions of all named joints, a joint that the group lacks, times that run
         back.

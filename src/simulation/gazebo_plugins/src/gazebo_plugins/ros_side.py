@@ -29,6 +29,7 @@ class Topics:
         self._made: list[Any] = []
 
     def resolve(self, name: str) -> str:
+        """The absolute name of ``name`` in the plugin's namespace."""
         return names.join(self.namespace, name)
 
     def frame(self, name: str) -> str:
@@ -38,12 +39,15 @@ class Topics:
         return names.resolve_frame(self._prefix, name)
 
     def publisher(self, name: str, kind: type, queue_size: int = 1, latch: bool = False) -> rospy.Publisher:
+        """A publisher of messages ``kind`` on ``name``; ``queue_size`` and ``latch`` as for ``rospy.Publisher``."""
         return self._keep(offers.publisher(self.resolve(name), kind, queue_size=queue_size, latch=latch))
 
     def subscriber(self, name: str, kind: type, callback: Callable[[Any], None], queue_size: int = 1) -> rospy.Subscriber:
+        """Call ``callback``, in a thread of rospy, with each message of class ``kind`` on ``name``; of ``queue_size`` that wait."""
         return self._keep(offers.subscriber(self.resolve(name), kind, callback, queue_size=queue_size, tcp_nodelay=True))
 
     def service(self, name: str, kind: type, handler: Callable[[Any], Any]) -> rospy.Service:
+        """A service ``name`` of class ``kind``, answered by ``handler`` in a thread of rospy."""
         return self._keep(offers.service(self.resolve(name), kind, handler))
 
     def close(self) -> None:
@@ -67,6 +71,7 @@ def subscribed(publisher: rospy.Publisher) -> Callable[[], bool]:
 def told_namespace(sdf, model_name: str, kind: str) -> str:
     """The namespace as Gazebo's sensor plugins name it on the terminal, which is said here in their words.
 
+    :param sdf: the plugin's element. :param model_name: the namespace where the element has an empty one
     :param kind: ``Camera``, ``Laser``
     """
     given = sdf.get("robotNamespace", None)
@@ -94,6 +99,7 @@ class Noise:
         return value + self.sigma * self._rng.standard_normal() if self.sigma else value
 
     def vector(self, values: Sequence[float]) -> tuple:
+        """``values``, each with noise of its own."""
         return tuple(self(v) for v in values)
 
 
@@ -104,6 +110,7 @@ class TfBroadcaster:
 
     @classmethod
     def send(cls, stamp: rospy.Time, parent: str, child: str, pose: Pose) -> None:
+        """Send that ``child`` (a frame) is at ``pose`` in ``parent`` at the time ``stamp``."""
         if cls._shared is None:
             cls._shared = tf2_ros.TransformBroadcaster()
         message = TransformStamped()
@@ -113,11 +120,12 @@ class TfBroadcaster:
 
 
 def pose_msg(pose: Pose) -> PoseMsg:
+    """``pose`` as geometry_msgs/Pose."""
     return PoseMsg(Point(*pose.p), Quaternion(*pose.q))
 
 
 def find_joint(model, sdf, tag: str, default: str) -> Any:
-    """The joint named by ``<tag>``.
+    """The joint of ``model`` named by ``<tag>`` of the plugin's element ``sdf``, or ``default`` without one.
 
     :raises PluginError: the model has no such joint; says which it has
     """
@@ -136,7 +144,7 @@ def joint_named(model, name: str, tag: str) -> Any:
 
 
 def find_link(model, world, sdf, tag: str = "bodyName") -> Any:
-    """The link named by ``<tag>``: of this model, or of any (Gazebo's scoped-or-unscoped look-up).
+    """The link named by ``<tag>`` of the element ``sdf``: of ``model``, or of any in ``world`` (Gazebo's scoped-or-unscoped look-up).
 
     :raises PluginError: tag missing, or no such link
     """
@@ -154,7 +162,7 @@ def find_link(model, world, sdf, tag: str = "bodyName") -> Any:
 
 
 def required(sdf, tag: str) -> str:
-    """The text of ``<tag>``.
+    """The text of ``<tag>`` of the element ``sdf``.
 
     :raises PluginError: missing or empty
     """

@@ -30,7 +30,7 @@ class Calibration:
 
 
 def read_calibration(sdf, camera: Camera) -> Calibration:
-    """From the ``<plugin>`` element; with ``<autoDistortion>`` the coefficients are those of the sensor's lens."""
+    """From ``sdf``, the ``<plugin>`` element; with ``<autoDistortion>`` the coefficients are those of ``camera``'s lens."""
     lens = camera.distortion
     automatic = sdf.get("autoDistortion", False)
     coefficients = (
@@ -49,7 +49,10 @@ def read_calibration(sdf, camera: Camera) -> Calibration:
 
 
 def camera_info(camera: Camera, calibration: Calibration, baseline: float) -> CameraInfo:
-    """Without header. ``baseline``: m, distance to the first camera of a stereo pair, P[3] = -f * baseline."""
+    """Of ``camera`` with ``calibration``, without header.
+
+    :param baseline: m, distance to the first camera of a stereo pair, P[3] = -f * baseline.
+    """
     c = calibration
     f = c.focal_length or camera.focal_length
     cx, cy = c.cx or (camera.width + 1) / 2, c.cy or (camera.height + 1) / 2

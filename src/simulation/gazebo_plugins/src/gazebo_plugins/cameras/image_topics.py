@@ -101,7 +101,7 @@ class ImageTopics:
         return wanted
 
     def publish(self, header, frame: Frame) -> None:
-        """Whatever of this topic is in the frame."""
+        """Publish whatever of this topic is in ``frame``, with ``header``."""
         for name, data in frame.data.items():
             kind = name.partition(":")[0]
             if name == self._source:

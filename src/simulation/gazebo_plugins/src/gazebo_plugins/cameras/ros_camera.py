@@ -27,7 +27,7 @@ _RATE = (Parameter("imager_rate", float, 2.0, 1.0, 50.0, "Frame rate of the sens
 
 
 def camera_of(sensor, sdf, element) -> Camera:
-    """The camera of a ``<camera>`` element of ``sensor``.
+    """The camera of ``element``, a ``<camera>`` of ``sensor``; ``sdf`` is the plugin's element.
 
     :raises PluginError: values that no camera can have, in one line naming the sensor.
     """
@@ -57,7 +57,7 @@ def camera_of(sensor, sdf, element) -> Camera:
 
 
 def node_namespace(sensor, sdf) -> str:
-    """Absolute namespace of a camera's topics: robotNamespace/cameraName."""
+    """Absolute namespace of the topics of the camera of ``sensor`` and plugin element ``sdf``: robotNamespace/cameraName."""
     return join(robot_namespace(sdf, sensor.model.name, "B"), sdf.get("cameraName", "")).rstrip("/")
 
 
@@ -171,6 +171,7 @@ class RosCamera:
         return info
 
     def publish_info(self, header: Header) -> None:
+        """Publish the camera_info with ``header``, while somebody listens."""
         if self._info.get_num_connections():
             self._info.publish(self.info(header))
 

@@ -97,7 +97,7 @@ class DiffDrive(ModelPlugin):
 
 
 def wheel_states(now: rospy.Time, joints: list) -> JointState:
-    """Positions only, as this plugin family publishes them."""
+    """The positions of ``joints`` (rad), stamped ``now``: no more than these, as this plugin family publishes them."""
     message = JointState()
     message.header.stamp = now
     message.name = [joint.name for joint in joints]

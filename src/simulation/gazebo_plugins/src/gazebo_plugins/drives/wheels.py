@@ -44,6 +44,7 @@ def from_encoders(sdf) -> bool:
 
 
 def yaw_of(pose: Pose) -> float:
+    """The angle about z of ``pose``, rad."""
     return math3.quat_to_rpy(pose.q)[2]
 
 
@@ -80,7 +81,11 @@ class OdometryPublisher:
         self._message.twist.covariance = diagonal(twist_covariance)
 
     def publish(self, now: rospy.Time, pose: Pose, velocity: tuple[float, float, float], flat: bool = False) -> None:
-        """:param flat: leave z of the message 0, as some plugins do"""
+        """Publish that the base is at ``pose`` (in :attr:`frame`) at the time ``now``.
+
+        :param velocity: x and y, m/s, and yaw, rad/s, in the base's frame
+        :param flat: leave z of the message 0, as some plugins do
+        """
         message = self._message
         message.header.stamp = now
         message.pose.pose = pose_msg(Pose((pose.p[0], pose.p[1], 0.0), pose.q) if flat else pose)
@@ -88,6 +93,7 @@ class OdometryPublisher:
         self.publisher.publish(message)
 
     def send_tf(self, now: rospy.Time, pose: Pose) -> None:
+        """Send the transform that puts the base at ``pose`` at the time ``now``."""
         TfBroadcaster.send(now, self.frame, self.base, pose)
 
 

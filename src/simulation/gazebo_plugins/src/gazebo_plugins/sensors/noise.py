@@ -8,7 +8,7 @@ from ode_sim import _core
 
 
 def axis_noise(group: SdfElement | None, axis: str) -> SdfElement | None:
-    """``<noise>`` of ``<x>``, ``<y>`` or ``<z>`` in a group such as ``<angular_velocity>``."""
+    """``<noise>`` of ``axis``, ``<x>``, ``<y>`` or ``<z>``, in ``group``, such as ``<angular_velocity>``; None if there is none."""
     found = group.child(axis) if group else None
     return found.child("noise") if found else None
 

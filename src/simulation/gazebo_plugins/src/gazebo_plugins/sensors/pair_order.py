@@ -19,7 +19,7 @@ _BEYOND = 99
 
 
 def size_class(low: Iterable[float], high: Iterable[float]) -> int:
-    """The class of a box between two corners, m.
+    """The class of a box between the corners ``low`` and ``high``, m.
 
     >>> size_class((0, 0, 0), (0.2, 0.2, 0.3)), size_class((0, 0, 0), (1.5, 1, 1)), size_class((0, 0, -math.inf), (1, 1, 0))
     (-1, 1, 99)

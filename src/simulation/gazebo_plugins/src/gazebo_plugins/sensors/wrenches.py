@@ -64,6 +64,10 @@ class FTSensor(ModelPlugin, SensorPlugin):
     """
 
     def load(self, server, subject, sdf) -> None:
+        """Set it up in ``server`` as a plugin of ``subject``, a model or the sensor of a joint; ``sdf`` is the plugin's element.
+
+        :raises PluginError: one line
+        """
         self.server, self.last_ns = server, 0
         sensor = None if hasattr(subject, "joints") else subject
         if sensor is None:
