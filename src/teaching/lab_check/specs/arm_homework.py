@@ -2,7 +2,7 @@
 
 
 def arm_moved(context, joints, by):
-    """At least so many joints moved so far, rad, between the task's first and last moment."""
+    """At least so many ``joints`` moved ``by`` so much, rad, between the task's first and last moment, as ``context`` has them."""
 
     def places(sample):
         return {name: state[0] for model in sample.models.values() for name, state in model.get("joints", {}).items()}

@@ -13,7 +13,7 @@ MOST = 256 * 1024 * 1024  # bytes
 
 
 def fetch(uri: str, patterns: tuple[str, ...]) -> bytes | None:
-    """The file that ``package://NAME/PATH`` names; None if there is none, it is not allowed, or lies outside of its package."""
+    """The file that ``uri``, ``package://NAME/PATH``, names; None if there is none, none of ``patterns`` allows it, or it lies outside."""
     if not allowed(uri, patterns) or not uri.startswith("package://"):
         return None
     name, _, inside = unquote(uri[len("package://") :]).partition("/")

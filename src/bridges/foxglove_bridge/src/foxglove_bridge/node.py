@@ -104,28 +104,35 @@ class Bridge(ServerListener):
     # ------------------------------------------------------------------------------------------ what clients ask
 
     def on_subscribe(self, client: Any, channel: Any) -> None:
+        """``client`` reads ``channel``: the library calls this, as the methods below."""
         topic = self._topics.by_channel(channel.id)
         if topic is not None:
             topic.read_by(client.id)
 
     def on_unsubscribe(self, client: Any, channel: Any) -> None:
+        """``client`` does not read ``channel`` any more."""
         topic = self._topics.by_channel(channel.id)
         if topic is not None:
             topic.left_by(client.id)
 
     def on_client_advertise(self, client: Any, channel: Any) -> None:
+        """``client`` is going to publish on ``channel``."""
         self._published.advertise(client.id, channel)
 
     def on_client_unadvertise(self, client: Any, client_channel_id: int) -> None:
+        """``client`` does not publish on its channel ``client_channel_id`` any more."""
         self._published.unadvertise(client.id, client_channel_id)
 
     def on_message_data(self, client: Any, client_channel_id: int, data: bytes) -> None:
+        """``client`` sends ``data``, a message of ROS 1, on its channel ``client_channel_id``."""
         self._published.message(client.id, client_channel_id, data)
 
     def on_get_parameters(self, client: Any, param_names: list[str], request_id: str | None = None) -> list[Parameter]:
+        """The values of ``param_names``, all parameters if none is named, for ``client``'s request ``request_id``."""
         return self._parameters.get(param_names)
 
     def on_set_parameters(self, client: Any, parameters: list[Parameter], request_id: str | None = None) -> list[Parameter]:
+        """Set ``parameters`` for ``client``'s request ``request_id``. :return: what they are then"""
         return self._parameters.set(parameters)
 
     def on_parameters_subscribe(self, param_names: list[str]) -> None:

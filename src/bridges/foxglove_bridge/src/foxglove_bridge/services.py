@@ -27,7 +27,7 @@ def type_of(name: str) -> str | None:
 
 
 def offered(name: str, type_name: str) -> Service | None:
-    """None where no package defines the type."""
+    """The service ``name`` of type ``type_name`` for clients; None where no package defines the type."""
     try:
         kind: Any = roslib.message.get_service_class(type_name)
     except (ValueError, ImportError, AttributeError):

@@ -35,8 +35,11 @@ class Settings:
 
     @classmethod
     def read(cls, get: Callable[[str, Any], Any], warn: Callable[[str], None]) -> Settings:
-        """:param get: value of a private parameter, or a default
-        :raises SettingError:
+        """The settings by parameters.
+
+        :param get: value of a private parameter, or a default
+        :param warn: is told what has no effect, a line each
+        :raises SettingError: a value cannot be used
         """
         for name in NOT_HERE:
             if get(name, None) not in (None, False, "", []):
@@ -63,6 +66,7 @@ def _checked(name: str, value: Any, default: Any) -> Any:
 
 
 def allowed(name: str, patterns: tuple[str, ...]) -> bool:
+    """Whether ``name`` fits one of ``patterns``, regular expressions, whole and whatever the case."""
     return any(re.fullmatch(pattern, name, re.IGNORECASE) for pattern in patterns)
 
 

@@ -15,6 +15,7 @@ BUFFER = 16 * 1024 * 1024  # bytes that are read at once, of pictures and clouds
 
 
 def schema(kind: Any, name: str) -> foxglove.Schema:
+    """The definition of the message class ``kind``, called ``name``, as ros1msg."""
     return foxglove.Schema(name=name, encoding="ros1msg", data=kind._full_text.encode())
 
 
@@ -121,6 +122,7 @@ class Published:
         self._publishers: dict[tuple[int, int], rospy.Publisher] = {}  # by client and its number of the channel
 
     def advertise(self, client: int, channel: Any) -> None:
+        """``client`` (its number) is going to publish on the topic of ``channel``; what keeps it from that is complained of."""
         kind = message_class(channel.schema_name)
         if not self._allowed(channel.topic):
             self._complain(f"{channel.topic}: ~client_topic_whitelist does not allow to publish it")
@@ -135,11 +137,13 @@ class Published:
                 self._complain(f"{channel.topic}: {error}")
 
     def unadvertise(self, client: int, channel: int) -> None:
+        """``client`` does not publish on ``channel`` (numbers) any more."""
         publisher = self._publishers.pop((client, channel), None)
         if publisher is not None:
             publisher.unregister()
 
     def message(self, client: int, channel: int, data: bytes) -> None:
+        """Publish ``data``, the bytes of a message of ROS 1, which ``client`` sends on ``channel`` (numbers)."""
         publisher = self._publishers.get((client, channel))
         if publisher is None:
             return

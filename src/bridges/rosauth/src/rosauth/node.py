@@ -16,13 +16,14 @@ NO_PARAMETER, NO_FILE, NO_SECRET = 255, 254, 253
 
 
 def code(secret: str, request: AuthenticationRequest) -> str:
-    """The message authentication code that the request should have."""
+    """The message authentication code that ``request`` should have, by ``secret``, the text that both sides know."""
     text = f"{secret}{request.client}{request.dest}{request.rand}{request.t.secs}{request.level}{request.end.secs}"
     return hashlib.sha512(text.encode("utf-8")).hexdigest()
 
 
 def good(secret: str, request: AuthenticationRequest, now: rospy.Time, delta: float) -> bool:
-    """
+    """Whether ``request`` knows ``secret`` and is of this time.
+
     :param delta: s, how far the request's time may be from ``now``; negative: times do not count
     """
     in_time = delta < 0 or (abs(int((request.t - now).to_sec())) < delta and request.end > now)

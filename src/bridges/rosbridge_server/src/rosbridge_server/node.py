@@ -42,6 +42,7 @@ class Clients:
         self._tell()
 
     def come(self, number: int, address: str) -> None:
+        """The client ``number`` is connected from ``address``."""
         self._there[number] = ConnectedClient(ip_address=address, connection_time=rospy.Time.now())
         rospy.loginfo("Client connected.  %d clients total.", len(self._there))
         self._tell()
@@ -62,6 +63,7 @@ class Connection(tornado.websocket.WebSocketHandler):
     numbers = 0
 
     def initialize(self, shared: Shared, clients: Clients, token: str) -> None:
+        """Tornado's arguments of the handler: what all connections ``shared``, who is connected (``clients``), and ``token``."""
         self._shared, self._clients, self._token = shared, clients, token
         self._client: Client | None = None
         self._known = not shared.settings.authenticate

@@ -42,7 +42,8 @@ class Outbox:
         self._empty.set()
 
     def put(self, frames: list[Frame], topic: str | None = None) -> int:
-        """
+        """Have ``frames`` written after those that wait.
+
         :param topic: whose message it is; None: an answer, which always goes out
         :return: how many older messages of the topic went
         """

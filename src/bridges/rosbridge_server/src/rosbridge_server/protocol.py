@@ -265,7 +265,7 @@ class Client:
     # ------------------------------------------------------------------------------------------ out
 
     def say(self, level: str, line: str, number: Any = None) -> None:
-        """Into the log, and to the client where its level asks for it."""
+        """``line`` into the log, and to the client where its level asks for ``level``; ``number``: id of what it is about."""
         log = {"error": rospy.logerr_throttle_identical, "warning": rospy.logwarn_throttle_identical}.get(level)
         if log is not None:
             log(SAID_AGAIN, f"[Client {self.number}] {line}")
@@ -275,6 +275,7 @@ class Client:
             self.send({"op": "status", "level": level, "msg": line, **({} if number is None else {"id": number})})
 
     def send(self, message: dict[str, Any], fragment: int | None = None, compression: str = "none") -> None:
+        """Send ``message``, in pieces of ``fragment`` bytes (None: whole), packed by ``compression``: "none", "png", "cbor"."""
         if compression == "cbor" and not self._bson:
             data: Frame = cbor2.dumps(message)
         elif compression == "png" and not self._bson:

@@ -19,10 +19,11 @@ class ServiceError(RosbridgeError):
 
 
 def call(service: str, args: Any) -> Any:
-    """
+    """Call ``service``.
+
     :param args: values of the request's fields, by name or in their order; anything else is none
     :return: the response
-    :raises RosbridgeError:
+    :raises RosbridgeError: there is no such service, it failed, or the values are none of the request
     """
     name = rospy.resolve_name(service)
     try:
@@ -78,7 +79,8 @@ class Offered:
         return waiting.response
 
     def answer(self, number: Any, values: Any, result: bool | None) -> None:
-        """
+        """The client answers the request ``number`` with ``values``, by the response's fields.
+
         :param result: whether the service could do it; None: the client did not say
         :raises RosbridgeError: the values are none of the response, which its caller is told as well; or nobody has asked
         """
@@ -125,7 +127,11 @@ class Services:
         self._there: dict[str, Any] = {}  # name -> client's number, Offered
 
     def offer(self, client: int, name: str, type_name: str, ask: Callable[[dict[str, Any]], None], bson_only: bool) -> None:
-        """:raises RosbridgeError:"""
+        """``client`` (its number) offers the service ``name`` of type ``type_name``; ``ask`` sends it a request.
+
+        :param bson_only: requests go to it as BSON
+        :raises RosbridgeError: it cannot be offered
+        """
         with self._lock:
             ros_loader.get_service_class(type_name)  # what is there stays where the new one cannot be
             if name in self._there:
@@ -134,14 +140,14 @@ class Services:
             self._there[name] = client, Offered(name, type_name, ask, bson_only)
 
     def of(self, client: int, name: str) -> Offered:
-        """:raises ServiceError: the client does not offer it"""
+        """The service ``name`` of ``client`` (its number). :raises ServiceError: the client does not offer it"""
         owner, found = self._there.get(name, (None, None))
         if owner != client or found is None:
             raise ServiceError(f"you do not offer a service {name}; 'advertise_service' does")
         return found
 
     def withdraw(self, client: int, name: str) -> None:
-        """:raises ServiceError: the client does not offer it"""
+        """End the service ``name`` of ``client`` (its number). :raises ServiceError: the client does not offer it"""
         with self._lock:
             self.of(client, name)
             self._there.pop(name)[1].close("it was unadvertised")

@@ -43,10 +43,12 @@ class Settings:
 
     @classmethod
     def read(cls, get: Callable[[str, Any], Any], words: list[str], warn: Callable[[str], None]) -> Settings:
-        """
+        """The settings by parameters and command line.
+
         :param get: value of a private parameter, or a default
         :param words: of the command line
-        :raises SettingError:
+        :param warn: is told what has no effect, a line each
+        :raises SettingError: a value cannot be used
         """
         parser = argparse.ArgumentParser(prog="rosbridge_websocket", allow_abbrev=False)
         for field in fields(cls):

@@ -65,7 +65,10 @@ class Message:
         self._made: dict[tuple[str, str], str | bytes] = {}
 
     def encoded(self, form: str, topic: str) -> str | bytes:
-        """:raises RosbridgeError: its type is not the one of the topic"""
+        """The message of ``topic`` in the form ``form``, as Subscription's compression names it.
+
+        :raises RosbridgeError: its type is not the one of the topic
+        """
         if (form, topic) not in self._made:
             self._made[form, topic] = self._encode(form, topic)
         return self._made[form, topic]
@@ -138,7 +141,11 @@ class Feeds:
         self._feeds: dict[str, Feed] = {}
 
     def join(self, reader: Subscription, wanted: str | None, raw: bool) -> None:
-        """:raises RosbridgeError: see :func:`class_of`"""
+        """Let ``reader`` be told what comes on its topic.
+
+        :param wanted: the type that it asks for; None: whichever it is. :param raw: it takes the messages' bytes as they are
+        :raises RosbridgeError: see :func:`class_of`
+        """
         topic = rospy.resolve_name(reader.topic)
         with self._lock:
             feed = self._feeds.get(topic)
@@ -187,7 +194,11 @@ class Subscription:
         self._closed = False
 
     def wish(self, number: Any, throttle_rate: float, queue_length: int, fragment_size: int | None, compression: str) -> None:
-        """:param throttle_rate: ms"""
+        """Note what the client asks for by the id ``number``.
+
+        :param throttle_rate: ms between two messages. :param queue_length: messages kept for later meanwhile; 0: they are dropped
+        :param fragment_size: bytes; None: messages go whole. :param compression: "none", "png", "cbor" or "cbor-raw"
+        """
         with self._changed:
             self._wishes[number] = {"pause": throttle_rate / 1000, "length": queue_length, "fragment": fragment_size, "form": compression}
             self._settle()
@@ -314,7 +325,11 @@ class Publications:
         self._there: dict[str, Publication] = {}
 
     def register(self, client: int, topic: str, wanted: str | None, latch: bool, queue_size: int) -> Publication:
-        """:raises RosbridgeError: see :func:`class_of`"""
+        """The publisher of ``topic``, which ``client`` (its number) uses from now on.
+
+        :param wanted: the type that it asks for; None: whichever it is. :param latch, queue_size: as for ``rospy.Publisher``
+        :raises RosbridgeError: see :func:`class_of`
+        """
         topic = rospy.resolve_name(topic)
         with self._lock:
             found = self._there.get(topic)
@@ -332,6 +347,7 @@ class Publications:
             return found
 
     def unregister(self, client: int, topic: str) -> None:
+        """``client`` (its number) does not publish on ``topic`` any more."""
         topic = rospy.resolve_name(topic)
         with self._lock:
             found = self._there.get(topic)

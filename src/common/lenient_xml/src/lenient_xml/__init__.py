@@ -29,9 +29,14 @@ class XmlError(ValueError):
 class Target(Protocol):
     """Takes the elements of a text in their order."""
 
-    def start(self, tag: str, attrib: dict[str, str], line: int) -> None: ...
-    def end(self, tag: str) -> None: ...
-    def data(self, text: str) -> None: ...
+    def start(self, tag: str, attrib: dict[str, str], line: int) -> None:
+        """An element ``tag`` begins in ``line`` (from 1), with the attributes ``attrib``."""
+
+    def end(self, tag: str) -> None:
+        """The element ``tag`` ends."""
+
+    def data(self, text: str) -> None:
+        """``text`` stands in the element that was begun last."""
 
 
 def feed(text: str, target: Target) -> list[tuple[int, str]]:

@@ -40,7 +40,11 @@ def smoothness(trajectory: motion.Trajectory) -> float:
 
 
 def of_run(scene: motion.PlanningScene, result: motion.PlanResult | None, took: float, planning: float) -> Run:
-    """The properties of one run, by the names of the log. :param took: s, of the whole request."""
+    """The properties of one run in ``scene``, by the names of the log.
+
+    :param result: None where there is none.
+    :param took: s, of the whole request. :param planning: s, of the planning alone.
+    """
     solved = bool(result)
     run = {"time REAL": f"{took:.9g}", "solved BOOLEAN": str(int(solved))}
     trajectory = result.trajectory if result else None
@@ -63,7 +67,7 @@ def of_run(scene: motion.PlanningScene, result: motion.PlanResult | None, took: 
 
 
 def add_similarity(runs: list[Run], trajectories: list[motion.Trajectory | None]) -> None:
-    """How far each path is from the others, on average, by way points: average_waypoint_distance."""
+    """Write into ``runs`` how far each of their ``trajectories`` is from the others, on average: average_waypoint_distance."""
     solved = {i: trajectory for i, trajectory in enumerate(trajectories) if trajectory is not None and len(trajectory)}
     for i, trajectory in solved.items():
         distances = [_between(trajectory, other) for j, other in solved.items() if j != i]

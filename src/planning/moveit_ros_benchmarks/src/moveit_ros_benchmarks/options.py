@@ -46,7 +46,7 @@ class Options:
 
 
 def read(config: Any, where: str) -> Options:
-    """The options of a ``benchmark_config`` table.
+    """The options of ``config``, a ``benchmark_config`` table.
 
     :param where: its place, for messages.
     :raises OptionsError: something is missing or of a wrong kind.

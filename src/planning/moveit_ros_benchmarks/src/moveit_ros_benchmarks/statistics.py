@@ -25,7 +25,7 @@ CREATE TABLE IF NOT EXISTS progress (runid INTEGER, time REAL, PRIMARY KEY (runi
 
 
 def store(base: sqlite3.Connection, entry: log.Log) -> None:
-    """Add the runs of a log to a database."""
+    """Add the runs of ``entry`` to the database ``base``."""
     base.executescript(_TABLES)
     experiment = base.execute(
         "INSERT INTO experiments (name, totaltime, timelimit, memorylimit, runcount, version, hostname, date, seed, setup) "
@@ -73,7 +73,7 @@ def summary(entry: log.Log) -> list[str]:
 
 
 def plot(entries: list[log.Log], file: str) -> None:
-    """Box plots of the real-valued properties of all runs, a page each."""
+    """Box plots of the real-valued properties of all runs of ``entries``, a page each, into ``file``, a PDF."""
     import matplotlib
 
     matplotlib.use("pdf")

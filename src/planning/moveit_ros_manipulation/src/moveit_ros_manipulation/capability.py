@@ -108,7 +108,10 @@ class _Manipulate(ActionCapability):
         return result_text(plan.code, plan.message, not trajectories, options.plan_only)
 
     def plan(self, scene, goal, result) -> Plan:
-        """Plan the goal in ``scene``."""
+        """Plan the ``goal`` in ``scene``; what is tried goes into ``result``.
+
+        :raises PlanningError: it cannot be done.
+        """
         raise NotImplementedError
 
     def effector(self, name: str, group: str) -> tuple[str, str, str]:

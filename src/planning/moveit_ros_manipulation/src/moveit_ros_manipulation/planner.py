@@ -233,14 +233,14 @@ def moves(move: GripperTranslation) -> bool:
 
 
 def check_motion(move: GripperTranslation, what: str) -> None:
-    """:raises PlanningError: a number is not finite."""
+    """:raises PlanningError: a number of ``move`` is not finite; the line begins with ``what`` it is."""
     direction = move.direction.vector
     if not np.isfinite((direction.x, direction.y, direction.z, move.desired_distance, move.min_distance)).all():
         raise PlanningError(MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS, f"{what} holds a number that is not finite")
 
 
 def check_posture(model, posture: JointTrajectory, what: str) -> None:
-    """:raises PlanningError: a joint is unknown, or a point's positions do not fit the joints."""
+    """:raises PlanningError: a joint of ``posture`` is none of ``model``'s, or a point does not fit the joints; ``what`` it is."""
     unknown = [name for name in posture.joint_names if not model.has_joint(name)]
     if unknown:
         raise PlanningError(
@@ -255,14 +255,14 @@ def check_posture(model, posture: JointTrajectory, what: str) -> None:
 
 
 def timed(model, trajectory: motion.Trajectory) -> motion.Trajectory:
-    """With times, at a fifth of the robot's speed: the hand is close to things."""
+    """``trajectory`` with times, at a fifth of the speed of the robot ``model``: the hand is close to things."""
     if len(trajectory) < 2:
         return trajectory
     return motion.time_parameterize(model, trajectory, "iterative_parabolic", velocity_scaling=0.2, acceleration_scaling=0.2)
 
 
 def clamped(model, posture: JointTrajectory, point: int) -> dict[str, float]:
-    """Joint values of a posture's point, inside the limits: grippers are told to open or close as far as they can."""
+    """Joint values of ``posture``'s ``point`` (index), inside ``model``'s limits: grippers are told to open or close as far as they can."""
     values = {}
     for name, value in zip(posture.joint_names, posture.points[point].positions):
         if not model.has_joint(name) or model.joint(name).mimic is not None or len(model.joint(name).variables) != 1:
@@ -273,7 +273,7 @@ def clamped(model, posture: JointTrajectory, point: int) -> dict[str, float]:
 
 
 def gripper_motion(scene, before, hand: str, posture: JointTrajectory) -> motion.Trajectory | None:
-    """The trajectory of a posture, from the state ``before`` it; None when it moves nothing."""
+    """The trajectory of the group ``hand`` by ``posture``, from the state ``before`` it in ``scene``; None when it moves nothing."""
     if not posture.points or not hand:
         return None
     model, group = scene.model, scene.model.group(hand)
@@ -293,7 +293,7 @@ def gripper_motion(scene, before, hand: str, posture: JointTrajectory) -> motion
 
 
 def hand_pose(scene, stamped: PoseStamped, default: str = "") -> motion.Pose:
-    """A stamped pose in the model frame; ``default``: its frame where the header has none.
+    """A ``stamped`` pose in the model frame of ``scene``; ``default``: its frame where the header has none.
 
     :raises PlanningError: unknown frame or no orientation.
     """

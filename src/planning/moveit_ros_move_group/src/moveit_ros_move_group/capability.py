@@ -35,7 +35,7 @@ class Capability:
 
 
 def serve(name: str, kind: Any, handler: Callable[[Any, Any], None]) -> rospy.Service:
-    """Offer a service: ``handler(request, response)`` fills the response.
+    """Offer the service ``name`` of class ``kind``: ``handler(request, response)`` fills the response.
 
     PlanningError puts its code into ``response.error_code`` (or that of ``motion_plan_response``), if there is one,
     and is logged as one line; so is any other exception, with FAILURE. A response that has no place for a failure is none then: the
@@ -157,7 +157,7 @@ class ActionCapability(Capability):
         return result.error_code.val
 
     def failed(self, result, code: int, message: str) -> str:
-        """Write a code into the result; the text of the status."""
+        """Write ``code`` into ``result``; the text of the status, which is ``message``."""
         result.error_code.val = code
         return message
 
@@ -166,7 +166,10 @@ _CHANGED = "Solution found but the environment changed during execution and the 
 
 
 def result_text(code: int, message: str, empty: bool, plan_only: bool) -> str:
-    """The text of a goal's status, as upstream words it, with the reason of a failure."""
+    """The text of a goal's status, as upstream words it, with the reason of a failure, ``message``.
+
+    :param code: of MoveItErrorCodes. :param empty: there is no trajectory. :param plan_only: nothing was to be executed.
+    """
     codes = MoveItErrorCodes
     if code == codes.SUCCESS:
         if empty:

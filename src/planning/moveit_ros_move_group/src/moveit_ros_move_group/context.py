@@ -38,7 +38,7 @@ class Context:
         return self.description.model
 
     def plan(self, scene: motion.PlanningScene, request: MotionPlanRequest, cancel: motion.CancelToken | None = None) -> motion.PlanResult:
-        """Plan with the pipeline that the request names, and show the result.
+        """Plan ``request`` in ``scene`` with the pipeline that it names, and show the result; ``cancel`` ends it from another thread.
 
         :raises PlanningError: the request cannot be served.
         """
@@ -74,6 +74,7 @@ class Display:
         self._requests = rospy.Publisher("~motion_plan_request", MotionPlanRequest, queue_size=100, latch=True) if debug else None
 
     def request(self, message: MotionPlanRequest) -> None:
+        """Publish ``message``, a request that came, with ``--debug``."""
         if self._requests is not None:
             self._requests.publish(message)
 

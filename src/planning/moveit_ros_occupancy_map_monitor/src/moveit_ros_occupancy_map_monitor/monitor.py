@@ -112,6 +112,7 @@ class OccupancyMapMonitor:
         """Put what a sensor saw into the map, but for the robot, what it holds and the objects of the scene.
 
         :param frame: the sensor's frame; its origin is where rays begin.
+        :param stamp: when it was there.
         :param ends: (n, 3) in that frame, m: where rays end on something.
         :param beyond: (m, 3): rays that end there are free all the way.
         :param scale: of what is left out, which is then grown by ``padding(distance from the sensor, m)`` m; what is up to

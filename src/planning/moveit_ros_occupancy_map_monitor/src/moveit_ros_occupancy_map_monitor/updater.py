@@ -67,7 +67,7 @@ class OccupancyMapUpdater(ABC):
         self._thread.join(2.0)
 
     def number(self, key: str, default: float) -> float:
-        """A number of the settings.
+        """The number ``key`` of the settings, or ``default``.
 
         :raises UpdaterError: it is none.
         """
@@ -77,7 +77,7 @@ class OccupancyMapUpdater(ABC):
         return float(value)
 
     def text(self, key: str, default: str = "") -> str:
-        """A text of the settings."""
+        """The text ``key`` of the settings, or ``default``."""
         return str(self._settings.get(key, default))
 
     def put(self, message) -> None:

@@ -35,6 +35,7 @@ def rays(values: np.ndarray, info: CameraInfo, skip: tuple[int, int]) -> tuple[n
     """Directions (n, 3) with z = 1 in the optical frame, and depths (n,), of pixels inside a margin of ``skip`` (vertical,
     horizontal) that have a depth; of very many only some.
 
+    :param values: (height, width) depths, m; NaN is none. :param info: of the camera that they are of.
     :raises UpdaterError: the camera's parameters cannot be used.
     """
     fx, cx, fy, cy = info.K[0], info.K[2], info.K[4], info.K[5]

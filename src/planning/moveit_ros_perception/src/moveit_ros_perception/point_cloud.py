@@ -13,7 +13,7 @@ _KINDS = {PointField.FLOAT32: "f4", PointField.FLOAT64: "f8"}
 
 
 def points(message: PointCloud2, subsample: int = 1) -> np.ndarray:
-    """(n, 3) finite points of every ``subsample``-th row and column; of very many only some.
+    """(n, 3) finite points of every ``subsample``-th row and column of ``message``, in its frame, m; of very many only some.
 
     :raises UpdaterError: fields or size of the data.
     """

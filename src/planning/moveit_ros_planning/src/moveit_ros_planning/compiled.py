@@ -63,7 +63,10 @@ class CompiledPipeline:
     def generate(
         self, scene: motion.PlanningScene, message: MotionPlanRequest, cancel: motion.CancelToken | None = None
     ) -> motion.PlanResult:
-        """Plan with all adapters. Never raises for what a request says: see the result's status."""
+        """Plan ``message`` in ``scene`` with all adapters. Never raises for what a request says: see the result's status.
+
+        :param cancel: ends it from another thread.
+        """
         done = threading.Event()
         if cancel is not None:
             threading.Thread(target=self._watch, args=(cancel, done), name="cancelling", daemon=True).start()

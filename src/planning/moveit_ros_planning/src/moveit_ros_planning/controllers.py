@@ -21,7 +21,10 @@ _WORDS = {
 
 
 def load_manager(model, namespace: str = "~") -> ControllerManager | None:
-    """The controller manager that ``~moveit_controller_manager`` names; None (and an error line) if there is none."""
+    """The controller manager that ``~moveit_controller_manager`` names; None (and an error line) if there is none.
+
+    :param model: the robot. :param namespace: where the parameter is.
+    """
     found, problems = find_plugins("moveit_core")
     parameter = rospy.resolve_name(namespace + "moveit_controller_manager")
     name = rospy.get_param(namespace + "moveit_controller_manager", "")
@@ -88,7 +91,7 @@ class ControllerChoice:
         return not joint.passive and joint.mimic is None and joint.type != "fixed"
 
     def choose(self, wanted: set[str], allowed: Sequence[str] = ()) -> list[str]:
-        """Names of the controllers that together move ``wanted``; empty if none do."""
+        """Names of the controllers, of those ``allowed`` (none named: all), that together move the joints ``wanted``; empty if none do."""
         names = sorted(allowed or self._manager.controllers())
         joints = {name: set(self._manager.joints(name)) for name in names}
         useful = [name for name in names if joints[name] & wanted]

@@ -18,11 +18,12 @@ _BESIDE = 1e-6  # rad or m that rounding may put a joint beyond its limit
 def prepared(
     message: MotionPlanRequest, scene: motion.PlanningScene, solved: bool
 ) -> tuple[MotionPlanRequest, motion.AuxiliaryPoint | None]:
-    """The request as its planner reads it, and the auxiliary point of a circle.
+    """The request ``message`` as its planner reads it, and the auxiliary point of a circle.
 
     Of a position constraint only its first primitive pose counts, whether or not there is a region about it; of a goal of joint values
     nothing else does.
 
+    :param scene: in which it is planned.
     :param solved: kinematics.yaml gives the group a solver.
     :raises PlanningError: the request is refused.
     """

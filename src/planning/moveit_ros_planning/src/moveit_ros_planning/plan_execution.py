@@ -111,6 +111,9 @@ class PlanExecution:
     ) -> Plan:
         """Plan with ``make(scene)`` and execute; with ``replan``, again after failures that planning again may mend.
 
+        :param diff: what is changed in the scene for this plan alone.
+        :param stop: ends it from another thread.
+        :param attempts: how often it is planned at most, with ``replan``; 0 is what the parameters say.
         :param delay: wall seconds between attempts.
         :param before: called before each execution.
         :param stops: see TrajectoryExecution.start.
@@ -145,7 +148,10 @@ class PlanExecution:
             return Plan(MoveItErrorCodes.FAILURE, str(error))
 
     def execute(self, plan: Plan, diff: PlanningScene | None, stop: Stop, stops: int | None = None) -> None:
-        """Execute the segments of ``plan``, write the outcome into it; for ``stops`` see TrajectoryExecution.start."""
+        """Execute the segments of ``plan``, write the outcome into it; for ``stops`` see TrajectoryExecution.start.
+
+        :param diff: what the scene was changed by when it was planned; None: nothing. :param stop: ends it from another thread.
+        """
         run = _Run(self._monitor, self._execution, plan, diff, stop, stops)
         recorder = _Recorder(self._monitor, float(self.config["record_trajectory_state_frequency"]))
         try:

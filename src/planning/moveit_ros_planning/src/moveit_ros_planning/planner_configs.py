@@ -86,7 +86,7 @@ class PlannerConfigs:
             return sorted(self._configs)
 
     def find(self, group: str, planner_id: str) -> tuple[str, dict[str, str]]:
-        """(name, settings) for a request; an unknown planner is told, and the group's default is used."""
+        """(name, settings) for a request to ``group``; an unknown ``planner_id`` is told, and the group's default is used, as for ""."""
         with self._lock:
             name = group
             if planner_id:
@@ -112,7 +112,10 @@ class PlannerConfigs:
             return settings
 
     def set(self, group: str, config: str, keys: Sequence[str], values: Sequence[str], replace: bool) -> None:
-        """Change settings; they count from the next request on."""
+        """Set ``keys`` to ``values`` in ``config`` of ``group`` ("": ``config`` is the whole name); they count from the next request on.
+
+        :param replace: forget what else the configuration says.
+        """
         if not config:
             return
         with self._lock:

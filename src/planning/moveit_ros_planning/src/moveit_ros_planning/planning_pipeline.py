@@ -124,9 +124,10 @@ class Pipeline:
     def generate(
         self, scene: motion.PlanningScene, message: MotionPlanRequest, cancel: motion.CancelToken | None = None
     ) -> motion.PlanResult:
-        """Plan, with all adapters; the result's trajectory is timed.
+        """Plan ``message``, with all adapters; the result's trajectory is timed.
 
         :param scene: the caller's own; its state is where the robot is.
+        :param cancel: ends it from another thread.
         :raises PlanningError: the request cannot be understood.
         """
         started = time.monotonic()
@@ -165,8 +166,9 @@ class Pipeline:
         return motion.pilz_plan(scene, request, cancel, self._limits)
 
     def sequence(self, scene, items, cancel=None) -> motion.SequenceResult:
-        """Plan a sequence of (MotionPlanRequest, blend radius): each goes through the whole pipeline, then they are blended.
+        """Plan a sequence in ``scene``: each goes through the whole pipeline, then they are blended.
 
+        :param items: (MotionPlanRequest, blend radius in m to the next). :param cancel: ends it from another thread.
         :raises PlanningError: one of the requests cannot be understood.
         """
         if self.compiled is not None:
@@ -195,7 +197,7 @@ class Pipeline:
     # --- requests ---
 
     def request(self, scene: motion.PlanningScene, message: MotionPlanRequest) -> motion.MotionRequest:
-        """A MotionPlanRequest message as the library takes it.
+        """A MotionPlanRequest ``message`` as the library takes it, in ``scene``.
 
         :raises PlanningError: with the code and one line.
         """

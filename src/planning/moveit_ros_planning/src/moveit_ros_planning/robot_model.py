@@ -45,7 +45,7 @@ class RobotDescription:
     srdf: str
 
     def planning(self, key: str, default: Any) -> Any:
-        """Parameter ``key`` below ``<name>_planning``."""
+        """Parameter ``key`` below ``<name>_planning``, or ``default``."""
         return rospy.get_param(f"{self.name}_planning/{key}", default)
 
     def solved_parts(self, group: str) -> list[str]:
@@ -67,6 +67,7 @@ def load(
 ) -> RobotDescription:
     """Read a robot from the parameter server.
 
+    :param name: of the parameter with the URDF. :param meshes: read them; without, links collide with nothing.
     :param own_namespace: where ``<group>/kinematics_solver`` is looked up first.
     :param compiled_solvers: let compiled plugins that kinematics.yaml names solve inverse kinematics.
     :raises DescriptionError: no or an unusable description.
@@ -109,6 +110,7 @@ class Packages:
         self._rospack = rospkg.RosPack()
 
     def directory(self, name: str) -> str | None:
+        """The folder of the package ``name``, or None."""
         try:
             return self._rospack.get_path(name)
         except rospkg.ResourceNotFound:

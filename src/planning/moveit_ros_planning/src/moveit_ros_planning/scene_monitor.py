@@ -121,7 +121,7 @@ class SceneMonitor:
         return state
 
     def wait_for_state(self, timeout: float = 1.0, since: rospy.Time | None = None) -> bool:
-        """Wait for joint states stamped now or later (wall seconds); says why when none come."""
+        """Wait up to ``timeout`` wall seconds for joint states stamped ``since`` (default: now) or later; says why when none come."""
         since = rospy.Time.now() if since is None else since
         if self.states.wait_for_current(since, timeout):
             return True
@@ -149,7 +149,10 @@ class SceneMonitor:
 
     def edit(self, change: Callable[[SceneEditor], bool], kinds: int, objects: AbstractSet[str] = frozenset(), whole: bool = False) -> bool:
         """Let ``change`` write into the scene, then tell everybody. ``objects`` are those of the world that it may
-        touch."""
+        touch.
+
+        :param kinds: of change, bits STATE, TRANSFORMS, GEOMETRY, SCENE. :param whole: publish the whole scene next, not what changed.
+        """
         with self._lock:
             self.update_transforms()
             self._scene.set_state(self.with_attached(self._scene, self.states.state()))
@@ -186,7 +189,7 @@ class SceneMonitor:
         return self.edit(lambda editor: editor.attached_object(message), GEOMETRY | STATE, {message.object.id}, whole=not message.object.id)
 
     def set_octomap(self, tree, pose) -> None:
-        """Put an octomap into the scene, or take it out (None)."""
+        """Put the octomap ``tree``, at ``pose`` in the model frame, into the scene, or take it out (None)."""
 
         def change(editor) -> bool:
             self._scene.set_octomap(tree, pose)
@@ -260,7 +263,7 @@ class SceneMonitor:
     # --- publishing ---
 
     def next_message(self, full: bool, kinds: int) -> PlanningScene | None:
-        """What is to be published now: the whole scene, or what changed since the last call; None if nothing did."""
+        """What is to be published now: the ``full`` scene, or what of ``kinds`` changed since the last call; None if nothing did."""
         with self._lock:
             pending, self._pending = self._pending, _Pending()
             if not pending.kinds & kinds and not full:
@@ -329,7 +332,7 @@ class ScenePublisher:
         self._thread.start()
 
     def configure(self, enabled: bool, rate: float, kinds: int) -> None:
-        """Publish or not, how often (Hz), and which kinds of change."""
+        """Publish if ``enabled``, at most ``rate`` times a s, which ``kinds`` of change."""
         if enabled and not self._enabled:
             self._full = True
             rospy.loginfo("Publishing maintained planning scene on '%s'", self._topic)

@@ -157,7 +157,7 @@ class CurrentStateMonitor:
         return [name for name in names if name in self._single and name not in passive]
 
     def wait_for_current(self, since: rospy.Time | None = None, timeout: float = 1.0, group: str = "") -> bool:
-        """Wait until every joint was heard of at ``since`` (default: now) or later; ``timeout`` in wall seconds.
+        """Wait until every joint of ``group`` ("": all) was heard of at ``since`` (default: now) or later; ``timeout`` in wall seconds.
 
         Joints that nobody publishes are waited for once and told of; from then on they have their default values, and
         the state is current without them.
@@ -192,7 +192,7 @@ class CurrentStateMonitor:
         return True
 
     def wait_for_next(self, joints: Sequence[str], timeout: float = 1.0) -> bool:
-        """Wait (wall seconds) until each of ``joints`` was heard of anew."""
+        """Wait (up to ``timeout`` wall seconds) until each of ``joints`` was heard of anew."""
         end = time.monotonic() + timeout
         with self._lock:
             before = {name: self._stamps.get(name) for name in joints if name in self._single}
@@ -204,7 +204,11 @@ class CurrentStateMonitor:
         return True
 
     def explain(self, timeout: float = 1.0, since: rospy.Time | None = None) -> str:
-        """Why the state is not current: which joints are missing or old, who publishes, whose clock is another."""
+        """Why the state is not current: which joints are missing or older than ``since`` (default: now), who publishes, whose clock is
+        another.
+
+        :param timeout: wall seconds that were waited, for the text.
+        """
         since = rospy.Time.now() if since is None else since
         text = f"Didn't receive robot state (joint angles) with recent timestamp within {timeout:g} seconds. "
         never, late = self.missing(), self.missing(since)

@@ -245,7 +245,7 @@ class TrajectoryExecution:
         return trajectory.joint_trajectory.header.stamp.is_zero() and states.duration(trajectory) == 0.0
 
     def tolerance(self, joint: str, table: dict | None = None) -> float:
-        """Allowed distance of ``joint`` from a trajectory's first point; 0 switches the check off."""
+        """Allowed distance of ``joint`` from a trajectory's first point, of ``table`` (None: the parameters'); 0 switches the check off."""
         table = self._tolerances() if table is None else table
         return table.get(joint, float(self.config["allowed_start_tolerance"]))
 

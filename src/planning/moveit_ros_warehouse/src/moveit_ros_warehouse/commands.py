@@ -30,7 +30,10 @@ _CONNECT = 10.0  # s that those have who already listen; a busy subscriber comes
 
 
 def program(name: str, description: str, run: Callable, options: Callable = lambda parser: None) -> Callable[[], int]:
-    """The main function of a node: ``run(arguments, warehouse)``; what goes wrong is one line and the exit code 1."""
+    """The main function of the node ``name``: ``run(arguments, warehouse)``; what goes wrong is one line and the exit code 1.
+
+    :param description: for ``--help``. :param options: adds those of the node to its argparse parser.
+    """
 
     def main() -> int:
         parser = argparse.ArgumentParser(prog=name, description=description)

@@ -61,7 +61,7 @@ def database_file(host: str = "", patience: float | None = None) -> str:
 
 
 def connect(host: str = "", patience: float | None = None) -> Warehouse:
-    """The warehouse of this node.
+    """The warehouse of this node; ``host`` and ``patience`` as for :func:`database_file`.
 
     :raises StorageError: there is none, or its file cannot be used.
     """

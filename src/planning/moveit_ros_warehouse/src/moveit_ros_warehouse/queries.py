@@ -102,7 +102,10 @@ def _floats(words: Iterable[str], count: int, number: int, line: str) -> list[fl
 def goal_constraints(
     name: str, link: str, xyz: Sequence[float], rpy: Sequence[float], frame: str, tolerance: float = 1e-3, angle: float = 1e-2
 ) -> Constraints:
-    """A goal as constraints, with upstream's default tolerances (m, rad)."""
+    """A goal ``name`` as constraints: ``link`` at ``xyz`` (m) turned by ``rpy`` (rad, about its own axes), in ``frame``.
+
+    :param tolerance: radius about the place, m. :param angle: about each axis, rad. The defaults are upstream's.
+    """
     region = BoundingVolume(primitives=[SolidPrimitive(SolidPrimitive.SPHERE, [tolerance])], primitive_poses=[Pose()])
     place = region.primitive_poses[0]
     place.position.x, place.position.y, place.position.z = xyz

@@ -91,12 +91,12 @@ class Warehouse:
         return name
 
     def add_result(self, scene: str, request: MotionPlanRequest, result: RobotTrajectory) -> None:
-        """Keep a trajectory that answers a request of a scene; a request that is not known is kept as well."""
+        """Keep ``result``, which answers ``request`` of ``scene`` (its name); a request that is not known is kept as well."""
         name = self.add_request(scene, request)
         self.results.save(f"{name}#{len(self.results_of(scene, name))}", result, scene=scene)
 
     def results_of(self, scene: str, request: str) -> list[RobotTrajectory]:
-        """The trajectories that were kept for a request."""
+        """The trajectories that were kept for ``request`` of ``scene`` (names)."""
         names = [name for name in self.results.names(scene=scene) if name.rpartition("#")[0] == request]
         return [self.results.load(name, scene=scene) for name in sorted(names, key=lambda name: int(name.rpartition("#")[2]))]
 

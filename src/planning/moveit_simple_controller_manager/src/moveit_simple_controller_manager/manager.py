@@ -14,7 +14,10 @@ HANDLES = {"FollowJointTrajectory": FollowJointTrajectoryHandle, "GripperCommand
 
 
 def read_controller_list(namespace: str, required=("name", "joints")) -> list[dict[str, Any]]:
-    """The usable entries of ``controller_list``; what is wrong with others is told, one line each."""
+    """The usable entries of ``controller_list`` in ``namespace``; what is wrong with others is told, one line each.
+
+    :param required: keys that each must have.
+    """
     parameter = rospy.resolve_name(namespace + "controller_list")
     entries = rospy.get_param(namespace + "controller_list", None)
     if entries is None:
@@ -59,6 +62,7 @@ class ListedControllers(ControllerManager):
         self._handles: dict[str, ControllerHandle] = {}
 
     def add(self, entry: dict[str, Any], handle: ControllerHandle) -> None:
+        """Take the controller of ``entry``, with ``name`` and ``joints``; ``handle`` executes for it."""
         self._entries[entry["name"]] = entry
         self._handles[entry["name"]] = handle
 

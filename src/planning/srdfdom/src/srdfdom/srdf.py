@@ -281,7 +281,7 @@ class Robot(Element):
         self.group_state_map = {state.name: state for state in self.group_states}
 
     def add_aggregate(self, type_name: str, element: Element) -> None:
-        """Append an element by its tag."""
+        """Append ``element`` by its tag, ``type_name``. :raises ParseError: a robot has no such elements."""
         for tag, _, field in self._children:
             if tag == type_name:
                 getattr(self, field).append(element)

@@ -10,7 +10,7 @@ PATIENCE = 30.0  # s
 
 
 def ask(name: str, kind: type, goal: Any) -> actionlib.SimpleActionClient | None:
-    """Send ``goal`` once the server is there; None if the node ends before."""
+    """Send ``goal`` to the action ``name`` of class ``kind`` once its server is there; None if the node ends before."""
     client = actionlib.SimpleActionClient(name, kind)
     rospy.loginfo("Waiting for action server to start.")
     if not client.wait_for_server():

@@ -55,8 +55,9 @@ class Head:
         return cls((pan, tilt, zoom), bool(values["invert_ptz"]))
 
     def go(self, pan: float, tilt: float, zoom: float, relative: bool = False) -> None:
-        """A command, to a place or (``relative``) onwards from where the head is to be; cut to the limits. What is no number
-        changes nothing."""
+        """A command to ``pan``, ``tilt`` (rad) and ``zoom`` or, ``relative``, onwards by them from where the head is to be; cut to the
+        limits. What is no number changes nothing.
+        """
         sign = -1.0 if self.inverted else 1.0
         begin = (self.pan, self.tilt, self.zoom) if relative else (0.0, 0.0, 0.0)
         wanted = [start + more for start, more in zip(begin, (sign * pan, sign * tilt, zoom))]

@@ -23,7 +23,11 @@ class Madgwick:
         self.bias: Vector = (0.0, 0.0, 0.0)
 
     def update(self, acceleration: Vector, rate: Vector, field: Vector | None, dt: float) -> None:
-        """One reading: m/s^2, rad/s, magnetic field in any unit or None, s since the last one."""
+        """One reading.
+
+        :param acceleration: (3,) m/s^2, sensor frame, +g upwards at rest. :param rate: (3,) rad/s, sensor frame
+        :param field: (3,) magnetic field, sensor frame, any unit; None: not measured. :param dt: s since the last reading
+        """
         q = self.orientation
         seen = unit(acceleration)
         pull: Vector = (0.0, 0.0, 0.0)  # turn of the sensor, about its own axes, that its readings ask for

@@ -63,16 +63,21 @@ class Node:
             self._subscriber = rospy.Subscriber(f"{name}/data_raw", Imu, self._take, queue_size=QUEUE)
 
     def prepare(self, name: str, debug: bool) -> None:
+        """Read the parameters of the filter. ``name``: namespace of the topics, "imu"; ``debug``: publish more, as upstream does."""
         raise NotImplementedError
 
     def answer(self, reading: Imu, field: tuple | None, dt: float):
+        """The orientation (w, x, y, z) after ``reading``; None while there is none.
+
+        :param field: (3,) magnetic field, None where it is not used. :param dt: s since the reading before
+        """
         raise NotImplementedError
 
     def reset(self) -> None:
         raise NotImplementedError
 
     def finish(self, message: Imu, orientation) -> None:
-        """What else a filter changes in the message or publishes beside it."""
+        """What else a filter changes in ``message`` or publishes beside it; ``orientation``: (w, x, y, z), as answered."""
 
     def _take(self, reading: Imu, mag: MagneticField | None = None) -> None:
         now = rospy.Time.now()
@@ -180,6 +185,7 @@ class MadgwickNode(Node):
 
 
 def main(name: str, kind) -> int:
+    """Run the node ``name``, an object of class ``kind``, until it is shut down. :return: the exit code"""
     node_signals.init_node(name)
     try:
         node = kind()

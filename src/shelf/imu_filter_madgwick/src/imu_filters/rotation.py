@@ -9,14 +9,17 @@ Quaternion = tuple[float, float, float, float]
 
 
 def dot(a: Vector, b: Vector) -> float:
+    """The scalar product of ``a`` and ``b``."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def added(a: Vector, b: Vector) -> Vector:
+    """``a`` + ``b``."""
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
 
 def cross(a: Vector, b: Vector) -> Vector:
+    """The vector product ``a`` x ``b``."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
@@ -27,6 +30,7 @@ def unit(v, least: float = 0.0):
 
 
 def product(a: Quaternion, b: Quaternion) -> Quaternion:
+    """The rotation ``b``, then ``a``."""
     return (
         a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
         a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],

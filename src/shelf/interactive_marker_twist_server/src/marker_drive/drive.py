@@ -30,7 +30,7 @@ class Drive:
         return sorted(self._linear)
 
     def linear(self, axis: str, distance: float) -> float:
-        """m/s for a drag of so many m; 0 for an axis that is not driven."""
+        """m/s along ``axis`` ("x", "y", "z") for a drag of ``distance`` m; 0 for an axis that is not driven."""
         if axis not in self._linear:
             return 0.0
         scale, least, most = self._linear[axis]

@@ -17,6 +17,9 @@ _ALONG = {"x": Quaternion(_HALF, 0, 0, _HALF), "y": Quaternion(0, 0, _HALF, _HAL
 
 
 def marker(drive: Drive, robot: str, link: str, size: float) -> InteractiveMarker:
+    """The marker of ``robot``, ``size`` m large, in the frame ``link``, with a handle for each axis that ``drive`` drives, and one to
+    turn.
+    """
     made = InteractiveMarker(name=robot + "_twist_marker", description="twist controller for " + robot, scale=size)
     made.header.frame_id = link
     made.pose.orientation.w = 1.0

@@ -35,8 +35,11 @@ class Formula:
             raise ValueError(f"'{self.text}' is no formula") from None
 
     def value(self, axes: Sequence[float], buttons: Sequence[int]) -> float:
-        """:raises IndexError: the joystick has no such axis or button. :raises ArithmeticError: a division by zero.
-        :raises TypeError: ``^`` of numbers that are not whole."""
+        """What it makes of the joystick's ``axes`` and ``buttons``.
+
+        :raises IndexError: the joystick has no such axis or button. :raises ArithmeticError: a division by zero.
+        :raises TypeError: ``^`` of numbers that are not whole.
+        """
         return self._value(self._body, {"axes": axes, "buttons": buttons})
 
     def _check(self, node: ast.expr) -> None:

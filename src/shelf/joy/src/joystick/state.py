@@ -22,7 +22,10 @@ class State:
         self._deadzone, self._sticky = deadzone, sticky
 
     def take(self, value: int, kind: int, number: int) -> bool:
-        """One event. True if it should be told at once (a button), False if others may be waited for (an axis)."""
+        """One event of the kernel: the button or axis ``number``, by ``kind``, has ``value`` (js_event's fields).
+
+        True if it should be told at once (a button), False if others may be waited for (an axis).
+        """
         if kind & ~INIT == BUTTON:
             _grow(self.buttons, number, 0)
             if not self._sticky or kind & INIT:

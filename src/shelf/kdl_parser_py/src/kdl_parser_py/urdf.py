@@ -26,7 +26,7 @@ def treeFromString(xml: str) -> tuple[bool, PyKDL.Tree]:
 
 
 def treeFromUrdfModel(robot_model: URDF, quiet: bool = False) -> tuple[bool, PyKDL.Tree]:
-    """:param quiet: not a word about an inertia of the root link, which KDL leaves out"""
+    """Of ``robot_model``. :param quiet: not a word about an inertia of the root link, which KDL leaves out"""
     root = robot_model.get_root()
     if robot_model.link_map[root].inertial and not quiet:
         print(f"The root link {root} has an inertia, which KDL leaves out: give it a massless parent link if it matters", file=sys.stderr)

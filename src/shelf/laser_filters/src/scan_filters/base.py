@@ -98,6 +98,7 @@ class Filter:
 
 
 def number(value: Any, what: str) -> float:
+    """``value`` as a number; ``what`` it is, for the error. :raises FilterError: it is none"""
     if not is_number(value):
         raise FilterError(f"{what} has to be a number, not {value!r}")
     return float(value)

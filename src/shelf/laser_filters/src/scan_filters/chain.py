@@ -28,8 +28,9 @@ KINDS = {
 
 
 def chain(entries: Any, transform: Transform | None = None) -> list[Filter]:
-    """The filters of a list of ``{name, type, params}``; a type may go without ``laser_filters/``.
+    """The filters of ``entries``, a list of ``{name, type, params}``; a type may go without ``laser_filters/``.
 
+    :param transform: brings points from one frame into another; filters for the scan's own frame need none.
     :raises FilterError: one line that names the entry and says what is wrong with it.
     """
     if not isinstance(entries, list):
@@ -52,7 +53,7 @@ def chain(entries: Any, transform: Transform | None = None) -> list[Filter]:
 
 
 def run(filters: list[Filter], scan: Scan, failed: Callable[[str], None]) -> bool:
-    """Filter a scan in place; False, and ``failed`` with one line, where a filter cannot."""
+    """Send ``scan`` through ``filters``, in place; False, and ``failed`` with one line, where a filter cannot."""
     for one in filters:
         try:
             one.apply(scan)

@@ -218,6 +218,6 @@ class ShadowsFilter(Filter):
 
 
 def hide(scan: Scan, rays: np.ndarray) -> None:
-    """These rays see nothing, as a range beyond the greatest says it."""
+    """Let ``rays`` (N,) bool or indices of ``scan`` see nothing, as a range beyond the greatest says it."""
     scan.ranges[rays] = scan.range_max + BEYOND
     scan.intensities[rays[: len(scan.intensities)]] = 0.0

@@ -60,7 +60,8 @@ class Fan:
 def xyz(data: bytes, width: int, height: int, point_step: int, row_step: int, offsets, big_endian: bool) -> np.ndarray:
     """(N, 3) of a cloud of float32 coordinates, in m, as sensor_msgs/PointCloud2 lays it out.
 
-    :param offsets: of x, y and z within a point, bytes.
+    :param data: bytes of ``height`` rows of ``width`` points; ``point_step``, ``row_step``: from one to the next, bytes.
+    :param offsets: of x, y and z within a point, bytes. :param big_endian: of the numbers.
     :raises ValueError: fewer bytes than the sizes say.
     """
     if len(data) < height * row_step or row_step < width * point_step:
@@ -72,7 +73,10 @@ def xyz(data: bytes, width: int, height: int, point_step: int, row_step: int, of
 
 
 def turned(points: np.ndarray, translation, quaternion) -> np.ndarray:
-    """(N, 3) points of a frame as another has them. :param quaternion: x, y, z, w, of length 1."""
+    """(N, 3) ``points`` of a frame as another has them, in which the first is at ``translation`` (3,), m.
+
+    :param quaternion: of the first frame in the other: x, y, z, w, of length 1.
+    """
     x, y, z, w = quaternion
     rotation = np.array(
         [

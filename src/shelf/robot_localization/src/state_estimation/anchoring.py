@@ -26,7 +26,10 @@ class Datum:
         self.convergence = self.plane.convergence(latitude, longitude)
 
     def cartesian(self, latitude: float, longitude: float, altitude: float) -> np.ndarray:
-        """(3,): east, north on the plane, altitude, m. :raises ValueError: there is no such point"""
+        """(3,): east, north on the plane, altitude, m, of a point at ``latitude``, ``longitude`` (degrees) and ``altitude`` (m).
+
+        :raises ValueError: there is no such point
+        """
         return np.array([*self.plane.plane(latitude, longitude, altitude), altitude])
 
 
@@ -52,7 +55,7 @@ class Anchor:
         self._plane_world = self.world_plane.inverse()
 
     def to_map(self, latitude: float, longitude: float, altitude: float) -> np.ndarray:
-        """(3,), m, in the robot's world. :raises ValueError: there is no such point"""
+        """(3,), m, in the robot's world, of ``latitude``, ``longitude`` (degrees), ``altitude`` (m). :raises ValueError: no such point"""
         turn = self.world_plane
         return turn.rotation @ self.datum.cartesian(latitude, longitude, altitude) + turn.translation
 

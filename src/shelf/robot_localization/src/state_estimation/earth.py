@@ -23,7 +23,7 @@ class Zone(NamedTuple):
 
 
 def zone_of(latitude: float, longitude: float) -> Zone:
-    """The standard zone of a point, degrees; with the exceptions of Norway and Spitsbergen."""
+    """The standard zone of ``latitude``, ``longitude``, degrees; with the exceptions of Norway and Spitsbergen."""
     north = latitude >= 0
     if not -80 <= latitude < 84:
         return Zone(_POLAR, north)
@@ -63,7 +63,7 @@ class Utm:
         self._project = Proj(grid, ellps="WGS84", south=not zone.north)
 
     def plane(self, latitude: float, longitude: float, altitude: float) -> tuple[float, float]:
-        """(east, north), m, of a point, degrees.
+        """(east, north), m, of a point at ``latitude``, ``longitude``, degrees; ``altitude``, m, changes nothing.
 
         :raises ValueError: there is no such point, or it is too far from the zone
         """
@@ -74,7 +74,7 @@ class Utm:
             raise ValueError(f"latitude {latitude:g}, longitude {longitude:g} cannot be told in UTM zone {self.zone.number}") from None
 
     def point(self, east: float, north: float) -> tuple[float, float]:
-        """(latitude, longitude), degrees, of a point of the plane, m. :raises ValueError: there is none"""
+        """(latitude, longitude), degrees, of the point ``east``, ``north`` of the plane, m. :raises ValueError: there is none"""
         try:
             longitude, latitude = self._project(east, north, inverse=True, errcheck=True)
         except ProjError:
@@ -82,7 +82,7 @@ class Utm:
         return latitude, longitude
 
     def convergence(self, latitude: float, longitude: float) -> float:
-        """From true north clockwise to the grid's, rad."""
+        """From true north clockwise to the grid's, rad, at ``latitude``, ``longitude``, degrees."""
         return math.radians(self._project.get_factors(longitude, latitude).meridian_convergence)
 
 
@@ -96,12 +96,12 @@ class Tangent:
         )
 
     def plane(self, latitude: float, longitude: float, altitude: float) -> tuple[float, float]:
-        """(east, north), m, of a point, degrees and m. :raises ValueError: there is no such point"""
+        """(east, north), m, of a point at ``latitude``, ``longitude`` (degrees), ``altitude`` (m). :raises ValueError: no such point"""
         _check(latitude, longitude, altitude)
         return self._project.transform(longitude, latitude, altitude)[:2]
 
     def point(self, east: float, north: float) -> tuple[float, float]:
-        """(latitude, longitude), degrees, of a point of the plane, m."""
+        """(latitude, longitude), degrees, of the point ``east``, ``north`` of the plane, m."""
         longitude, latitude, _ = self._project.transform(east, north, 0.0, direction="INVERSE")
         return latitude, longitude
 

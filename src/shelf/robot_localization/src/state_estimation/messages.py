@@ -19,7 +19,7 @@ def transform(pose) -> Transform:
 
 
 def fill(message, values, names: str = "xyz") -> None:
-    """Sets the fields ``names`` of a message."""
+    """Sets the fields ``names`` of ``message``, a letter each, to ``values``."""
     for name, value in zip(names, values):
         setattr(message, name, float(value))
 

@@ -51,7 +51,7 @@ def moved(states: np.ndarray, dt: float) -> np.ndarray:
 
 
 def jacobian(state: np.ndarray, dt: float) -> np.ndarray:
-    """(15, 15): d moved / d state. Straight up or down it is that of the bound of the rates, see :func:`moved`."""
+    """(15, 15): d moved / d ``state`` for ``dt`` s. Straight up or down it is that of the bound of the rates, see :func:`moved`."""
     roll, pitch, yaw = state[ORIENTATION]
     way = state[VELOCITY] * dt + 0.5 * state[ACCELERATION] * dt**2
     _, q, r = state[RATE] * dt

@@ -33,7 +33,10 @@ IDENTITY = Transform(np.eye(3), np.zeros(3))
 
 
 def quaternion_matrix(x: float, y: float, z: float, w: float) -> np.ndarray:
-    """(3, 3); a quaternion of all zeros counts as no rotation. :raises ValueError: it is not finite or far from length 1"""
+    """(3, 3) of the quaternion ``x``, ``y``, ``z``, ``w``; all zeros count as no rotation.
+
+    :raises ValueError: it is not finite or far from length 1
+    """
     length = np.sqrt(x * x + y * y + z * z + w * w)
     if length == 0.0:
         return np.eye(3)
@@ -161,7 +164,11 @@ class TwistInput:
         self._base, self._lookup, self._threshold = base, lookup, threshold
 
     def measure(self, frame: str, stamp, time: float, linear, angular, covariance) -> Measurement:
-        """:param covariance: (6, 6)
+        """A measurement in the robot's base frame.
+
+        :param frame: of the sensor at ``stamp``, "" is the base. :param time: of the measurement, s
+        :param linear, angular: (3,) m/s and rad/s in ``frame``
+        :param covariance: (6, 6)
         :raises FrameMissing: a transform is not known
         """
         mount = self._lookup(self._base, frame or self._base, stamp)
@@ -190,7 +197,11 @@ class AccelerationInput:
     def measure(
         self, frame: str, stamp, time: float, acceleration, covariance, orientation: np.ndarray | None, state_rpy: np.ndarray
     ) -> Measurement:
-        """:param orientation: (3, 3) of the unit in the world, None if it has none: the state's is taken then
+        """A measurement in the robot's base frame.
+
+        :param frame: of the unit at ``stamp``, "" is the base. :param time: of the measurement, s
+        :param acceleration: (3,) m/s^2 in ``frame``. :param covariance: (3, 3) of it
+        :param orientation: (3, 3) of the unit in the world, None if it has none: that of ``state_rpy`` (3,), rad, is taken then
         :raises FrameMissing: a transform is not known
         """
         mount = self._lookup(self._base, frame or self._base, stamp)
@@ -206,7 +217,7 @@ class AccelerationInput:
 
 
 def flags(value, parameter: str) -> np.ndarray:
-    """(15,) bool from a <sensor>_config parameter. :raises ValueError: it is no list of 15 truth values"""
+    """(15,) bool of ``value``, from ``parameter``, a <sensor>_config. :raises ValueError: it is no list of 15 truth values"""
     if not isinstance(value, list) or len(value) != SIZE or not all(type(entry) in (bool, int) for entry in value):
         raise ValueError(
             f"parameter {parameter} must be a list of 15 truth values (x, y, z, roll, pitch, yaw, vx, vy, vz, vroll, "
@@ -216,7 +227,10 @@ def flags(value, parameter: str) -> np.ndarray:
 
 
 def matrix(value, parameter: str) -> np.ndarray:
-    """(15, 15) from a list of 225 numbers, row by row, or of the 15 on the diagonal. :raises ValueError: it is neither"""
+    """(15, 15) of ``value``, a list of 225 numbers, row by row, or of the 15 on the diagonal, from ``parameter``.
+
+    :raises ValueError: it is neither
+    """
     try:
         numbers = np.array(value, float).ravel()
     except (TypeError, ValueError):

@@ -47,7 +47,10 @@ class Driver:
                 into[key] = value
 
     def drive(self, axes: Sequence[float], buttons: Sequence[int]) -> Velocities | None:
-        """m/s and rad/s of the six fields. None if there is nothing to say: an enable button that is let go stops once."""
+        """m/s and rad/s of the six fields, for ``axes`` and ``buttons`` of a Joy message.
+
+        None if there is nothing to say: an enable button that is let go stops once.
+        """
         if self._pressed(self.turbo, buttons):
             return self._velocities(axes, "turbo")
         if not self.required or self._pressed(self.enable, buttons):

@@ -69,6 +69,7 @@ class Sender:
         return not rospy.is_shutdown()
 
     def send(self, linear: tuple, angular: float) -> None:
+        """Publish ``linear``, (x, y, z) m/s, and ``angular``, rad/s about z."""
         self._velocities = linear, angular
         self._publish()
 

@@ -37,7 +37,7 @@ class Polygon:
         return self._edges == 0
 
     def velocity(self, x: float, y: float, theta: float) -> tuple:
-        """(m/s, rad/s) to command at this pose.
+        """(m/s, rad/s) to command to a turtle at ``x``, ``y`` (m), turned by ``theta`` (rad).
 
         :raises PolygonError: if the turtle does not move any more though it should
         """

@@ -55,7 +55,7 @@ def _broadcast_carrot(node_name: str, place) -> None:
 
 
 def follow(node_name: str, target: str = "turtle1", source: str = "turtle2", newest: bool = True) -> None:
-    """turtle2 runs after a frame.
+    """The node ``node_name``: turtle2 runs after the frame ``target``.
 
     :param source: the frame in which the target is looked up; the tutorial on debugging has a wrong one
     :param newest: False asks for the transform of this moment, and waits up to 1 s for it

@@ -12,7 +12,7 @@ RATE = 10.0  # Hz
 
 
 def spawn(x: float, y: float, name: str) -> None:
-    """A turtle of that name; if it is there already, a line says so."""
+    """A turtle ``name`` at ``x``, ``y``, m; if it is there already, a line says so."""
     while not rospy.is_shutdown():
         try:
             rospy.wait_for_service("spawn", timeout=0.5)
@@ -26,7 +26,7 @@ def spawn(x: float, y: float, name: str) -> None:
 
 
 def steer(x: float, y: float) -> Twist:
-    """The velocity towards a point of the turtle's own frame."""
+    """The velocity towards the point ``x``, ``y`` (m) of the turtle's own frame."""
     twist = Twist()
     twist.angular.z, twist.linear.x = 4 * math.atan2(y, x), 0.5 * math.hypot(x, y)
     return twist

@@ -62,7 +62,7 @@ def _broadcast_carrot(node_name: str, place) -> None:
 
 
 def follow(node_name: str, timeout: float = 0.0) -> None:
-    """turtle2 (or the one that the parameter turtle names) runs after turtle1.
+    """The node ``node_name``: turtle2 (or the one that the parameter turtle names) runs after turtle1.
 
     :param timeout: s to wait for the transform of this moment; 0 takes the newest there is
     """

@@ -28,6 +28,7 @@ class Source(Input):
     """Velocity commands."""
 
     def masked(self, lock_priority: int, now: float) -> bool:
+        """Whether it may not drive ``now`` (s): silent, or its priority is below ``lock_priority``."""
         return self.silent(now) or self.priority < lock_priority
 
 
@@ -42,14 +43,16 @@ class Lock(Input):
 
 
 def lock_priority(locks: list[Lock], now: float) -> int:
-    """The highest priority among the closed locks; 0 if none is closed."""
+    """The highest priority among the ``locks`` that are closed ``now`` (s); 0 if none is."""
     return max([0, *(lock.priority for lock in locks if lock.locked(now))])
 
 
 def chosen(sources: list[Source], locks: list[Lock], now: float) -> Source | None:
-    """The source that drives now: of those that are not masked the one of highest priority, the first of equals.
+    """The one of ``sources`` that drives ``now`` (s): of those that no lock masks the one of highest priority, the first of equals.
 
     A source of priority 0 never drives, and one without a timeout counts as speaking from the start, as in twist_mux.
+
+    :param locks: whose priorities mask sources while they are closed
     """
     lock = lock_priority(locks, now)
     free = [source for source in sources if source.priority > 0 and not source.masked(lock, now)]
@@ -60,6 +63,7 @@ def read_inputs(value, kind, parameter: str) -> list:
     """Sources or locks from the list of a YAML file.
 
     :param value: list of {name, topic, timeout (s), priority (0 to 255)}
+    :param kind: Source or Lock
     :param parameter: its name, for messages
     :raises ValueError: says which entry is wrong and what it must be
     """

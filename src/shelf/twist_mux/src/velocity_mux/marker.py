@@ -7,7 +7,9 @@ from visualization_msgs.msg import Marker
 
 
 def arrow(twist: Twist, frame_id: str, scale: float, height: float) -> Marker:
-    """Ahead and sideways as fast as the robot (1 m for 1 m/s); a turn (rad/s) counts sideways where it is the greater.
+    """``twist`` as an arrow in ``frame_id``.
+
+    Ahead and sideways as fast as the robot (1 m for 1 m/s); a turn (rad/s) counts sideways where it is the greater.
 
     :param scale: of the arrow's thickness
     :param height: m above the frame's origin

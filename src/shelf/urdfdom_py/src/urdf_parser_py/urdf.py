@@ -409,6 +409,7 @@ class Robot(Object):
     def get_chain(self, root: str, tip: str, joints: bool = True, links: bool = True, fixed: bool = True) -> list[str]:
         """Names from ``root`` to ``tip``, both included.
 
+        :param joints, links: whose names are wanted
         :param fixed: with fixed joints
         :raises KeyError: ``tip`` does not hang from ``root``
         """

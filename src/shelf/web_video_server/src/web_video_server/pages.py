@@ -41,6 +41,9 @@ def _entry(base: str, name: str) -> str:
 
 
 def viewer_page(topic: str, query: str) -> str:
-    """:param query: of the address, which the picture's address repeats"""
+    """HTML that shows the stream of ``topic``.
+
+    :param query: of the address, which the picture's address repeats
+    """
     name = escape(topic)
     return f'<!DOCTYPE html><html><head><title>{name}</title></head><body><h1>{name}</h1><img src="/stream?{escape(query)}"></body></html>'

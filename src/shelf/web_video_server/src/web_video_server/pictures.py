@@ -16,7 +16,7 @@ class NoPicture(VideoError):
 
 
 def encoded(message: Any, request: Request) -> bytes:
-    """A sensor_msgs Image or CompressedImage as the request wants it.
+    """``message``, a sensor_msgs Image or CompressedImage, as the ``request`` wants it.
 
     :raises NoPicture: an encoding that is not known, or fewer bytes than it has pixels
     """

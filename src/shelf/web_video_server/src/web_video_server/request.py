@@ -48,7 +48,10 @@ class Request:
 
 
 def read(query: str, default_type: str = "mjpeg") -> Request:
-    """:raises BadRequest: no such type, or a number that is none or out of its range"""
+    """What the address's ``query`` asks for; ``default_type`` where it names no type.
+
+    :raises BadRequest: no such type, or a number that is none or out of its range
+    """
     values = {name: given[-1] for name, given in parse_qs(query, keep_blank_values=True).items()}
     kind = values.get("type", default_type)
     if kind in FILMS:

@@ -230,7 +230,7 @@ _LEVEL = ("walls", "stairs", "height", "floor")
 
 
 def read_plan(path: str, resolution: float | None = None) -> Building:
-    """A :class:`Building` from a YAML plan, or from an image (then ``resolution``, m per pixel, is needed).
+    """A :class:`Building` from ``path``, a YAML plan or an image (then ``resolution``, m per pixel, is needed).
 
     :raises PlanError: one line that names file and entry.
     """

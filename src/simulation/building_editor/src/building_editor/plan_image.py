@@ -16,7 +16,7 @@ _MOST_PIXELS = 16_000_000
 def wall_rectangles(
     path: str, resolution: float, origin: tuple[float, float], occupied: float = 0.5, negate: bool = False
 ) -> list[Rectangle]:
-    """The dark areas of an image as upright rectangles, in metres.
+    """The dark areas of the image ``path`` as upright rectangles, in metres.
 
     :param resolution: m per pixel. :param origin: x, y of the lower left corner, m.
     :param occupied: as in map_server, how dark (0 white, 1 black) a wall is at least. :param negate: walls are light.

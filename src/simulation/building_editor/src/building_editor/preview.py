@@ -26,7 +26,7 @@ _PAPER, _GRID, _WALL, _DOOR, _WINDOW, _STEP, _MODEL = (
 
 
 def draw(building: Building, width: int = 1000) -> Image.Image:
-    """All levels from above, side by side, the lowest first: walls dark, doors brown, windows blue, on a grid of 1 m
+    """All levels of ``building`` from above, side by side, the lowest first: walls dark, doors brown, windows blue, on a grid of 1 m
     (10, 100 ... for what is larger than 200 m).
 
     :param width: of one level, pixels; less where there are many.
@@ -68,7 +68,7 @@ def draw(building: Building, width: int = 1000) -> Image.Image:
 
 
 def save(building: Building, path: str) -> None:
-    """:func:`draw` to a file, in the format that its name ends with.
+    """:func:`draw` of ``building`` to the file ``path``, in the format that its name ends with.
 
     :raises PlanError: no such format. :raises OSError: the file cannot be written.
     """

@@ -196,7 +196,7 @@ def config_text(building: Building) -> str:
 
 
 def write(building: Building, output: str) -> None:
-    """By the name of ``output``: a world, a model, or a model directory (ends with ``/``, or is one).
+    """Write ``building`` by the name of ``output``: a world, a model, or a model directory (ends with ``/``, or is one).
 
     :raises PlanError: the name tells none of these.
     """

@@ -13,7 +13,7 @@ _LEAST, _MOST = 0.01, 2.0  # m: shorter ones are not drawn, longer ones are cut
 
 
 def arrow_points(places: np.ndarray, vectors: np.ndarray, scale: float) -> np.ndarray:
-    """(M, 2, 3) from each place (N, 3) along its vector (N, 3) times ``scale``; only those long enough to be seen."""
+    """(M, 2, 3) from each of ``places`` (N, 3) along its one of ``vectors`` (N, 3) times ``scale``; only those long enough to be seen."""
     tips = np.asarray(vectors, float) * scale
     length = np.linalg.norm(tips, axis=1)
     good = np.isfinite(length) & (length >= _LEAST) & np.isfinite(places).all(axis=1)
@@ -39,7 +39,7 @@ class Forces:
     def show(self, places: np.ndarray, vectors: np.ndarray, scale: float) -> int:
         """How many arrows there are now.
 
-        :param places, vectors: (N, 3)
+        :param places, vectors: (N, 3) m and N. :param scale: m of an arrow for each N
         """
         arrows = arrow_points(places, vectors, scale)
         if not len(arrows):

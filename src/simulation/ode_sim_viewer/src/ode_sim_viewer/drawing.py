@@ -44,7 +44,9 @@ def rgb255(colour) -> tuple[int, int, int]:
 
 
 def fading_png(above: tuple[int, int, int], below: tuple[int, int, int]) -> bytes:
-    """A picture of one column that goes from one colour to another; all of its lower part has the second, which is the horizon's."""
+    """A picture of one column that goes from the colour ``above`` to ``below`` (0 to 255); all of its lower part has the second, which
+    is the horizon's.
+    """
 
     def chunk(kind: bytes, data: bytes) -> bytes:
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))

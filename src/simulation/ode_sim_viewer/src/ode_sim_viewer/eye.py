@@ -59,7 +59,7 @@ def view_from(eye: Pose, still: np.ndarray, moving: np.ndarray) -> View:
 
 
 def put_eye(client: Any, place: Iterable[float], target: Iterable[float]) -> None:
-    """Have a page look from ``place`` to ``target``, m: in this order, as the target goes along with the eye."""
+    """Have the page of ``client`` look from ``place`` to ``target``, m: in this order, as the target goes along with the eye."""
     client.camera.position = tuple(float(v) for v in place)
     client.camera.look_at = tuple(float(v) for v in target)
 

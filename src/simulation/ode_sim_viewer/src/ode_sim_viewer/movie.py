@@ -58,7 +58,7 @@ class Movie:
         return len(self.shots) >= _LONGEST * RATE
 
     def add(self, world: WorldRecord, frame: Frame, camera: Any) -> None:
-        """One picture: the ``frame`` as viser's ``camera`` sees it."""
+        """One picture: the ``frame`` of ``world`` as viser's ``camera`` sees it."""
         if self.full:
             return
         if world.revision != self._revision:
@@ -104,7 +104,10 @@ def scene_of(world: WorldRecord) -> SceneDescription:
 
 
 def write(movie: Movie, file: str) -> None:
-    """Draw it here, in this process."""
+    """Draw ``movie`` into ``file`` here, in this process.
+
+    :raises RuntimeError: OpenCV cannot write films.
+    """
     import cv2
     from ode_sim_rendering.renderer import Renderer
 

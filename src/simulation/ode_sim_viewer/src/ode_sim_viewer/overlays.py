@@ -48,7 +48,7 @@ class Overlays:
             self._contacts = None
 
     def show(self, kind: str, on: bool) -> None:
-        """Drawing thread."""
+        """Draw ``kind``, or do not any more (``on`` is False). Drawing thread."""
         if on:
             self.shown.add(kind)
         else:

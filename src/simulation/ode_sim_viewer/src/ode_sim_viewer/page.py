@@ -160,13 +160,13 @@ class Page:
         return None
 
     def tell(self, event: Any, text: str) -> None:
-        """A line on the page that asked."""
+        """A line, ``text``, on the page that ``event`` came from."""
         client = getattr(event, "client", None)
         if client is not None:
             client.add_notification("", one_line(text, 400), auto_close_seconds=8.0, color="red")
 
     def hold(self, event: Any, on: bool) -> bool:
-        """Take or let go of the controls; whether it was done."""
+        """Take (``on``) or let go of the controls, for the page that ``event`` came from; whether it was done."""
         who = getattr(event, "client_id", None)
         if who is None or self._holder not in (None, who):
             self.tell(event, "Another page holds the controls already.")

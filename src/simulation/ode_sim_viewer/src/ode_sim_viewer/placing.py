@@ -50,7 +50,7 @@ class Placing:
         self.say: Callable[[str], None] = lambda line: None
 
     def begin(self, event: Any, thing: Thing) -> None:
-        """From now on it hangs at the pointer of the page that asked. Drawing thread."""
+        """From now on ``thing`` hangs at the pointer of the page that ``event`` came from. Drawing thread."""
         self.end()
         self._thing, self._client_id = thing, event.client_id
         scene = self._page.server.scene

@@ -68,6 +68,7 @@ class Headers(dict[str, str]):
     """Of a request; names in any case."""
 
     def get(self, name: str, default: Any = None) -> Any:
+        """The header ``name``, in any case, or ``default``."""
         return super().get(name.lower(), default)
 
 
@@ -125,7 +126,7 @@ def _frame() -> bytes:
 
 
 def entitled(page: bytes, title: str, framed: bool = True) -> bytes:
-    """viser's page under another name than its own, sparing where it draws.
+    """viser's ``page`` with ``title`` for its own, sparing where it draws.
 
     :param framed: with tools and state round it; a recorded page has no controls for them
     """

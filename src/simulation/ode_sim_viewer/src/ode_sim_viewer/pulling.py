@@ -32,7 +32,7 @@ class Pull:
         self._last: tuple[float, tuple] | None = None  # sim time and place of the grip
 
     def attach(self, mesh: Any, model: str, link: str) -> None:
-        """Let ``mesh`` be pulled at, with the left button and Ctrl, or turned with Shift as well."""
+        """Let ``mesh``, of ``link`` of ``model``, be pulled at, with the left button and Ctrl, or turned with Shift as well."""
 
         async def on_drag(event: Any) -> None:
             with self._lock:

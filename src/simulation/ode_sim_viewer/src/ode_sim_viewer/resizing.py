@@ -47,7 +47,7 @@ def size_of(geometry: Simple) -> d.Vec3:
 
 
 def with_size(geometry: Simple, axis: int, length: float) -> Simple:
-    """The same kind of shape, ``length`` m along one of its axes; what is round stays round.
+    """The same kind of shape as ``geometry``, ``length`` m along its ``axis`` 0, 1 or 2; what is round stays round.
 
     :raises Refused: no shape is so
     """
@@ -61,7 +61,7 @@ def with_size(geometry: Simple, axis: int, length: float) -> Simple:
 
 
 def resized(model: d.Model, geometry: Simple) -> d.Model:
-    """A simple shape of other measures: the mass stays, the inertia is that of the new shape."""
+    """``model``, a simple shape, with the measures of ``geometry``: the mass stays, the inertia is that of the new shape."""
     link = model.links[0]
     solid = shape_model(model.name, geometry, max(link.inertial.mass, 1e-9)).links[0].inertial
     made = replace(
@@ -88,13 +88,16 @@ class Resizing:
         self._lock = threading.Lock()
 
     def show(self, on: bool, snap: float = 0.0) -> None:
-        """:param snap: m, 0 = none."""
+        """Show the knobs, or hide them (``on`` is False).
+
+        :param snap: m, 0 = none.
+        """
         self._wanted, self._snap = on, snap
         if self._page.frame is not None:
             self.move(self._page.frame)
 
     def apply(self, geometry: Simple, typed: bool = False) -> None:
-        """What is picked gets these measures; a step that can be undone.
+        """What is picked gets the measures of ``geometry``; a step that can be undone.
 
         :param typed: see :meth:`~ode_sim_viewer.selection.History.do`
         :raises Refused: it is no simple shape

@@ -54,7 +54,7 @@ class History:
             self._typed = time.monotonic() if typed else -math.inf
 
     def note(self, what: str, forth: Callable[[], None], back: Callable[[], None]) -> None:
-        """Remember a step that was taken already."""
+        """Remember a step that was taken already: ``what`` it is for people, ``forth`` does it again, ``back`` undoes it."""
         with self._lock:
             self._done = self._done[1 - _MOST_STEPS :] + [(what, forth, back)]
             self._undone.clear()
@@ -153,7 +153,7 @@ class Selection:
             )
 
     def select(self, model: str = "", link: str = "", light: str = "") -> None:
-        """Drawing thread."""
+        """Pick ``model``, or its ``link``, or ``light`` (names, '' for none). Drawing thread."""
         self._wanted = (model, link, light)
         self._become(*self._present(self._page.world))
 
@@ -210,8 +210,9 @@ class Selection:
         self._show()
 
     def gizmo(self, on: bool, snap: float = 0.0, snap_angle: float = 0.0) -> None:
-        """Show the handles to move and rotate with; ``snap`` m, ``snap_angle`` rad of roll, pitch and yaw, 0 = none.
-        Drawing thread."""
+        """Show the handles to move and rotate with, or hide them (``on`` is False); ``snap`` m, ``snap_angle`` rad of roll, pitch and yaw,
+        0 = none. Drawing thread.
+        """
         self._gizmo_wanted, self._snap, self._snap_angle = on, snap, snap_angle
         self._show()
 
@@ -306,7 +307,7 @@ class Selection:
         return self.insert(name.rstrip("0123456789").rstrip("_") or name, text, replace(pose, p=(pose.p[0] + 1.0, pose.p[1], pose.p[2])))
 
     def insert(self, wanted: str, text: str, pose: Pose) -> str:
-        """A model or light from text, under a free name; the name."""
+        """A model or light from ``text`` at X_W ``pose``, under a free name like ``wanted``; the name."""
         world, simulation = self._page.world, self._page.simulation
         with self.history.alone():
             taken = {model.name for model in world.models} | {light.name for light in world.lights} | self._given

@@ -10,7 +10,7 @@ _GREY = d.Material("Gazebo/Grey")
 
 
 def shape_model(name: str, shape: Simple, mass: float = 1.0) -> d.Model:
-    """A grey body of one link named ``link``, as Gazebo's window inserts it: 1 kg, inertia of the full shape."""
+    """A grey body ``name`` of one link named ``link``, as Gazebo's window inserts it: ``mass`` kg, inertia of the full ``shape``."""
     if isinstance(shape, d.Sphere):
         moment = 0.4 * mass * shape.radius**2
         moments = (moment, moment, moment)

@@ -156,11 +156,11 @@ class Simulation(ABC):
 
     @abstractmethod
     def set_pose(self, model: str, pose: Pose) -> None:
-        """X_WM, at rest."""
+        """Put ``model`` at X_WM ``pose``, at rest."""
 
     @abstractmethod
     def insert(self, name: str, text: str, pose: Pose) -> None:
-        """A model or light from SDF or URDF text."""
+        """A model or light ``name`` from SDF or URDF ``text``, at X_W ``pose``."""
 
     @abstractmethod
     def delete(self, name: str) -> None:
@@ -168,24 +168,30 @@ class Simulation(ABC):
 
     @abstractmethod
     def set_joint_position(self, model: str, joint: str, position: float) -> None:
-        """Teleport a joint, rad or m."""
+        """Teleport ``joint`` of ``model`` to ``position``, rad or m."""
 
     @abstractmethod
     def command_joint(self, model: str, joint: str, mode: str, value: float, gains: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
-        """From now on, until another command or a reset; see :data:`JOINT_MODES`."""
+        """Command ``joint`` of ``model`` from now on, until another command or a reset.
+
+        :param mode: see :data:`JOINT_MODES`. :param value: in its unit. :param gains: p, i, d, for the modes that have them
+        """
 
     @abstractmethod
-    def link_properties(self, model: str, link: str) -> LinkProperties: ...
+    def link_properties(self, model: str, link: str) -> LinkProperties:
+        """Mass, inertia and gravity of ``link`` of ``model``."""
 
     @abstractmethod
-    def set_link_properties(self, model: str, link: str, properties: LinkProperties) -> None: ...
+    def set_link_properties(self, model: str, link: str, properties: LinkProperties) -> None:
+        """Give ``link`` of ``model`` the mass, inertia and gravity of ``properties``."""
 
     @abstractmethod
     def physics(self) -> tuple[d.Physics, d.Vec3]:
         """Settings and gravity."""
 
     @abstractmethod
-    def set_physics(self, physics: d.Physics, gravity: d.Vec3) -> None: ...
+    def set_physics(self, physics: d.Physics, gravity: d.Vec3) -> None:
+        """Step with the settings ``physics`` and with ``gravity``, m/s^2, from now on."""
 
     @abstractmethod
     def set_light(self, light: d.Light) -> None:
@@ -193,26 +199,26 @@ class Simulation(ABC):
 
     @abstractmethod
     def push(self, model: str, link: str, force: d.Vec3, torque: d.Vec3, duration: float) -> None:
-        """Force N and torque N m at the centre of mass, world axes, for ``duration`` s of sim time.
+        """``force`` N and ``torque`` N m at the centre of mass of ``link`` of ``model``, world axes, for ``duration`` s of sim time.
 
         A new one on the same link takes the place of the one before.
         """
 
     @abstractmethod
     def surface(self, model: str, link: str) -> SurfaceProperties:
-        """Of the link's first collision."""
+        """Of the first collision of ``link`` of ``model``."""
 
     @abstractmethod
     def set_surface(self, model: str, link: str, surface: SurfaceProperties) -> None:
-        """Of all collisions of the link."""
+        """Give ``surface`` to all collisions of ``link`` of ``model``."""
 
     @abstractmethod
     def paint(self, model: str, link: str, rgba: d.Rgba) -> None:
-        """All visuals of a link ('' = of the model) in one colour, 0 to 1."""
+        """All visuals of ``link`` ('' = of the whole ``model``) in one colour, ``rgba``, 0 to 1."""
 
     @abstractmethod
     def set_looks(self, model: str, looks: Looks) -> None:
-        """The visuals of these links look as they did."""
+        """The visuals of these links of ``model`` look as ``looks`` says they did."""
 
     @abstractmethod
     def watch_contacts(self, on: bool) -> None:
@@ -247,7 +253,7 @@ class Simulation(ABC):
 
 
 def record_world(world, revision: int) -> WorldRecord:
-    """Of a running :class:`ode_sim.World`; in the thread that steps it."""
+    """Of a running :class:`ode_sim.World`, ``world``, as its ``revision``; in the thread that steps it."""
     models: list[ModelRecord] = []
     for model in world.models.values():
         models.append(

@@ -31,7 +31,7 @@ def paint(link: Any, rgba: d.Rgba, visual: str = "") -> int:
 
 
 def set_looks(model: Any, looks: Looks) -> int:
-    """Give visuals back what they looked like; how many there were. In the thread that steps the world.
+    """Give visuals back what they looked like, ``looks``; how many there were. In the thread that steps the world.
 
     :param model: :class:`ode_sim.ModelHandle`
     """

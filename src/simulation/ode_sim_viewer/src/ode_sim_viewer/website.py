@@ -48,7 +48,7 @@ class Guard:
         self._cookie = f"viewer_{secrets.token_hex(4)}"  # of its own for each server on this host
 
     def refuse(self, path: str, headers) -> tuple | None:
-        """None, or (status, headers, text) to answer with.
+        """None, or (status, headers, text) to answer a request for ``path`` with.
 
         :param headers: a mapping, as of websockets
         """

@@ -47,7 +47,7 @@ class TheoraPublisher(rospy.SubscribeListener):
         return not self._silent and self._publisher.get_num_connections() > 0
 
     def publish(self, header, data) -> None:
-        """Encode one picture, rows without gaps; always from the same thread."""
+        """Encode one picture, ``data``, rows without gaps, and publish it with ``header``; always from the same thread."""
         if not self.wanted():
             return
         try:
@@ -65,6 +65,7 @@ class TheoraPublisher(rospy.SubscribeListener):
         self._parameters.shutdown()
 
     def peer_subscribe(self, topic_name, topic_publish, peer_publish) -> None:
+        """rospy tells of a new subscriber: ``topic_name`` is the topic, ``topic_publish`` and ``peer_publish`` send to all and to it."""
         self._restart = True
         if self._encoding not in encoder.ENCODINGS and not self._said:
             self._said = True

@@ -118,8 +118,11 @@ def check(
     port: int = 0,
     watch: Watch | None = None,
 ) -> Result:
-    """
+    """Examine ``submission``, a folder or an archive, by ``spec``.
+
     :param out: reports go there; what an earlier examination left there goes
+    :param unsafe: without the sandbox; ``port``: the first to try for the ROS master then
+    :param films: draw them
     :param watch: is called twice a second
     :raises sandbox.SandboxError: this machine cannot shut it in
     :raises NoPlace: reports cannot be written there

@@ -44,6 +44,7 @@ class Parser(argparse.ArgumentParser):
     """Of words among which there may be names of submissions: with ``*`` the shell makes an option of a file that is called so."""
 
     def parse_args(self, args=None, namespace=None):
+        """As argparse's, of ``args`` into ``namespace``; a word that looks like an option and is the name of a file here is an error."""
         for word in sys.argv[1:] if args is None else args:
             if word == "--":
                 break
@@ -53,6 +54,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def parser_for(name: str, text: str) -> argparse.ArgumentParser:
+    """A parser for the command ``name``, which takes a spec; ``text`` says what the command does."""
     parser = Parser(prog=f"rosrun lab_check {name}", description=text)
     parser.add_argument("spec", help="YAML: what is asked for; docs/grading.md")
     return parser

@@ -108,7 +108,9 @@ def refusal(text: str) -> str:
 
 
 def crashed(code: int | None, text: str) -> bool:
-    """Whether a program that ended with ``code`` crashed: by a signal, which a shell and bwrap tell as 128 + its number, or in Python."""
+    """Whether a program that ended with ``code`` and said ``text`` crashed: by a signal, which a shell and bwrap tell as 128 + its
+    number, or in Python.
+    """
     return code is not None and (code < 0 or code - 128 in _CRASHES) or "Traceback (most recent call last)" in text
 
 
@@ -123,7 +125,10 @@ def meaning(line: str) -> str:
 
 
 def excerpt(text: str, before: int = 2, after: int = 6, most: int = 40) -> list[str]:
-    """The first cause and what stands round it, then other errors, each once; the last lines when there is no error."""
+    """The first cause in ``text`` and what stands round it, then other errors, each once; the last lines when there is no error.
+
+    :param before, after: lines round the first cause. :param most: lines in all
+    """
     lines = lines_of(text)
     errors = [index for index, line in enumerate(lines) if _is_error(line)]
     if not errors:

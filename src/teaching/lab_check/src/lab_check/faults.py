@@ -85,8 +85,9 @@ FAULTS: list[Fault] = [
 
 
 def make(good: pathlib.Path, folder: pathlib.Path, count: int, seed: int = 0, faults: list[Fault] | None = None) -> list[dict]:
-    """Copies named ``NN_fault``; what was done to each, also as ``faults.json`` there.
+    """``count`` copies of ``good`` in ``folder``, named ``NN_fault``; what was done to each, also as ``faults.json`` there.
 
+    :param seed: chooses the same places every time. :param faults: those that are made, in turn; None: all
     :raises ValueError: a fault fits no file of the submission
     """
     dice, made = random.Random(seed), []

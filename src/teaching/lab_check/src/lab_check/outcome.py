@@ -118,6 +118,6 @@ def share(task: dict[str, Any], verdicts: list[Verdict]) -> TaskResult:
 
 
 def failed_task(task: dict[str, Any], reason: str) -> TaskResult:
-    """No marks for any expectation, for one reason."""
+    """No marks for any expectation of ``task``, for one ``reason``."""
     kinds = [next(k for k in e if k not in ("points", "say")) for e in task["expect"]]
     return share(task, [Verdict(kind, False, reason) for kind in kinds])

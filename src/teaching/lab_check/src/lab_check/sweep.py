@@ -51,12 +51,14 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def case_name(number: int, sweep: Sweep) -> str:
+    """The name of case ``number`` (from 0) of ``sweep``: ``case_001`` where there are some hundreds."""
     return f"case_{number + 1:0{len(str(len(sweep.cases)))}d}"
 
 
 def examine(sweep: Sweep, options: argparse.Namespace) -> int:
-    """
-    :returns: the exit code: 0, 4 where a case could not be examined, 130 after Ctrl-C
+    """Examine all cases of ``sweep``, as ``options`` of the command line say.
+
+    :returns: the exit code: 0, 2 where a value has no place, 4 where a case could not be examined, 130 after Ctrl-C
     """
     out = options.out.resolve()
     out.mkdir(parents=True, exist_ok=True)
@@ -109,7 +111,10 @@ class Cases(Pool):
 
 
 def table(inputs: dict[str, dict[str, Any]], store: Store) -> tuple[list[str], list[dict[str, Any]]]:
-    """A row for each case that was examined: its parameters, points, points of each task, and each figure that was measured."""
+    """The columns, and a row for each case of ``inputs`` that was examined, as ``store`` has it.
+
+    A row has its parameters, points, points of each task, and each figure that was measured.
+    """
     rows, columns = [], ["case", *next(iter(inputs.values()))]
     for stored in store.rows():
         if stored["name"] not in inputs or stored["state"] not in ("done", "failed"):
@@ -135,7 +140,7 @@ def figures(result: Result | None) -> dict[str, Any]:
 
 
 def write_table(columns: list[str], rows: list[dict[str, Any]], out: pathlib.Path, as_csv: bool) -> pathlib.Path:
-    """Parquet, or CSV where pyarrow is not there."""
+    """Write ``columns`` of ``rows`` into ``out``: Parquet, or CSV with ``as_csv`` or where pyarrow is not there. :returns: the file"""
     try:
         if as_csv:
             raise ImportError
@@ -165,7 +170,10 @@ def write_table(columns: list[str], rows: list[dict[str, Any]], out: pathlib.Pat
 
 
 def plots(sweep: Sweep, columns: list[str], rows: list[dict[str, Any]], out: pathlib.Path) -> list[tuple[str, pathlib.Path]]:
-    """One picture for the points and each figure that differs between the cases; in each, one plot for every parameter."""
+    """(figure, path) of one picture in ``out`` for the points and each figure that differs between the cases.
+
+    In each there is one plot for every parameter of ``sweep``; ``columns``, ``rows``: from :func:`table`.
+    """
     import matplotlib
 
     matplotlib.use("Agg")
@@ -208,7 +216,7 @@ def _differs(values: list[Any]) -> bool:
 
 
 def write_page(sweep: Sweep, columns: list[str], rows: list[dict[str, Any]], pictures, out: pathlib.Path) -> None:
-    """``sweep.html``: the plots, and the table's first columns with a link to each report."""
+    """``sweep.html`` in ``out``: the ``pictures`` of ``sweep``, and the first ``columns`` of ``rows`` with a link to each report."""
     parameters = list(sweep.data["parameters"])
     shown = [*parameters, "points", "of"]
     head = "".join(f"<th>{html.escape(column)}" for column in ["case", *shown, "remark"])

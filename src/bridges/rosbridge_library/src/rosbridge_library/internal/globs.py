@@ -9,9 +9,10 @@ from rosbridge_library.internal.exceptions import InvalidArgumentException
 
 
 def globs(name: str, value: Any) -> tuple[str, ...]:
-    """Patterns from "[/a, '/b*']", as launch files have them, or from a list; none: all is allowed.
+    """Patterns of ``value``, "[/a, '/b*']", as launch files have them, or a list; none: all is allowed.
 
-    :raises InvalidArgumentException:
+    :param name: of the parameter, for the error
+    :raises InvalidArgumentException: it is something else
     """
     if value is None or value == "None":
         return ()
@@ -22,4 +23,5 @@ def globs(name: str, value: Any) -> tuple[str, ...]:
 
 
 def allowed(name: str, patterns: tuple[str, ...]) -> bool:
+    """Whether ``name`` fits one of ``patterns``, or there are none."""
     return not patterns or any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns)

@@ -131,7 +131,10 @@ class Kinematics(Capability):
 
 
 def merge_state(scene, state, message) -> None:
-    """A RobotState of a request over the present state."""
+    """Put ``message``, the RobotState of a request, over ``state``, that of ``scene``; an empty one changes nothing.
+
+    :raises PlanningError: it cannot be used.
+    """
     if states.is_empty(message):
         return
     try:

@@ -17,8 +17,9 @@ from .move_action import current_state_only, without_robot_state
 
 
 def plan_sequence(context, scene, request: MotionSequenceRequest, cancel: motion.CancelToken | None = None):
-    """Plan a MotionSequenceRequest that is not empty.
+    """Plan a MotionSequenceRequest that is not empty in ``scene``, with ``context``'s pipelines.
 
+    :param cancel: ends it from another thread.
     :raises PlanningError: a request cannot be understood, or there is no pipeline of industrial motions.
     """
     for item in request.items:

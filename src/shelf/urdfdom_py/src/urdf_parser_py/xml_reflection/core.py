@@ -66,6 +66,7 @@ class Field:
         self.xml, self.read, self.required, self.default, self.var = xml, read, required, default, var or xml
 
     def missing(self, obj: Any, path: str) -> None:
+        """Set the default of ``obj``, whose XML at ``path`` has no such field. :raises ParseError: it is required"""
         if self.required:
             raise ParseError(ValueError(f"Required {self.kind} not set in XML: {self.xml}"), path)
         setattr(obj, self.var, list(self.default) if isinstance(self.default, list) else self.default)
@@ -85,6 +86,7 @@ class Child(Field):
     kind = "element"
 
     def from_xml(self, node: ElementTree.Element, path: str) -> Any:
+        """The value of the element ``node`` at ``path``. :raises ParseError: it is none of this kind"""
         if isinstance(self.read, tuple):  # <parent link="..."/>
             name, read = self.read
             if node.get(name) is None:
@@ -97,6 +99,7 @@ class Child(Field):
         return self.read.from_xml(node, path)
 
     def to_xml(self, parent: ElementTree.Element, value: Any) -> None:
+        """Append ``value`` to the element ``parent``."""
         if self.read is ElementTree.Element:
             parent.append(value)
             return
@@ -151,6 +154,7 @@ class Object:
 
     @classmethod
     def from_xml(cls, node: ElementTree.Element, path: str = "") -> Any:
+        """An object of the element ``node``; ``path`` is its place in the document, for errors. :raises ParseError: it cannot be read"""
         obj = cls.__new_empty()
         obj.read_xml(node, path)
         return obj
@@ -173,6 +177,7 @@ class Object:
         return obj
 
     def read_xml(self, node: ElementTree.Element, path: str) -> None:
+        """Set the fields to what the element ``node`` says; ``path`` is its place in the document. :raises ParseError: it cannot be read"""
         attributes = {field.xml: field for field in self.FIELDS if isinstance(field, Attribute)}
         children = {field.xml: field for field in self.FIELDS if isinstance(field, Child)}
         seen = set()
@@ -253,6 +258,7 @@ class Object:
         self.aggregate_order: list[Any] = []  # (name of the element, object), in the order of the file
 
     def add_aggregate(self, xml_var: str, obj: Any) -> None:
+        """Append ``obj`` to the list of the children with the tag ``xml_var``."""
         field = next(field for field in self.FIELDS if field.xml == xml_var)
         getattr(self, field.var).append(obj)
         self.aggregate_order.append((xml_var, obj))

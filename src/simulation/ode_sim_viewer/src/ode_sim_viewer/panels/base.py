@@ -59,12 +59,12 @@ def note(text: object) -> str:
 
 
 def counted(number: int, thing: str) -> str:
-    """``1 wall``, ``2 walls``."""
+    """``number`` and ``thing``: ``1 wall``, ``2 walls``."""
     return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
 
 
 def free_name(name: str, taken: Any) -> str:
-    """``name``, or ``name_0``, ``name_1`` ... as Gazebo's window names what it inserts."""
+    """``name``, or where ``taken`` has it ``name_0``, ``name_1`` ... as Gazebo's window names what it inserts."""
     if name not in taken:
         return name
     number = 0

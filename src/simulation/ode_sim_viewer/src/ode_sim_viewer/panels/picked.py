@@ -104,7 +104,7 @@ def _named(name: str) -> str:
 
 
 def look_at(client: Any, pose: Pose, distance: float = 2.5) -> None:
-    """Turn a page's eye to a place, from the side where it is."""
+    """Turn the eye of ``client``'s page to ``pose``, from the side where it is, ``distance`` m away."""
     eye = client.camera.position
     away = [float(e) - p for e, p in zip(eye, pose.p)]
     length = math.sqrt(sum(v * v for v in away)) or 1.0

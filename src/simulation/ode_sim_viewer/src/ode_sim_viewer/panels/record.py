@@ -81,5 +81,5 @@ class RecordPanel(Panel):
 
 
 def keep(client: Any, name: str, content: bytes) -> None:
-    """A download, without a further click."""
+    """A download of ``content`` as the file ``name`` by ``client``'s browser, without a further click."""
     client.send_file_download(name, content, save_immediately=True)

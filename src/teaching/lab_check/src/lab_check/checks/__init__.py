@@ -23,6 +23,7 @@ class PythonCheck(Check):
 
 
 def make(kind: str, wanted: Any, context: Context) -> Check:
+    """The check for an expectation of ``kind`` with the value ``wanted``, which the spec gives it, in a task's ``context``."""
     from . import files, graph, motion
 
     kinds = {

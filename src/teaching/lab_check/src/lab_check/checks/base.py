@@ -73,8 +73,9 @@ _PATIENCE = 5.0  # s that a pattern may be looked for
 
 
 def search(pattern: str, text: str) -> re.Match | None:
-    """``re.search`` that gives up: what a submission wrote may be made so that the teacher's pattern goes through it for ever. None
-    then, too."""
+    """``re.search`` of ``pattern`` in ``text`` that gives up: what a submission wrote may be made so that the teacher's pattern goes
+    through it for ever. None then, too.
+    """
     if threading.current_thread() is not threading.main_thread():
         return re.search(pattern, text)
 
@@ -93,5 +94,6 @@ def search(pattern: str, text: str) -> re.Match | None:
 
 
 def names(found, most: int = 8) -> str:
+    """The first ``most`` of ``found`` for a message, and how many more there are."""
     found = list(found)
     return ", ".join(found[:most]) + (f" and {len(found) - most} more" if len(found) > most else "") if found else "none"

@@ -75,7 +75,7 @@ def _in_words(wanted: dict[str, Any]) -> str:
 
 
 def complain(robot: ET.Element, wanted: dict[str, Any]) -> list[str]:
-    """What of the description is not as wanted."""
+    """What of ``robot``, the description's root, is not as ``wanted``, a sentence each."""
     joints = {joint.get("name"): joint for joint in robot.findall("joint")}
     moving = [joint for joint in joints.values() if joint.get("type") != "fixed"]
     links = {link.get("name") for link in robot.findall("link")}

@@ -23,6 +23,7 @@ class Timed(Check):
     """Keeps points for the plot."""
 
     def note(self, name: str, time: float, value: float) -> None:
+        """Keep ``value`` at ``time`` (simulated s) as a point of the line ``name``, unless the last one is too near."""
         line = self.series.setdefault(name, [])
         if not line or time - line[-1][0] >= _EVERY - 1e-9:
             line.append([time, value])

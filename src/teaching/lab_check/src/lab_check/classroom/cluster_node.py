@@ -38,6 +38,7 @@ def platform_version() -> str:
 def faults(version: str, unsafe: bool, sent: bytes = b"") -> tuple[str, list[str], bytes]:
     """The name of this machine, and what keeps it from examining: a sentence each, with the cure.
 
+    :param version: of noetic_labs where grade runs. :param unsafe: no sandbox is needed
     :param sent: comes back; what cannot be sent there and back would fail in each examination
     """
     said = []
@@ -59,6 +60,8 @@ def examine_parcel(name: str, submission: bytes, spec: bytes, spec_path: str, ho
     """One examination in a folder of its own.
 
     :param name: of the submission's file or folder
+    :param submission, spec: what ``packed_files`` made of them; ``spec_path`` is the spec's file in the latter
+    :param how: what ``check`` is told. :param worker: its number on this machine
     :returns: exit code of ``check``; its reports, packed
     """
     with temporary_folders.folder("lab_check_node.") as folder:

@@ -26,7 +26,7 @@ class How:
     port: int = 0
 
     def words(self, spec: str | pathlib.Path, submission: str | pathlib.Path, out: str | pathlib.Path, worker: int) -> list[str]:
-        """The command that examines one.
+        """The command that examines ``submission`` by ``spec`` and writes the reports into ``out``.
 
         :param worker: number of the worker on its machine
         """
@@ -44,7 +44,7 @@ class How:
 
 
 def examine(words: list[str], out: pathlib.Path) -> subprocess.Popen:
-    """Starts one examination; what it says goes to ``check.txt``. It ends when this thread does."""
+    """Starts one examination by the command ``words``; what it says goes to ``check.txt`` in ``out``. It ends when this thread does."""
     out.mkdir(parents=True, exist_ok=True)
     (out / "report.json").unlink(missing_ok=True)
     with open(out / "check.txt", "w", encoding="utf-8") as log:
@@ -61,7 +61,7 @@ def examine(words: list[str], out: pathlib.Path) -> subprocess.Popen:
 
 
 def outcome(out: pathlib.Path, code: int) -> Result | str:
-    """The result of an examination that ended with ``code``, or why there is none: one that died leaves no report."""
+    """The result of an examination that ended with ``code``, or why there is none: one that died leaves no report in ``out``."""
     try:
         result = Result.from_data(json.loads((out / "report.json").read_text(encoding="utf-8")))
     except (OSError, ValueError, TypeError, KeyError):
@@ -86,7 +86,7 @@ class Engine(abc.ABC):
 
     @abc.abstractmethod
     def start(self, name: str, path: pathlib.Path) -> None:
-        """Begins the examination of the submission at ``path``."""
+        """Begins the examination of the submission ``name`` at ``path``."""
 
     @abc.abstractmethod
     def ended(self) -> list[str]:

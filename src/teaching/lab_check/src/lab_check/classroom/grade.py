@@ -40,7 +40,7 @@ def named(paths: list[pathlib.Path]) -> dict[str, pathlib.Path]:
 
 
 def run(store: Store, engine: Engine, show: Callable[[str], None] | None = None) -> None:
-    """Until nothing waits and nothing runs.
+    """Until nothing of ``store`` waits and nothing runs on ``engine``.
 
     :param show: takes each line; None: the terminal, with a bar
     """
@@ -84,7 +84,8 @@ def results(out: pathlib.Path) -> pathlib.Path:
 
 
 def engine_for(spec: Spec, out: pathlib.Path, options: argparse.Namespace) -> Engine:
-    """
+    """The engine for ``spec`` that ``options`` of the command line choose, with reports below ``out``.
+
     :raises ClusterError: an address was given, and no cluster is there that can examine
     """
     how = How(options.unsafe, not options.no_films, options.port)
@@ -158,7 +159,9 @@ def examined_by(spec: Spec) -> str:
 
 
 def enlist(store: Store, spec: Spec, options: argparse.Namespace) -> None:
-    """The submissions of the command line, and what an earlier run left undone, wait."""
+    """The submissions of ``options``, the command line, and what an earlier run left undone in ``store``, wait to be examined by
+    ``spec``.
+    """
     text = examined_by(spec) + (str(time.time()) if options.again else "")
     for name, path in named([path for path in options.submissions if path.name != "faults.json"]).items():
         store.enlist(name, path.absolute(), fingerprint(path, text))

@@ -20,6 +20,7 @@ _COLOURS = ((0.999, "#d6f0dc"), (0.5, "#fff4cf"), (0.0, "#fbe0e0"))
 
 
 def write(spec: Spec, store: Store, out: pathlib.Path) -> None:
+    """Write gradebook.csv, gradebook.html and comparison.html of ``store``, a class examined by ``spec``, into ``out``."""
     rows = store.rows()
     results: dict[str, Result | None] = {row["name"]: result_of(row) for row in rows}
     tasks = (["Build"] if spec.data["packages"] else []) + [task["name"] for task in spec.data["tasks"]]

@@ -44,7 +44,7 @@ def pack(path: pathlib.Path, most: float = float("inf")) -> bytes:
 
 
 def unpack(parcel: bytes, folder: pathlib.Path) -> None:
-    """What :func:`pack` made, into a folder."""
+    """What :func:`pack` made, ``parcel``, into ``folder``."""
     folder.mkdir(parents=True, exist_ok=True)
     with tarfile.open(fileobj=io.BytesIO(parcel)) as archive:
         if hasattr(archive, "extraction_filter"):

@@ -71,7 +71,10 @@ def of_text(text: str) -> set[int]:
 
 
 def pairs(submissions: dict[str, pathlib.Path], near: float = NEAR) -> list[Pair]:
-    """Most alike first. What more than half of a class of eight or more shares, the handed-out part, does not count."""
+    """Pairs of ``submissions`` (paths by name) whose shares are ``near`` or more, most alike first.
+
+    What more than half of a class of eight or more shares, the handed-out part, does not count.
+    """
     found = {name: prints(path) for name, path in submissions.items()}
     if len(found) >= 8:
         often = Counter(p for these in found.values() for p in these)

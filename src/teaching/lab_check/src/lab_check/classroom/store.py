@@ -28,7 +28,7 @@ class Store:
         self._db.execute(_TABLE)
 
     def enlist(self, name: str, path: pathlib.Path, fingerprint: str) -> None:
-        """Known already and unchanged: what is done stays done."""
+        """The submission ``name`` at ``path`` waits. Known already and unchanged, by its ``fingerprint``: what is done stays done."""
         row = self._db.execute("SELECT fingerprint FROM submissions WHERE name = ?", (name,)).fetchone()
         if row is None or row["fingerprint"] != fingerprint:
             self._db.execute(
@@ -61,13 +61,16 @@ class Store:
         self._db.execute("UPDATE submissions SET state = 'running', tries = tries + 1 WHERE name = ?", (name,))
 
     def waits_again(self, name: str, why: str, tried: bool = True) -> None:
+        """``name`` waits once more, because of ``why``; ``tried``: that was one of its tries."""
         back = 0 if tried else 1
         self._db.execute("UPDATE submissions SET state = 'waiting', why = ?, tries = tries - ? WHERE name = ?", (why, back, name))
 
     def failed(self, name: str, why: str) -> None:
+        """No result comes of ``name``, because of ``why``."""
         self._db.execute("UPDATE submissions SET state = 'failed', why = ?, finished = ? WHERE name = ?", (why, time.time(), name))
 
     def done(self, name: str, result: Result) -> None:
+        """``name`` has its ``result``."""
         self._db.execute(
             "UPDATE submissions SET state = 'done', points = ?, of = ?, seconds = ?, result = ?, why = NULL, finished = ? WHERE name = ?",
             (result.points, result.of, result.seconds, json.dumps(result.data()), time.time(), name),
@@ -88,7 +91,10 @@ def result_of(row: sqlite3.Row) -> Result | None:
 
 
 def fingerprint(path: pathlib.Path, spec_text: str) -> str:
-    """Of names, sizes and times of a submission's files, and of the spec: another one is examined again. Links are not followed."""
+    """Of names, sizes and times of the files at ``path``, and of the spec, ``spec_text``: another one is examined again.
+
+    Links are not followed.
+    """
     digest = hashlib.sha256(spec_text.encode())
     if path.is_file():
         information = path.stat()

@@ -17,7 +17,10 @@ import numpy as np
 
 
 def shares(camera, scene, poses) -> dict[str, float]:
-    """``model::link::visual`` -> its part of the picture, of those that can be seen."""
+    """``model::link::visual`` -> its part of the picture that ``camera`` takes of ``scene``, of those that can be seen.
+
+    :param poses: (L, 7) x y z qx qy qz qw of the scene's links, world frame
+    """
     from ode_sim_rendering.renderer import Renderer
 
     renderer = Renderer()
@@ -31,7 +34,7 @@ def shares(camera, scene, poses) -> dict[str, float]:
 
 
 def share_of(name: str, found: dict[str, float]) -> float:
-    """Of a model, or of ``model::link``."""
+    """The part of the picture that ``name`` has, a model or ``model::link``, of ``found``, which :func:`shares` gave."""
     return sum(part for visual, part in found.items() if visual.startswith(f"{name}::"))
 
 

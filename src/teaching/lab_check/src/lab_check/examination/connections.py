@@ -21,7 +21,7 @@ def nodes() -> set[str]:
 
 
 def complete(master: rosgraph.Master, deaf: set[str]) -> bool:
-    """Each subscriber has a connection from each publisher of its topic.
+    """Each subscriber that ``master`` knows has a connection from each publisher of its topic.
 
     :param deaf: nodes that did not answer, which are asked no more; filled here
     """
@@ -69,7 +69,7 @@ def release(master: rosgraph.Master) -> int:
 
 
 def simulator_is(master: rosgraph.Master, name: str, uri: str, pid: int) -> None:
-    """Has the master note from now on who takes names of the simulator.
+    """Has ``master`` note from now on who takes names of the simulator: the node ``name`` at ``uri``, process ``pid``.
 
     :raises OSError: the master does not answer
     """

@@ -35,7 +35,7 @@ class Film:
 
 
 def picture(bench, model: str, stem: str) -> list[str]:
-    """Paths of the picture at a task's end."""
+    """Draws ``model`` at a task's end to ``stem`` with ``.png``. :returns: its path, nothing where ``bench`` cannot draw"""
     png = bench.picture(model)
     if not png:
         return []

@@ -12,7 +12,10 @@ class Interference:
         self._changes: dict[tuple[str, str], tuple[int, float]] = {}
 
     def changed(self, what: str, who: str, count: int, first: float) -> None:
-        """A node called a service of the simulator that changes the world, or published what does."""
+        """The node ``who`` called ``what``, a service of the simulator that changes the world, or published on a topic that does.
+
+        :param count: how often. :param first: simulated s of the first time
+        """
         self._changes[what, who] = (count, first)
 
     @property

@@ -83,8 +83,9 @@ class Job:
     def program(
         self, words: list[str], environment: dict[str, str], streams: Streams | None = None, pass_fds: Sequence[int] = ()
     ) -> Program:
-        """One of the submission's programs, inside the inner wall.
+        """One of the submission's programs, ``words``, inside the inner wall.
 
+        :param environment: all that it finds in its own, but for the mark. :param pass_fds: descriptors that it is given
         :param streams: its standard streams; by default what it says is kept
         :raises NoRoom: see there
         """

@@ -169,6 +169,11 @@ class Session:
     # ------------------------------------------------------------------------------------------ programs
 
     def start(self, line: str, keys: bool = False, launch: bool = False) -> Program:
+        """Start the submission's program ``line``, of a shell.
+
+        :param keys: on a terminal, whose keys are what is written to it. :param launch: it starts the simulator
+        :raises Gone: it cannot be started
+        """
         try:
             program = self.job.start(line, keys, {"LAB_CHECK_SIMULATOR": self.starter.address} if launch else {})
         except NoRoom as error:

@@ -93,7 +93,10 @@ class Bench:
             raise Gone(str(error)) from error
 
     def settle(self, rest: float = CONNECTED, patience: float = 10.0) -> None:
-        """Everybody has done what there was to do; new processes included, and those who now hear of new publishers."""
+        """Everybody has done what there was to do; new processes included, and those who now hear of new publishers.
+
+        :param rest, patience: as for ``Nodes.settle``
+        """
         for _ in range(_ROUNDS):
             self.nodes.find()
             if not self.nodes.settle(rest, patience):
@@ -175,7 +178,7 @@ class Bench:
             raise Gone(str(error)) from error
 
     def picture(self, model: str = "", width: int = 640, height: int = 400) -> bytes:
-        """A PNG, b'' where the simulator cannot draw."""
+        """A PNG of ``model`` ("": of the world), ``width`` x ``height`` pixels; b'' where the simulator cannot draw."""
         try:
             return png_of(self._wire.ask("picture", model if model in self.now.models else "", width, height))
         except (Refused, Lost, Gone):

@@ -11,5 +11,8 @@ _WINDOWS = {
 
 
 def is_window(package: str, kind: str) -> bool:
-    """:param kind: ``type`` of the node"""
+    """Whether a node of ``package`` opens a window.
+
+    :param kind: ``type`` of the node
+    """
     return (package, kind) in _WINDOWS or (package.startswith("rqt_") and kind == package)

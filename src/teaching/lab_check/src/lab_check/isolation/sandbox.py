@@ -175,6 +175,7 @@ def inner_words(platform: Platform, world: str, place: str, environment: dict[st
 
     :param world: the folder of :func:`.examination.job.Job.scratch`: home, the platform's roots where the program's user can reach them
     :param place: of this program alone, with folders ``tmp``, ``run`` and ``shm``; with its home the only ones that it can write to
+    :param environment: all that it finds in its own
     :param filter_fd: a file that holds :func:`lab_check.isolation.syscalls.program`
     """
     words = _ALONE.split()
@@ -235,6 +236,7 @@ def make_world(platform: Platform, world: str, size: int, user: int) -> None:
 
     :param size: bytes of all that they write, memory that has the form of files included
     :param user: theirs, inside the outer wall
+    :param platform: whose roots are mounted there
     """
     options = f"size={size},nr_inodes={_MOST_FILES},mode=0755,nosuid,nodev"
     subprocess.run(["mount", "-t", "tmpfs", "-o", options, "lab_check", world], check=True)
@@ -264,13 +266,16 @@ def filter_file(world: str | os.PathLike) -> pathlib.Path:
 
 
 def own_folder(path: pathlib.Path, user: int) -> None:
-    """A new one, of the submission's user."""
+    """Make ``path``, a new folder of the submission's ``user``."""
     path.mkdir(parents=True)
     os.chown(path, user, user)
 
 
 def environment(port: int, home: str = HOME) -> dict[str, str]:
-    """What a program of the submission finds in its environment; nothing of the teacher's."""
+    """What a program of the submission finds in its environment; nothing of the teacher's.
+
+    :param port: of the ROS master. :param home: as the program sees it
+    """
     return {
         "HOME": home,
         "USER": "student",

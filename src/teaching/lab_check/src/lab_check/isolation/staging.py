@@ -48,9 +48,9 @@ class Staged:
 
 @contextlib.contextmanager
 def within_bounds(memory: float = _MEMORY, seconds: float = _TIME) -> Iterator[None]:
-    """Whatever a submission's own bytes make a reader do, in memory and processor time, ends as the submission's fault. For the main
-    thread.
+    """Whatever a submission's own bytes make a reader do ends as the submission's fault. For the main thread.
 
+    :param memory: bytes. :param seconds: of processor time
     :raises StagingError: more was needed
     """
     soft, hard = resource.getrlimit(resource.RLIMIT_DATA)
@@ -100,6 +100,7 @@ def stage(submission: pathlib.Path, source: pathlib.Path, limit: float) -> Stage
 def unpack(submission: pathlib.Path, source: pathlib.Path, limit: float, staged: Staged) -> None:
     """The files of a submission, whatever it is, below ``source``.
 
+    :param limit: bytes. :param staged: is told what was left out and changed
     :raises StagingError: it is no submission, too large, or cannot be read
     """
     name = _show(submission.name)

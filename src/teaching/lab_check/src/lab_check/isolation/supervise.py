@@ -141,7 +141,7 @@ class Program:
             pass
 
     def wait(self, seconds: float, meanwhile: Callable[[], None] = lambda: None) -> bool:
-        """True when it ended by itself in time; otherwise it has been killed."""
+        """True when it ended by itself within ``seconds`` (wall); otherwise it has been killed. ``meanwhile`` is called again and again."""
         end = time.monotonic() + seconds
         while self.running and time.monotonic() < end:
             meanwhile()

@@ -53,7 +53,7 @@ def _open_folder(folder: str | os.PathLike, parts: Sequence[str]) -> int:
 
 
 def read_regular(folder: str | os.PathLike, name: str | os.PathLike, most: int) -> bytes:
-    """The first ``most`` bytes.
+    """The first ``most`` bytes of ``name`` in ``folder``.
 
     :raises OSError: as :func:`open_regular`
     """

@@ -13,6 +13,7 @@ from .page import page
 
 
 def write(result: Result, spec: Spec, out: pathlib.Path) -> None:
+    """Write ``result``, of an examination by ``spec``, into ``out``: report.html, report.json, junit.xml, results.json."""
     (out / "report.html").write_text(page(result, spec, out), encoding="utf-8")
     (out / "report.json").write_text(json.dumps(result.data(), indent=1, sort_keys=True), encoding="utf-8")
     (out / "junit.xml").write_bytes(junit(result))

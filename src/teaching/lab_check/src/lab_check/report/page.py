@@ -23,7 +23,7 @@ figure {margin: .6em 0; display: inline-block; vertical-align: top; width: 49%}"
 
 
 def page(result: Result, spec: Spec, out: pathlib.Path) -> str:
-    """HTML that stands beside its pictures and films."""
+    """HTML of ``result``, of an examination by ``spec``, that stands beside its pictures and films in ``out``."""
     title = f"{result.title}: {os.path.basename(result.submission)}"
     parts = [
         f"<h1>{_e(result.title)}</h1><p class=note>{_e(os.path.basename(result.submission))}</p>",

@@ -51,7 +51,8 @@ class Found:
 
 
 def look(package: str, file: str, arguments: list[str]) -> Found:
-    """
+    """What the launch file ``file`` of ``package`` with ``arguments`` (``name:=value``) tells.
+
     :raises NewError: roslaunch cannot read it
     """
     import roslaunch

@@ -124,7 +124,10 @@ def _schema_problems(path, data, lines, schema) -> list[str]:
 
 
 def example(schema: dict[str, Any], where: tuple) -> str:
-    """How the command or the expectation at this path of keys is written, to be put behind a complaint; '' elsewhere."""
+    """How the command or the expectation at ``where``, a path of keys, is written, to be put behind a complaint; '' elsewhere.
+
+    :param schema: spec_schema.json
+    """
     definitions = schema.get("definitions", {})
     kinds = [definitions.get(part, {}).get("properties", {}) for part in ("command", "expectation")]
     written = next((kind[where[4]]["examples"] for kind in kinds if len(where) > 4 and "examples" in kind.get(where[4], {})), None)
@@ -132,7 +135,7 @@ def example(schema: dict[str, Any], where: tuple) -> str:
 
 
 def line_of(lines: dict[tuple, int], where: tuple) -> int:
-    """Of the value at this path of keys, or of the nearest that holds it."""
+    """The line, by ``lines``, of the value at ``where``, a path of keys, or of the nearest that holds it."""
     while where and where not in lines:
         where = where[:-1]
     return lines.get(where, 1)

@@ -42,7 +42,7 @@ class Sweep:
         return any("yaml" in place or "file" in place for place in self.data["set"])
 
     def write_case(self, values: dict[str, Any], folder: pathlib.Path) -> pathlib.Path:
-        """Spec and, where values go into files, a copy of the submission.
+        """Spec with ``values`` (by parameter) into ``folder`` and, where values go into files, a copy of the submission.
 
         :returns: the submission to examine
         :raises PlaceError: a place is not there
@@ -175,8 +175,9 @@ def cases(data: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def put(place: dict[str, Any], value: Any, spec: dict[str, Any], submission: pathlib.Path, write: bool = True) -> None:
-    """One value to its place in the data of the spec, or in a file of the submission.
+    """``value`` to its ``place`` in the data of the ``spec``, or in a file of the ``submission``.
 
+    :param write: False only looks whether there is such a place
     :raises PlaceError: there is no such place
     """
     if "spec" in place:
