@@ -68,7 +68,7 @@ def _nobody_reads() -> bool:
 
 
 def init_node(name: str, **options) -> None:
-    """``rospy.init_node`` with SIGINT and SIGTERM handled as said above. Call it in the main thread.
+    """``rospy.init_node`` of ``name`` and ``options``, with SIGINT and SIGTERM handled as said above. Call it in the main thread.
 
     Shutdown hooks run in a thread of their own. The process ends when they are done and the main thread has returned,
     which it does when it watches ``rospy.is_shutdown()`` or waits in :func:`spin`; one that hangs is left behind after
@@ -142,7 +142,7 @@ def _end_when_starved_at_start() -> None:
 
 
 def starved(error: BaseException | None) -> bool:
-    """Whether the system has refused memory, a thread or a file."""
+    """Whether ``error`` says that the system has refused memory, a thread or a file."""
     text = str(error)
     return (
         isinstance(error, MemoryError)

@@ -36,7 +36,7 @@ _NO_PROGRAMS = {
 
 
 def explanation(name: str) -> str:
-    """Who has the package, or what to look at."""
+    """Who has the package ``name``, or what to look at."""
     found = _debian_packages(name)
     if found:
         return f"Debian has it: sudo apt install {found}"
@@ -65,7 +65,7 @@ def _known_sentence(name: str) -> str:
 
 
 def in_one_line(error: rospkg.ResourceNotFound) -> str:
-    """For rospkg.ResourceNotFound.__str__."""
+    """For rospkg.ResourceNotFound.__str__: what ``error`` says."""
     what = str(error.args[0]) if error.args else ""
     return f"the package '{what}' is not here. {explanation(what)}" if re.fullmatch(r"[A-Za-z][\w-]*", what) else what
 

@@ -26,7 +26,7 @@ class Transport(xmlrpc.client.Transport):
 
 
 def master_answers(caller: str) -> bool:
-    """As ``rosgraph.is_master_online``, which takes this process's own want of memory or files for a master that is away.
+    """As ``rosgraph.is_master_online`` for ``caller``, which takes this process's own want of memory or files for a master that is away.
 
     A node that waits for the master would wait for ever then.
 

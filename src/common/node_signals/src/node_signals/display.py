@@ -27,7 +27,9 @@ _REMEDY = (
 
 
 def choose_platform(environment: MutableMapping[str, str]) -> None:
-    """Qt on X11 where a Wayland session has an X server, which RViz's OpenGL needs and rqt's plugins were written for."""
+    """Qt on X11, by ``environment``, where a Wayland session has an X server, which RViz's OpenGL needs and rqt's plugins were written
+    for.
+    """
     if environment.get("WAYLAND_DISPLAY") and environment.get("DISPLAY") and not environment.get("QT_QPA_PLATFORM"):
         environment["QT_QPA_PLATFORM"] = "xcb"
 
@@ -65,7 +67,7 @@ def missing_display(x11_only: bool = False) -> str | None:
 
 
 def asked_for(words: list[str]) -> str | None:
-    """The window that a command opens: ``rviz ...`` or ``rosrun [--prefix COMMAND] [--debug] PACKAGE PROGRAM ...``."""
+    """The window that a command, ``words``, opens: ``rviz ...`` or ``rosrun [--prefix COMMAND] [--debug] PACKAGE PROGRAM ...``."""
     if os.path.basename(words[0]) != "rosrun":
         package = program = os.path.basename(words[0])
     else:
@@ -82,7 +84,9 @@ def _place_of_package(words: list[str]) -> int:
 
 
 def in_working_order(words: list[str]) -> list[str]:
-    """``rosrun tf view_frames``, which Debian's tf ends with a trace, as the program of tf2 that draws the same frames.pdf."""
+    """``words``, a command; ``rosrun tf view_frames``, which Debian's tf ends with a trace, as the program of tf2 that draws the same
+    frames.pdf.
+    """
     at = _place_of_package(words)
     if os.path.basename(words[0]) == "rosrun" and words[at:] == ["tf", "view_frames"]:
         return words[:at] + ["tf2_tools", "view_frames.py"]
@@ -90,7 +94,7 @@ def in_working_order(words: list[str]) -> list[str]:
 
 
 def next_on_path(command: str) -> str:
-    """The program of the same name that PATH would give without this one: another workspace's, or Debian's."""
+    """The program called as ``command`` that PATH would give without this one: another workspace's, or Debian's."""
     name, own = os.path.basename(command), os.path.realpath(os.path.dirname(command))
     found = [folder for folder in os.get_exec_path() if os.access(os.path.join(folder, name), os.X_OK)]
     places = [os.path.realpath(folder) for folder in found]

@@ -78,8 +78,9 @@ def _executables(folders: list[str], own: str, name: str) -> list[str]:
 
 
 def run(words: list[str]) -> None:
-    """Become the program, if it is clear which it is; otherwise return, when Debian's rosrun has its say. Why it will find nothing
-    stands before that."""
+    """Become the program that rosrun's ``words`` mean, if it is clear which it is; otherwise return, when Debian's rosrun has its say. Why
+    it will find nothing stands before that.
+    """
     asked = command(words)
     if asked is None:
         return

@@ -26,7 +26,7 @@ class Progress:
         return self._bar is not None
 
     def update(self, number: int = 1) -> None:
-        """So many more are done."""
+        """So many more, ``number``, are done."""
         if self._bar is not None:
             self._bar.update(number)
 
@@ -38,7 +38,7 @@ class Progress:
             self._bar.refresh()
 
     def line(self, text: str) -> None:
-        """A line of the command's output, which the bar makes room for."""
+        """``text``, a line of the command's output, which the bar makes room for."""
         if self._bar is None:
             print(text, flush=True)
         else:

@@ -133,5 +133,5 @@ def find_in_workspaces(*arguments, **named) -> list[str]:
 
 
 def become(command: str) -> None:
-    """Run the Python program of that name which PATH would give without this package's: Debian's, in this process."""
+    """Run the Python program called as ``command`` which PATH would give without this package's: Debian's, in this process."""
     runpy.run_path(next_on_path(command), run_name="__main__")

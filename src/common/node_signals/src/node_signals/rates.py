@@ -81,7 +81,7 @@ class PeriodAdded:
         self.elapsed = 0.0
 
     def due(self, now_ns: int) -> bool:
-        """Whether it opens now; the first time that it is asked it only begins to count."""
+        """Whether it opens at ``now_ns``; the first time that it is asked it only begins to count."""
         if self._last_ns is None or now_ns < self._last_ns:
             self._last_ns = now_ns
             return False
@@ -108,14 +108,15 @@ class Spaced:
         self._last_ns = last_ns
 
     def ready(self, now_ns: int) -> bool:
-        """Whether it would open; does not take the opening."""
+        """Whether it would open at ``now_ns``; does not take the opening."""
         return self._last_ns is None or not 0 <= now_ns - self._last_ns < self._least_ns
 
     def take(self, now_ns: int) -> None:
-        """The opening is now, ready or not."""
+        """The opening is at ``now_ns``, ready or not."""
         self._last_ns = now_ns
 
     def due(self, now_ns: int) -> bool:
+        """Whether it opens at ``now_ns``, which takes the opening."""
         last_ns = self._last_ns
         if last_ns is not None and 0 <= now_ns - last_ns < self._least_ns:
             return False
@@ -150,7 +151,7 @@ class LatenessKept:
         self.period_ns = round(_NS / rate) if rate > 0 else 0
 
     def ready(self, now_ns: int) -> bool:
-        """Whether it would open; does not take the opening. Never twice at the same time, and not at 0."""
+        """Whether it would open at ``now_ns``; does not take the opening. Never twice at the same time, and not at 0."""
         if now_ns <= self.last_ns:
             if now_ns < self.last_ns:
                 self.reset()
@@ -158,12 +159,13 @@ class LatenessKept:
         return now_ns - self.last_ns + self._delay_ns >= self.period_ns
 
     def take(self, now_ns: int) -> None:
-        """The opening is now."""
+        """The opening is at ``now_ns``."""
         delay = max(0, now_ns - self.last_ns + self._delay_ns - self.period_ns)
         self._delay_ns = delay if delay < self.period_ns else 0
         self.last_ns = now_ns
 
     def due(self, now_ns: int) -> bool:
+        """Whether it opens at ``now_ns``, which takes the opening."""
         if not self.ready(now_ns):
             return False
         self.take(now_ns)

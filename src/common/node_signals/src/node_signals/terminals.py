@@ -37,7 +37,7 @@ def command_in_terminal(words: list[str]) -> list[str] | None:
 
 
 def with_what_is_there(words: list[str]) -> tuple[list[str], str]:
-    """The command of a node as it can be run here, and a line saying what is different, or "".
+    """The command of a node, ``words``, as it can be run here, and a line saying what is different, or "".
 
     With a display and another terminal the node gets that one. Otherwise it runs as nodes do that have no window.
     """

@@ -8,7 +8,7 @@ import os
 
 
 def level(verbose: bool) -> int:
-    """For ``rospy.init_node(log_level=...)``."""
+    """For ``rospy.init_node(log_level=...)``: DEBUG if ``verbose``, else INFO."""
     import rospy
 
     if verbose:

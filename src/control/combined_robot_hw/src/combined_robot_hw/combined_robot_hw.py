@@ -60,7 +60,7 @@ class CombinedRobotHW(RobotHW):
         return True
 
     def add(self, part: RobotHW) -> None:
-        """Take one more robot in."""
+        """Take one more robot in, ``part``."""
         self.parts.append(part)
         self.register_interface_manager(part)
 

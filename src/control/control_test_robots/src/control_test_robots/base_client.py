@@ -93,17 +93,17 @@ def _differ(a: Twist, b: Twist) -> bool:
 
 
 def yaw(odometry: Odometry) -> float:
-    """rad"""
+    """Heading of ``odometry``, rad."""
     return heading(odometry.pose.pose.orientation)
 
 
 def duration(messages: list[Any]) -> float:
-    """Between the first and the last stamp, s."""
+    """Between the first and the last stamp of ``messages``, s."""
     return (messages[-1].header.stamp - messages[0].header.stamp).to_sec()
 
 
 def displacement(odometry: list[Odometry]) -> tuple:
-    """(x, y) of the last pose in the frame of the first one, m."""
+    """(x, y) of the last pose of ``odometry`` in the frame of the first one, m."""
     first, last = odometry[0], odometry[-1]
     dx = last.pose.pose.position.x - first.pose.pose.position.x
     dy = last.pose.pose.position.y - first.pose.pose.position.y
@@ -112,5 +112,5 @@ def displacement(odometry: list[Odometry]) -> tuple:
 
 
 def turned(odometry: list[Odometry]) -> float:
-    """Sum of the small turns between the poses, rad; several turns are counted."""
+    """Sum of the small turns between the poses of ``odometry``, rad; several turns are counted."""
     return sum(math.remainder(yaw(b) - yaw(a), 2.0 * math.pi) for a, b in zip(odometry, odometry[1:]))

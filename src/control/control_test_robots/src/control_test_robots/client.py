@@ -85,7 +85,7 @@ class Topic:
         self.messages = []
 
     def next(self, timeout: float = 30.0) -> Any:
-        """Wait for a message that was sent after this call; one that was still under way then does not count."""
+        """Wait, up to ``timeout`` s, for a message that was sent after this call; one that was still under way then does not count."""
         messages = self.messages
         count, now = len(messages), advance()
 
@@ -120,7 +120,7 @@ def unload(*names: str) -> None:
 
 
 def loads(name: str) -> bool:
-    """Whether a controller can be loaded."""
+    """Whether the controller ``name`` can be loaded."""
     return _call("load_controller", LoadController, name=name).ok
 
 
@@ -136,6 +136,7 @@ def switch(start: Sequence[str] = (), stop: Sequence[str] = ()) -> None:
 
 
 def controller_state(name: str) -> str:
+    """What list_controllers says of the controller ``name``; "" where it is not loaded."""
     return next((c.state for c in _call("list_controllers", ListControllers).controller if c.name == name), "")
 
 

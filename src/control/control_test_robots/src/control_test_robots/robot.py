@@ -131,7 +131,7 @@ class TestRobot(RobotHW):
         self.set_faults(parameters.get("faults", {}))
 
     def set_faults(self, faults: dict[str, dict]) -> None:
-        """Faults by joint; joints not named have none."""
+        """``faults`` by joint; joints not named have none."""
         for name, joint in self.joints.items():
             joint.faults = Faults(**faults.get(name, {}))
 

@@ -46,7 +46,7 @@ class Pid(Law):
         self._set_gains(p, i, d, i_max, i_min, antiwindup)
 
     def slope_of_position(self, dt: float) -> float:
-        """How much less the next command gets per unit of speed of what is measured, where the error is one of position.
+        """How much less the next command, in ``dt`` s, gets per unit of speed of what is measured, where the error is one of position.
 
         Negative where there is no D gain: nothing of the command is of the speed yet.
         """
@@ -56,6 +56,6 @@ class Pid(Law):
         return max(gains.d + gains.p * dt, 0.0)
 
     def slope_of_velocity(self, dt: float) -> float:
-        """The same where the error is one of speed."""
+        """The same where the error is one of speed; ``dt`` in s."""
         gains = self.gains
         return gains.p + gains.d / dt if dt > 0.0 else gains.p

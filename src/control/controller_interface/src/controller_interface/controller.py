@@ -83,7 +83,7 @@ class ControllerBase:
         self.state = ControllerState.ABORTED
 
     def stopped_itself(self, error: Exception) -> bool:
-        """Whether what update() raised only says that it does not run any more; ``state`` is then what it has become."""
+        """Whether ``error``, which update() raised, only says that it does not run any more; ``state`` is then what it has become."""
         return False
 
     # The following four are refused, with False, before the controller is initialised. Exceptions pass through.

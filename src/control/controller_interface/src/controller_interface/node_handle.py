@@ -36,7 +36,7 @@ class NodeHandle:
         self._owned = [] if _owned is None else _owned
 
     def sub(self, name: str) -> NodeHandle:
-        """A handle one level down; what it makes goes when this handle is shut down."""
+        """A handle of ``name``, one level down; what it makes goes when this handle is shut down."""
         return NodeHandle(self._join(name), self._owned)
 
     def resolve(self, name: str) -> str:
@@ -71,7 +71,7 @@ class NodeHandle:
         return self._get(name, REQUIRED, kind)
 
     def strings(self, name: str) -> list[str]:
-        """A required non-empty list of texts (joint names).
+        """The required parameter ``name``, a non-empty list of texts (joint names).
 
         :raises ParameterError: missing, empty, or something else than texts in it.
         """

@@ -67,12 +67,12 @@ class ControllerTypes:
         self._loaders.append((base, names, create))
 
     def suggestion(self, name: str) -> str:
-        """', did you mean X?' or ''."""
+        """', did you mean X?' of a type ``name`` that there is not, or ''."""
         close = difflib.get_close_matches(name, [plugin.name for plugin in self.all()], n=1, cutoff=0.75)
         return f" (did you mean '{close[0]}'?)" if close else ""
 
     def create(self, plugin: PluginClass) -> ControllerBase:
-        """An instance of the class.
+        """An instance of the class that ``plugin`` describes.
 
         :raises PluginError: it cannot be imported or is no controller.
         """

@@ -275,7 +275,7 @@ class ControllerManager:
         )
 
     def unload_controller(self, name: str) -> bool:
-        """Remove a controller that is not running. :return: success."""
+        """Remove the controller ``name``, which must not run. :return: success."""
         with self._services:
             return self._unload(name)
 
@@ -397,7 +397,10 @@ class ControllerManager:
         return True
 
     def reload_libraries(self, force_kill: bool) -> bool:
-        """Look for controller types again and import changed modules anew. :return: success."""
+        """Look for controller types again and import changed modules anew. :return: success.
+
+        :param force_kill: stop and unload what is loaded; False refuses if anything is.
+        """
         with self._switching:
             if self._controllers and not force_kill:
                 rospy.logerr(

@@ -35,7 +35,7 @@ def _service_type(name: str) -> str | None:
 
 
 def is_controller_manager(namespace: str) -> bool:
-    """True if all six services are there, each with the right type."""
+    """True if all six services are there in ``namespace``, each with the right type."""
     return all(_service_type(_join(namespace, name)) == kind for name, kind in _SERVICES.items())
 
 

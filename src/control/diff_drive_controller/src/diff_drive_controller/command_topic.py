@@ -36,7 +36,7 @@ class CommandTopic:
         self._subscriber = nh.subscriber(topic, message_type, self._receive, queue_size=1)
 
     def start(self, time: float) -> None:
-        """Take commands from now on; earlier ones are forgotten."""
+        """Take commands from ``time`` (s) on; earlier ones are forgotten."""
         self._now = time
         self._last = self._none
         self._running = True

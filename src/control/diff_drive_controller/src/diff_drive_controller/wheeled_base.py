@@ -72,7 +72,7 @@ class WheeledBase(ControllerBase):
     # -- for update ----------------------------------------------------------------------------------------------------
 
     def notice_reset(self, time: float) -> None:
-        """When a simulation was reset, the wheels went back with it: that is no way travelled."""
+        """When a simulation was reset, ``time`` (s) having gone back, the wheels went back with it: that is no way travelled."""
         if self._odometry.interval(time) < 0.0:
             self._odometry.restart(time)
             for travel in self._travel:

@@ -91,6 +91,7 @@ class PidPositionController(_PidController):
     """Drives one joint to a position; the PID's output is whatever the interface commands."""
 
     def prepare(self, controller_nh: NodeHandle) -> None:
+        """Read how the joint may move, from the robot's description as ``controller_nh`` finds it."""
         (self._description,) = describe_joints(controller_nh, [self.joint.name])
 
     def starting(self, time: float) -> None:

@@ -20,7 +20,7 @@ class ForwardCommandController(Controller):
         self._command = message.data
 
     def first_command(self, joint: JointHandle) -> float:
-        """The command in force from the start until a message comes."""
+        """The command to ``joint`` that is in force from the start until a message comes."""
         return 0.0
 
     def starting(self, time: float) -> None:

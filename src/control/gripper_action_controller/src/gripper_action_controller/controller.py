@@ -24,7 +24,7 @@ class GripperActionController(ActionController):
     # -- what a variant adds -------------------------------------------------------------------------------------------
 
     def init_output(self, controller_nh: NodeHandle) -> None:
-        """Read the variant's parameters."""
+        """Read the variant's parameters below ``controller_nh``."""
 
     def start_output(self) -> None:
         """Called when the controller starts."""

@@ -10,7 +10,7 @@ import lenient_xml
 
 @lru_cache(maxsize=4)  # of every robot its hardware and each of its controllers ask
 def description_root(urdf: str) -> ElementTree.Element:
-    """The root element of a URDF text. The same text gives the same element: nobody may change it.
+    """The root element of ``urdf``, a text. The same text gives the same element: nobody may change it.
 
     Read as by TinyXML, which Gazebo and ros_control read with: blank lines before the XML declaration do no harm, nor does a bare ``&``.
 

@@ -77,7 +77,7 @@ class HardwareInterface:
 
     @classmethod
     def merged(cls, interfaces: list[HardwareInterface]) -> HardwareInterface:
-        """One interface with the handles of several of the same type."""
+        """One interface with the handles of ``interfaces``, several of the same type."""
         result = cls()
         for interface in interfaces:
             for handle in interface.handles():

@@ -60,7 +60,7 @@ class RobotHW:
         self._merged.clear()
 
     def register_interface_manager(self, hw: RobotHW) -> None:
-        """Offer the interfaces of another RobotHW too; those of the same type are merged by handle."""
+        """Offer the interfaces of ``hw``, another robot, too; those of the same type are merged by handle."""
         self._children.append(hw)
         self._merged.clear()
 

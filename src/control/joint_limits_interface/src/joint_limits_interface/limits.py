@@ -52,7 +52,7 @@ def limits_from_urdf(joint: JointDescription, limits: JointLimits = JointLimits(
 
 
 def soft_limits_from_urdf(joint: JointDescription) -> SoftJointLimits | None:
-    """What ``<safety_controller>`` says; None without one."""
+    """What ``<safety_controller>`` of ``joint`` says; None without one."""
     safety = joint.safety
     if safety is None:
         return None

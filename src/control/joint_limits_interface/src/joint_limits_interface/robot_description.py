@@ -93,7 +93,7 @@ def _joint(element: ElementTree.Element) -> JointDescription:
 
 
 def read_joints(urdf: str) -> dict[str, JointDescription]:
-    """The joints of a URDF text by name.
+    """The joints of ``urdf``, a text, by name.
 
     :raises DescriptionError: the text is no XML, or a limit no number.
     """

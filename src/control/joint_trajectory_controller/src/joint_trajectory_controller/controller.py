@@ -156,7 +156,9 @@ class JointTrajectoryController(ActionController):
             self._state_publisher.publish(self._fill(JointTrajectoryControllerState(), time, uptime, first, desired, errors))
 
     def write_positions_to(self, handles: Sequence[Any]) -> None:
-        """For a variant that writes desired positions and nothing else: ordinary cycles write them without ``write_output``."""
+        """For a variant that writes desired positions to ``handles`` and nothing else: ordinary cycles write them without
+        ``write_output``.
+        """
         if self._sampler is None or not all(isinstance(handle, JointHandle) for handle in handles):
             return
         for joint, handle in enumerate(handles):

@@ -95,7 +95,10 @@ class Command:
 
 
 def check_times(times: Sequence[float]) -> None:
-    """Refuse way-points that are not in strictly increasing order."""
+    """Refuse way-points whose ``times`` (s) are not in strictly increasing order.
+
+    :raises InvalidTrajectory: one line
+    """
     for index in range(1, len(times)):
         if times[index] <= times[index - 1]:
             raise InvalidTrajectory(

@@ -46,7 +46,7 @@ class RealtimeGoal:
         self._finish(self._handle.set_aborted, result, text)
 
     def feedback(self, feedback) -> None:
-        """Sent only while the goal is ACTIVE."""
+        """Send ``feedback``, the action's message, only while the goal is ACTIVE."""
         self._outbox.put(lambda: self._status() == GoalStatus.ACTIVE and self._handle.publish_feedback(feedback))
 
     def _finish(self, transition, result, text: str) -> None:

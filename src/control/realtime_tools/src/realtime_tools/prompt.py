@@ -28,7 +28,7 @@ class PromptConnection:
         return getattr(self._connection, name)
 
     def write_data(self, data: bytes) -> bool:
-        """:raises TransportTerminated: the subscriber is gone"""
+        """Send ``data``, a message as bytes. :raises TransportTerminated: the subscriber is gone"""
         if self._queued is not None:
             return self._queued.write_data(data)
         connection = self._connection

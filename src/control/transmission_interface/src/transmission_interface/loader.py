@@ -72,7 +72,7 @@ class TransmissionInterfaceLoader:
         self._types = _transmission_types()
 
     def load(self, urdf: str) -> bool:
-        """Load all transmissions of a URDF text; stops at the first that fails (those before it stay).
+        """Load all transmissions of ``urdf``, a text; stops at the first that fails (those before it stay).
 
         :return: True if there was at least one and all were loaded; an ERROR line says what was wrong.
         """
@@ -90,7 +90,7 @@ class TransmissionInterfaceLoader:
         return True
 
     def load_one(self, info: TransmissionInfo) -> None:
-        """Load one transmission. :raises TransmissionError: it cannot be."""
+        """Load the transmission that ``info`` describes. :raises TransmissionError: it cannot be."""
         plugin = self._types.get(info.type)
         if plugin is None:
             raise TransmissionError(

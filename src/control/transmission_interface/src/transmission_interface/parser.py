@@ -92,7 +92,7 @@ def _parse_one(element: ElementTree.Element, name: str, problems: list[str]) -> 
 
 
 def parse_transmissions(urdf: str) -> tuple[list[TransmissionInfo], list[str]]:
-    """The usable transmissions of a URDF text, in file order, and a line for each thing that is left out.
+    """The usable transmissions of ``urdf``, a text, in file order, and a line for each thing that is left out.
 
     :raises TransmissionError: the text is no XML.
     """

@@ -28,7 +28,9 @@ class TransmissionPipeline:
 
     @classmethod
     def of_states(cls, target: str) -> TransmissionPipeline:
-        """Everything that is measured; to joints also absolute encoders and torque sensors where all have them."""
+        """Everything that is measured, to ``target``: "joint" or "actuator"; to joints also absolute encoders and torque sensors where all
+        have them.
+        """
         return cls(target, {**_STATE, **_SENSORS} if target == "joint" else _STATE)
 
     @classmethod

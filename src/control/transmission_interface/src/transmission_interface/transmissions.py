@@ -44,7 +44,7 @@ class Transmission:
         raise NotImplementedError
 
     def absolute_to_joint(self, a: Sequence[float]) -> Sequence[float]:
-        """Of absolute encoders."""
+        """Positions of the joints, rad or m, for ``a``, those of the actuators' absolute encoders."""
         return self.position_to_joint(a)
 
     def position_to_actuator(self, j: Sequence[float]) -> Sequence[float]:

@@ -37,7 +37,7 @@ class ArbotiXException(Exception):
 
 
 def word(value):
-    """The two bytes of a register pair, low one first."""
+    """The two bytes of a register pair that holds `value`, low one first."""
     return [value & 0xFF, value >> 8 & 0xFF]
 
 
@@ -127,6 +127,7 @@ class ArbotiX:
         return self.write(index, P_BAUD_RATE, [baud])
 
     def getReturnLevel(self, index):
+        """What servo `index` answers; see setReturnLevel."""
         return self._number(index, P_RETURN_LEVEL, 1)
 
     def setReturnLevel(self, index, value):
@@ -134,9 +135,11 @@ class ArbotiX:
         return self.write(index, P_RETURN_LEVEL, [value])
 
     def enableTorque(self, index):
+        """Lets servo `index` hold its position."""
         return self.write(index, P_TORQUE_ENABLE, [1])
 
     def disableTorque(self, index):
+        """Lets go of servo `index`."""
         return self.write(index, P_TORQUE_ENABLE, [0])
 
     def setLed(self, index, value):
@@ -152,29 +155,32 @@ class ArbotiX:
         return self.write(index, P_GOAL_SPEED_L, word(value))
 
     def getPosition(self, index):
+        """Where servo `index` is, in ticks of its encoder."""
         return self._number(index, P_PRESENT_POSITION_L, 2)
 
     def getSpeed(self, index):
+        """How fast servo `index` turns, in its own unit."""
         return self._number(index, P_PRESENT_SPEED_L, 2)
 
     def getGoalSpeed(self, index):
+        """How fast servo `index` may turn, in its own unit."""
         return self._number(index, P_GOAL_SPEED_L, 2)
 
     def getVoltage(self, index):
-        """In volts."""
+        """The supply of servo `index`, in volts."""
         value = self._number(index, P_PRESENT_VOLTAGE, 1)
         return value if value == -1 else value / 10.0
 
     def getTemperature(self, index):
-        """In degrees Celsius."""
+        """Of servo `index`, in degrees Celsius."""
         return self._number(index, P_PRESENT_TEMPERATURE, 1)
 
     def isMoving(self, index):
-        """True also when the servo does not answer."""
+        """Whether servo `index` moves; True also when it does not answer."""
         return self._number(index, P_MOVING, 1) != 0
 
     def enableWheelMode(self, index):
-        """Lets the servo turn round and round."""
+        """Lets servo `index` turn round and round."""
         self.write(index, P_CCW_ANGLE_LIMIT_L, [0, 0])
 
     def disableWheelMode(self, index, resolution=10):
@@ -197,7 +203,7 @@ class ArbotiX:
         return self._number(BOARD, self.ANA_BASE + int(index), leng)
 
     def getDigital(self, index):
-        """Digital pin 0..31: 0 or 255."""
+        """Digital pin `index` (0..31): 0 or 255."""
         if not 0 <= index < 32:
             return -1
         bits = self._number(BOARD, self.REG_DIGITAL_IN0 + index // 8, 1)

@@ -41,6 +41,7 @@ class LinearJoint:
         rospy.Subscriber(name + "/command", Float64, lambda message: self.go_to(message.data))
 
     def go_to(self, position):
+        """Go to `position`, m; one out of the joint's range is told and ignored."""
         if not self._low <= position <= self._high:  # also false for NaN
             rospy.logerr("%s: requested position %s is out of range %s to %s; ignored.", self.name, position, self._low, self._high)
         elif self.device.fake:
@@ -57,6 +58,7 @@ class LinearJoint:
         return int(math.copysign(1, error))
 
     def measured(self, reading):
+        """Takes a `reading` of the sensor, in the unit of calibration_data."""
         readings = [entry[0] for entry in self._table]
         if not readings[0] <= reading <= readings[-1]:
             rospy.logerr("%s: reading %s is outside calibration_data.", self.name, reading)
@@ -103,7 +105,7 @@ class LinearControllerAbsolute(Controller):
         self.run(self._joint.direction())
 
     def run(self, direction):
-        """Runs the motor up (1), down (-1) or not at all (0)."""
+        """Runs the motor up (`direction` 1), down (-1) or not at all (0)."""
         if direction == self._running:
             return
         self._running = direction

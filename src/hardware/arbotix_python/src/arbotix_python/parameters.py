@@ -23,7 +23,7 @@ def number(name, default=None, above=None):
 
 
 def names(name):
-    """A required list of names. :raises ParameterError: it is not there, or something else"""
+    """A required list of names, parameter `name`. :raises ParameterError: it is not there, or something else"""
     return texts("parameter " + rospy.resolve_name(name), get(name), empty=True, shown=reprlib.repr)
 
 
@@ -37,5 +37,5 @@ def usable(*values):
 
 
 def every(rate):
-    """A gate that opens once per period when asked often; the next time counts from the question that found it open."""
+    """A gate that opens `rate` times a s when asked often; the next time counts from the question that found it open."""
     return Spaced(rate, strict=True, last_ns=rospy.Time.now().to_nsec())

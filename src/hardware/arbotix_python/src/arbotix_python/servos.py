@@ -51,6 +51,7 @@ class Servo:
         return min(max(int(round(self.neutral + self.sign * angle / self.rad_per_tick)), 0), self.ticks - 1)
 
     def to_angle(self, ticks):
+        """rad, for a position in `ticks`."""
         return self.sign * (ticks - self.neutral) * self.rad_per_tick
 
     def _command(self, message):
@@ -83,7 +84,7 @@ class Servo:
         return ticks
 
     def measured(self, ticks):
-        """Takes a position reading."""
+        """Takes a position reading, `ticks`."""
         now = rospy.Time.now()
         elapsed = (now - self._measured).to_sec()
         before, self.position = self.position, self.to_angle(ticks)

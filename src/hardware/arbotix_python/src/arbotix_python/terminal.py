@@ -16,6 +16,7 @@ BAUD_CODES = {1000000: 1, 500000: 3, 400000: 4, 250000: 7, 200000: 9, 115200: 16
 
 
 def baud_code(text):
+    """The servos' code of the bus speed `text`, bit/s. :raises ValueError: there is none"""
     if int(text) not in BAUD_CODES:
         raise ValueError("%s is none of %s" % (text, sorted(BAUD_CODES)))
     return BAUD_CODES[int(text)]

@@ -68,8 +68,9 @@ class Actuator:
         return True
 
     def follow(self, angle: int) -> None:
-        """Count whole turns. For frames that a newer one has overtaken, too: after a pause of the driver the rotor may
-        have gone further in them than half a turn.
+        """Count whole turns by ``angle``, the encoder's counts. For frames that a newer one has overtaken, too: after a pause of the
+        driver the
+        rotor may have gone further in them than half a turn.
         """
         if self._angle is not None:
             jump = angle - self._angle
@@ -111,7 +112,7 @@ class Actuator:
         return True
 
     def check(self, now: float) -> str | None:
-        """Decide whether the motor may be commanded. Call once a cycle after all frames are in.
+        """Decide whether the motor may be commanded at monotonic time ``now``, s. Call once a cycle after all frames are in.
 
         :returns: a line when that changed (silent, too hot, back again), else None.
         """

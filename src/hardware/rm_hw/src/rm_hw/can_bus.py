@@ -146,7 +146,7 @@ class CanBus:
             self.lose(error.__cause__ or error)
 
     def lose(self, error: BaseException) -> None:
-        """The bus failed: close it and start looking for it again."""
+        """The bus failed with ``error``: close it and start looking for it again."""
         bus, self._bus = self._bus, None
         if bus is None:
             return

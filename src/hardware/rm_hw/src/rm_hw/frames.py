@@ -77,21 +77,22 @@ def command_slot(feedback_id: int) -> tuple[int, int]:
 
 
 def pack_command(counts: Sequence[int]) -> bytes:
-    """Four int16 commands, big-endian. Values outside int16 are limited."""
+    """Four int16 commands, ``counts``, big-endian. Values outside int16 are limited."""
     return _COMMAND.pack(*(max(-_INT16_MAX - 1, min(_INT16_MAX, int(c))) for c in counts))
 
 
 def unpack_command(data: bytes) -> tuple[int, int, int, int]:
-    """The four commands of a frame 0x200, 0x1FF or 0x2FF."""
+    """The four commands in ``data`` of a frame 0x200, 0x1FF or 0x2FF."""
     return _COMMAND.unpack(data)
 
 
 def pack_feedback(feedback: Feedback) -> bytes:
+    """The 8 bytes of ``feedback``."""
     return _FEEDBACK.pack(feedback.angle, feedback.rpm, feedback.current, feedback.temperature, 0)
 
 
 def unpack_feedback(data: bytes) -> Feedback:
-    """:raises ValueError: not 8 bytes, or an angle no encoder can report."""
+    """The feedback in ``data``. :raises ValueError: not 8 bytes, or an angle no encoder can report."""
     if len(data) != 8:
         raise ValueError(f"feedback frame has {len(data)} bytes instead of 8")
     angle, rpm, current, temperature, _ = _FEEDBACK.unpack(data)
@@ -117,19 +118,19 @@ def pack_cheetah_command(position: float, velocity: float, kp: float, kd: float,
 
 
 def unpack_cheetah_command(data: bytes) -> tuple[int, int, int, int, int]:
-    """(position, velocity, kp, kd, effort) in counts."""
+    """(position, velocity, kp, kd, effort) in counts, of the 8 bytes ``data``."""
     word = int.from_bytes(data, "big")
     return word >> 48, word >> 36 & 0xFFF, word >> 24 & 0xFFF, word >> 12 & 0xFFF, word & 0xFFF
 
 
 def pack_cheetah_reply(reply: CheetahReply) -> bytes:
-    """Six bytes."""
+    """The six bytes of ``reply``."""
     word = (reply.motor_id & 0xFF) << 40 | (reply.position & 0xFFFF) << 24
     return (word | (reply.velocity & 0xFFF) << 12 | reply.effort & 0xFFF).to_bytes(6, "big")
 
 
 def unpack_cheetah_reply(data: bytes) -> CheetahReply:
-    """:raises ValueError: fewer than 6 bytes."""
+    """The reply in ``data``. :raises ValueError: fewer than 6 bytes."""
     if len(data) < 6:
         raise ValueError(f"MIT driver reply has {len(data)} bytes instead of 6")
     word = int.from_bytes(data[:6], "big")
@@ -137,12 +138,13 @@ def unpack_cheetah_reply(data: bytes) -> CheetahReply:
 
 
 def pack_imu_gyro(gyro: ImuGyro) -> bytes:
+    """The 8 bytes of ``gyro``."""
     temperature = gyro.temperature & 0x7FF
     return _IMU.pack(gyro.x, gyro.y, gyro.z) + bytes((temperature >> 3, (temperature & 7) << 5))
 
 
 def unpack_imu_gyro(data: bytes) -> ImuGyro:
-    """Frame ``id`` of an IMU: three int16 little-endian, then an 11-bit signed temperature.
+    """``data`` of frame ``id`` of an IMU: three int16 little-endian, then an 11-bit signed temperature.
 
     :raises ValueError: not 8 bytes.
     """
@@ -154,11 +156,12 @@ def unpack_imu_gyro(data: bytes) -> ImuGyro:
 
 
 def pack_imu_accel(accel: ImuAccel) -> bytes:
+    """The 8 bytes of ``accel``."""
     return _IMU.pack(accel.x, accel.y, accel.z) + bytes((accel.camera_trigger | accel.trigger_enabled << 1, 0))
 
 
 def unpack_imu_accel(data: bytes) -> ImuAccel:
-    """Frame ``id + 1`` of an IMU. :raises ValueError: not 8 bytes."""
+    """``data`` of frame ``id + 1`` of an IMU. :raises ValueError: not 8 bytes."""
     if len(data) != 8:
         raise ValueError(f"IMU frame has {len(data)} bytes instead of 8")
     x, y, z = _IMU.unpack(data[:6])

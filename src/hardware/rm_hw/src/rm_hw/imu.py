@@ -77,7 +77,7 @@ class Imu:
             self._orientation = self.handle.orientation = _normalized(_multiply(self._orientation, turn))
 
     def on_accel(self, accel: ImuAccel) -> None:
-        """Take an acceleration: pull roll and pitch towards the direction of gravity."""
+        """Take ``accel``, an acceleration: pull roll and pitch towards the direction of gravity."""
         k = self.config.accel_coeff
         a = (accel.x * k, accel.y * k, accel.z * k)
         self.handle.linear_acceleration = a

@@ -110,7 +110,7 @@ class LineSerial(serial.Serial):
 
 
 def serial_class_for_url(url: str) -> tuple[str, type]:
-    """pyserial's hook: (device path, class)."""
+    """pyserial's hook: (device path, class) of ``url``."""
     return url[len("lines://") :], LineSerial
 
 

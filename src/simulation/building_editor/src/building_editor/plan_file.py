@@ -36,7 +36,7 @@ class _Loader(yaml.SafeLoader):
 
 
 def load_plan(path: str) -> Any:
-    """What the YAML file holds.
+    """What the YAML file ``path`` holds.
 
     :raises ValueError: one line: unreadable, too long, no YAML, or nested deeper than any plan.
     """

@@ -43,7 +43,7 @@ def wall_boxes(wall: Wall) -> list[Box]:
 
 
 def stair_boxes(stairs: Stairs) -> list[Box]:
-    """Solid steps, in the frame at the front edge of the lowest, x in the direction of climbing."""
+    """Solid steps of ``stairs``, in the frame at the front edge of the lowest, x in the direction of climbing."""
     tread, rise = stairs.depth / stairs.steps, stairs.height / stairs.steps
     return [(((i + 0.5) * tread, 0.0, 0.5 * (i + 1) * rise), (tread, stairs.width, (i + 1) * rise)) for i in range(stairs.steps)]
 
@@ -181,12 +181,14 @@ def world_text(building: Building) -> str:
 
 
 def model_text(building: Building) -> str:
+    """``building`` as the text of model.sdf."""
     sdf = ET.Element("sdf", version="1.6")
     sdf.append(model_element(building))
     return _document(sdf)
 
 
 def config_text(building: Building) -> str:
+    """The text of model.config for ``building``."""
     config = ET.Element("model")
     _text(config, "name", building.name)
     _text(config, "version", "1.0")

@@ -64,7 +64,7 @@ class Topics:
 
 
 def subscribed(publisher: rospy.Publisher) -> Callable[[], bool]:
-    """Whether anybody listens; for sensors that only measure then."""
+    """Whether anybody listens to ``publisher``, as a function; for sensors that only measure then."""
     return lambda: publisher.get_num_connections() > 0
 
 
@@ -173,7 +173,7 @@ def required(sdf, tag: str) -> str:
 
 
 def diagonal(values: Collection[float]) -> list[float]:
-    """Row-major covariance matrix with that diagonal."""
+    """Row-major covariance matrix with the diagonal ``values``."""
     size = len(values)
     matrix = [0.0] * (size * size)
     for i, value in enumerate(values):

@@ -40,7 +40,7 @@ class Occasional:
         return self._connection is not None
 
     def needed(self, needed: bool) -> None:
-        """From the next step on."""
+        """Connect it where it is ``needed``, else not, from the next step on."""
         if needed and self._connection is None:
             self._connection = self._connect(self._f)
         elif not needed and self._connection is not None:
@@ -66,10 +66,12 @@ class CallbackList:
         return connection
 
     def disconnect(self, connection: Connection) -> None:
+        """End ``connection``."""
         with self._lock:
             self.connections = tuple(c for c in self.connections if c is not connection)
 
     def disconnect_owner(self, owner: PluginInstance) -> None:
+        """End all connections of ``owner``."""
         with self._lock:
             self.connections = tuple(c for c in self.connections if c.owner is not owner)
 

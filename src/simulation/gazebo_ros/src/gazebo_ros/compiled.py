@@ -49,7 +49,9 @@ def folders() -> list[str]:
 
 
 def find_library(filename: str) -> str | None:
-    """The file of a ``<plugin>``'s library, with or without ``lib`` and ``.so``; None if there is none or none can be loaded."""
+    """The file of the library ``filename`` of a ``<plugin>``, with or without ``lib`` and ``.so``; None if there is none or none can be
+    loaded.
+    """
     name = filename.strip()
     if _core is None or not name:
         return None
@@ -184,7 +186,7 @@ def bridge(server, clock: bool) -> Bridge:
 
 
 def offer_transport(server) -> None:
-    """Let other processes reach Gazebo's own topics (``gz topic``, programs that are its clients), at GAZEBO_MASTER_URI.
+    """Let other processes reach Gazebo's own topics (``gz topic``, programs that are its clients) of ``server``, at GAZEBO_MASTER_URI.
 
     The mirror of the world, which publishes them, is made when the first of them asks.
     """

@@ -54,7 +54,7 @@ class Delivery:
         return bool(self._busy)
 
     def wait(self, seconds: float) -> None:
-        """Until nothing waits to be sent, at most so long; who holds the simulation up for long is told in the log."""
+        """Until nothing waits to be sent, at most ``seconds`` of wall time; who holds the simulation up for long is told in the log."""
         began = time.monotonic()
         with self._changed:
             if self._changed.wait_for(lambda: not self._busy, seconds):

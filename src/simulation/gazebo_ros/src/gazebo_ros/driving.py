@@ -42,7 +42,7 @@ class Drivers:
             )
 
     def ended(self, owner: Any) -> None:
-        """It drives nothing any more."""
+        """``owner`` drives nothing any more."""
         with self._lock:
             for owners in self._by_joint.values():
                 if owner in owners:

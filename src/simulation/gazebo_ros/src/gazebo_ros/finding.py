@@ -8,7 +8,7 @@ from plugin_loader import exported_values
 
 
 def make_finder(rospack: rospkg.RosPack) -> ResourceFinder:
-    """Search paths: the environment's, then what packages export for gazebo_ros."""
+    """Search paths: the environment's, then what packages that ``rospack`` finds export for gazebo_ros."""
 
     def package(name: str) -> str | None:
         try:

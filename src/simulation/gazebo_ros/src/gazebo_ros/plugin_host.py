@@ -19,7 +19,7 @@ from gazebo_ros.sdf_element import SdfElement
 
 
 def library_key(filename: str) -> str:
-    """What is compared of a library file name: no directory, no ``lib``, no ``.so``, no blanks.
+    """What is compared of a library's ``filename``: no directory, no ``lib``, no ``.so``, no blanks.
 
     >>> library_key(" /opt/gazebo/libgazebo_ros_camera.so ")
     'gazebo_ros_camera'
@@ -46,13 +46,13 @@ class PluginInstance:
         self.plugin = resolved.cls()
 
     def report(self, error: Exception) -> None:
-        """One ERROR line; the traceback goes to the log file only."""
+        """One ERROR line for ``error``; the traceback goes to the log file only."""
         reason = str(error) if isinstance(error, PluginError) else f"{type(error).__name__}: {error}"
         rospy.logerr("%s: %s", self.label, reason)
         rospy.logdebug("%s", "".join(traceback.format_exception(error)))
 
     def attempt(self, f: Callable[..., Any], *args: Any) -> bool:
-        """Call into the plugin; an exception is reported. Returns whether it went well."""
+        """Call ``f(*args)`` of the plugin; an exception is reported. Returns whether it went well."""
         try:
             f(*args)
         except Exception as error:  # a plugin may raise anything; it must not take the world down
@@ -119,5 +119,5 @@ class PluginHost:
 
 
 def plugin_sdf(resolved: ResolvedPlugin) -> SdfElement:
-    """The ``<plugin>`` element; values that cannot be read are warned about in the plugin's name."""
+    """The ``<plugin>`` element of ``resolved``; values that cannot be read are warned about in the plugin's name."""
     return SdfElement(resolved.description.element, lambda line: rospy.logwarn("%s: %s", resolved.label, line))

@@ -33,15 +33,16 @@ class SdfElement:
         return (self.element.text or "").strip()
 
     def has(self, tag: str) -> bool:
+        """Whether there is a child ``<tag>``."""
         return self.element.find(tag) is not None
 
     def child(self, tag: str) -> SdfElement | None:
-        """The first child of that name, or None."""
+        """The first child ``<tag>``, or None."""
         found = self.element.find(tag)
         return None if found is None else SdfElement(found, self._warn)
 
     def children(self, tag: str | None = None) -> list[SdfElement]:
-        """All children (of that name), in file order."""
+        """All children (``<tag>`` alone, if it is given), in file order."""
         return [SdfElement(e, self._warn) for e in self.element if isinstance(e.tag, str) and tag in (None, e.tag)]
 
     def text_or(self, tag: str, default: str) -> str:

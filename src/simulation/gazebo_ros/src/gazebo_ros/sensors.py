@@ -109,10 +109,11 @@ class Sensor:
         self._consumers = self._consumers + [_Consumer(measure, wanted, self.owner)]
 
     def disconnect_owner(self, owner: Any) -> None:
+        """Let ``owner``, a plugin, be told of nothing more."""
         self._consumers = [consumer for consumer in self._consumers if consumer.owner is not owner]
 
     def update(self, now_ns: int) -> None:
-        """After a step: measure if an update is due and wanted. Physics thread.
+        """After a step to ``now_ns``: measure if an update is due and wanted. Physics thread.
 
         An exception of a consumer disconnects its plugin and is reported; the others go on.
         """

@@ -343,7 +343,7 @@ class Server:
         self.went_back.call()
 
     def restore(self, snapshot) -> None:
-        """Back to a saved moment, paused. Plugins and sensors are told as by a reset. Physics thread.
+        """Back to ``snapshot``, a saved moment, paused. Plugins and sensors are told as by a reset. Physics thread.
 
         :raises ValueError: the world has other models by now
         """
@@ -363,9 +363,11 @@ class Server:
         return ResolvedModel(model, self._host)
 
     def resolve_world_plugin(self, plugin: d.Plugin) -> ResolvedPlugin | None:
+        """What ``plugin`` of the world means, ready to be started; None, with an ERROR line, where nothing can be."""
         return self._host.resolve(plugin, f"world {self.description.name}")
 
     def start_world_plugin(self, plugin: ResolvedPlugin) -> None:  # physics thread
+        """Start ``plugin``, resolved before. Physics thread."""
         self._start(plugin, WorldPlugin, self._world_plugins)
 
     def spawn(self, model: d.Model, resolved: ResolvedModel):
@@ -384,7 +386,7 @@ class Server:
         self.world.problems.clear()
 
     def remove(self, name: str) -> None:
-        """Shut a model's plugins down and take it out of the world. Physics thread."""
+        """Shut the plugins of the model ``name`` down and take it out of the world. Physics thread."""
         runtime = self._models.pop(name, None)
         if runtime:
             gone = set(map(id, runtime.sensors))

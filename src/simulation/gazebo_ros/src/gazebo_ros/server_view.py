@@ -30,11 +30,11 @@ class ServerView:
         return self._server.paused
 
     def before_step(self, f: Callable[[], None]) -> Connection:
-        """See :meth:`Server.before_step`."""
+        """Call ``f`` before each step, see :meth:`Server.before_step`."""
         return self._server._before.connect(f, self._owner)
 
     def after_step(self, f: Callable[[], None]) -> Connection:
-        """See :meth:`Server.after_step`."""
+        """Call ``f`` after each step, see :meth:`Server.after_step`."""
         return self._server._after.connect(f, self._owner)
 
     def unpause(self) -> None:

@@ -57,7 +57,7 @@ class Shooting:
             rospy.logerr("%s gives no pictures: %s", self._label, frame.error)
 
     def change(self, camera: Camera) -> None:
-        """From the next picture on."""
+        """Draw as ``camera`` is, from the next picture on."""
         process = self._shared.process
         if (camera.width, camera.height) == (self._camera.width, self._camera.height):
             process.change_camera(self._key, camera)

@@ -39,7 +39,7 @@ class Mode:
         """Another mode takes over."""
 
     def press(self, active: bool) -> None:
-        """Emergency stop."""
+        """Emergency stop: it is pressed (``active``), or let go."""
         self.e_stop = active
 
     def write(self, dt: float) -> None:

@@ -40,7 +40,7 @@ class RobotHWSim(RobotHW):
         """
 
     def e_stop_active(self, active: bool) -> None:
-        """Told every step whether the emergency stop is pressed."""
+        """Told every step whether the emergency stop is pressed (``active``)."""
 
     def reset_sim(self) -> None:
         """The simulation was reset: joints may have jumped."""

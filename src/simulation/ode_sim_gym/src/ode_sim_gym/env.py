@@ -54,7 +54,7 @@ class RobotEnv(gymnasium.Env):
         return self._observe(), self._information()
 
     def step(self, action: np.ndarray) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
-        """One period. An episode that has flown apart ends, and is seen where it was no number as 0."""
+        """One period with ``action``. An episode that has flown apart ends, and is seen where it was no number as 0."""
         self.episodes.advance(action)
         self._done += 1
         observation = self._observe()

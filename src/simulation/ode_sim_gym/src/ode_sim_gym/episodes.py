@@ -104,11 +104,11 @@ class Episodes:
         return self.world.time - self._begin_time
 
     def position(self, joint: str) -> float:
-        """rad (multi-turn) or m."""
+        """Of ``joint``: rad (multi-turn) or m."""
         return self.joint(joint).position()
 
     def velocity(self, joint: str) -> float:
-        """rad/s or m/s."""
+        """Of ``joint``: rad/s or m/s."""
         return self.joint(joint).velocity()
 
     @property

@@ -152,7 +152,7 @@ class Camera:
         return ENCODINGS[self.format]
 
     def project(self, p_C: np.ndarray) -> np.ndarray:
-        """Pixel coordinates (N,2) (column, row; whole numbers at pixel centres) of points (N,3) in the camera frame."""
+        """Pixel coordinates (N,2) (column, row; whole numbers at pixel centres) of points ``p_C`` (N,3), m, in the camera frame."""
         p_C = np.atleast_2d(np.asarray(p_C, float))
         f = self.focal_length
         return np.stack([(self.width - 1) / 2 - f * p_C[:, 1] / p_C[:, 0], (self.height - 1) / 2 - f * p_C[:, 2] / p_C[:, 0]], axis=1)

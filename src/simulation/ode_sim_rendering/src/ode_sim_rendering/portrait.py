@@ -167,7 +167,7 @@ class Studio:
         self._scene: SceneDescription | None = None
 
     def draw(self, portrait: Portrait) -> tuple[bytes, list[str]]:
-        """The picture as a PNG file, and lines about what could not be drawn, each said once for a scene.
+        """The picture ``portrait`` as a PNG file, and lines about what could not be drawn, each said once for a scene.
 
         :raises Refused: nothing to draw
         """

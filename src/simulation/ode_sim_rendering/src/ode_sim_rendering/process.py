@@ -114,7 +114,7 @@ class RenderProcess:
         self._send(self._connection, entry.message)
 
     def remove_camera(self, key: int) -> None:
-        """Frames under way are still delivered."""
+        """Forget the camera ``key``; frames under way are still delivered."""
         entry = self._cameras.pop(key)
         self._send(self._connection, ForgetCamera(key))
         with self._lock:

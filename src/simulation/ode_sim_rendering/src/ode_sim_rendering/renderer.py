@@ -138,7 +138,7 @@ class Renderer:
     # ------------------------------------------------------------------------------------------ scene
 
     def set_scene(self, scene: SceneDescription) -> None:
-        """Replace what is drawn. Meshes and textures already loaded stay loaded."""
+        """Draw ``scene`` from now on. Meshes and textures already loaded stay loaded."""
         with self._ctx, np.errstate(all="ignore"):
             self._scene = scene
             parts: list[tuple[int, int, str, Part]] = []  # (link row, number of the visual, its name, part)

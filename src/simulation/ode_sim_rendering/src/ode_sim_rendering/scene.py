@@ -44,6 +44,7 @@ def _of_link(row: int, scoped: str, visuals: Iterable[Visual], lights: Iterable[
 
 
 def roads_of(scene: Scene) -> list[SceneVisual]:
+    """The roads of ``scene`` as visuals of the world."""
     return [SceneVisual(WORLD_FRAME, road.name, road) for road in scene.roads]
 
 

@@ -55,7 +55,7 @@ class WideView:
         ]
 
     def cameras(self, camera: Camera) -> list[Camera]:
-        """Of the pictures to draw, in the order in which :meth:`joined` takes them."""
+        """Of the pictures to draw for ``camera``, in the order in which :meth:`joined` takes them."""
         size = self._lens.texture
         return [
             replace(
@@ -71,7 +71,7 @@ class WideView:
         ]
 
     def joined(self, pictures: list[dict[str, np.ndarray]]) -> dict[str, np.ndarray]:
-        """The images (H,W) of the lens; its depths are distances from the eye, m."""
+        """The images (H,W) of the lens, of ``pictures`` by kind; its depths are distances from the eye, m."""
         return {kind: self._join([picture[kind] for picture in pictures], kind) for kind in pictures[0]}
 
     def _join(self, pictures: list[np.ndarray], kind: str) -> np.ndarray:

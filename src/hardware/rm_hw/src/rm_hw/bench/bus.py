@@ -95,6 +95,7 @@ class Bus:
                             device.motor.command = values[device.slot]
 
     def speak(self, frames: list[Frame]) -> None:
+        """Send ``frames`` to both ports, if the bus works."""
         if not self.works or not frames:
             return
         for port in self.ports:

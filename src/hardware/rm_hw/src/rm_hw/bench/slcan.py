@@ -22,7 +22,7 @@ class Frame(NamedTuple):
 
 
 def encode(frame: Frame) -> bytes:
-    """``tIIILDD...`` and a carriage return."""
+    """``frame`` as a line, ``tIIILDD...`` and a carriage return."""
     return b"t%03X%d%s\r" % (frame.id, len(frame.data), frame.data.hex().upper().encode())
 
 
@@ -100,12 +100,12 @@ class SlcanPort:
         return _OK
 
     def send(self, frames: Iterable[Frame]) -> None:
-        """Frames from the bus to the user."""
+        """``frames`` from the bus to the user."""
         if self.open:
             self._write(b"".join(map(encode, frames)))
 
     def send_raw(self, data: bytes) -> None:
-        """Bytes as they are: line noise."""
+        """``data``, bytes as they are: line noise."""
         if self.open:
             self._write(data)
 

@@ -49,6 +49,7 @@ class DepthCamera(SensorPlugin):
         sensor.connect(self.measure, wanted=self.wanted)
 
     def depth_range(self, sdf):
+        """(nearest, farthest) depth that is valid, m, by the plugin's element ``sdf``."""
         return sdf.get("pointCloudCutoff", 0.4), np.inf
 
     def outputs(self):

@@ -39,7 +39,7 @@ class Command:
 
 
 def from_encoders(sdf) -> bool:
-    """``<odometrySource>``: ``encoder`` (old files: 0), or ``world`` (1), which is the default."""
+    """``<odometrySource>`` of the plugin's element ``sdf``: ``encoder`` (old files: 0), or ``world`` (1), which is the default."""
     return (sdf.text_or("odometrySource", "world")).lower() in ("encoder", "0")
 
 

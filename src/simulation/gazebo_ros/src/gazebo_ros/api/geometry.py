@@ -15,6 +15,7 @@ WORLD_NAMES = ("", "world", "map", "/map")  # when no entity has that name
 
 
 def pose_msg(pose: Pose) -> PoseMsg:
+    """``pose`` as geometry_msgs/Pose."""
     return PoseMsg(Point(*pose.p), Quaternion(*pose.q))
 
 
@@ -47,8 +48,9 @@ def twist_msg(linear: Vec3, angular: Vec3) -> Twist:
 
 
 def entity_twist(entity: Any) -> tuple[Vec3, Vec3]:
-    """(linear, angular), world axes, of a link handle at its origin; of a model, its first link's; of a collision, its
-    link's."""
+    """(linear m/s, angular rad/s), world axes, of ``entity``: of a link handle at its origin; of a model, its first link's; of a
+    collision, its link's.
+    """
     if isinstance(entity, ModelHandle):
         link = entity.canonical_link
     else:

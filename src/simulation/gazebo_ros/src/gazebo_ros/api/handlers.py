@@ -58,9 +58,7 @@ def advertise(
 
 
 def finite(what: str, *values: float) -> None:
-    """
-    :raises Refused: a value is NaN or infinite
-    """
+    """:raises Refused: one of ``values`` is NaN or infinite; ``what`` holds it"""
     for value in values:
         if not math.isfinite(value):
             raise Refused(f"{what} holds {value}; give finite numbers")
