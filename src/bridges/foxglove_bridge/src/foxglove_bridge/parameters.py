@@ -22,11 +22,12 @@ class Parameters:
         self._followed: dict[str, Any] = {}  # name -> value that was told last
 
     def get(self, names: list[str]) -> list[Parameter]:
-        """All of them, where no name is given."""
+        """The parameters ``names``; all of them, where no name is given."""
         wanted = names or sorted(rospy.get_param_names())
         return [made for name in wanted if self._allowed(name) for made in _made(name, rospy.get_param(name, None))]
 
     def set(self, parameters: list[Parameter]) -> list[Parameter]:
+        """Set ``parameters``, as far as that is allowed. :return: what they are then"""
         for parameter in parameters:
             if not self._allowed(parameter.name):
                 self._complain(f"{parameter.name}: ~param_whitelist does not allow to set it")
@@ -38,10 +39,12 @@ class Parameters:
         return self.get([parameter.name for parameter in parameters])
 
     def follow(self, names: list[str]) -> None:
+        """Tell of changes of ``names``."""
         with self._lock:
             self._followed.update({name: rospy.get_param(name, None) for name in names if self._allowed(name)})
 
     def unfollow(self, names: list[str]) -> None:
+        """Tell of changes of ``names`` no more."""
         with self._lock:
             for name in names:
                 self._followed.pop(name, None)

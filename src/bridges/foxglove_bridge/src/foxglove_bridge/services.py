@@ -19,7 +19,7 @@ class CallError(BridgeError):
 
 
 def type_of(name: str) -> str | None:
-    """Asked from its server; None where that does not answer."""
+    """The type of the service ``name``, asked from its server; None where that does not answer."""
     try:
         return rosservice.get_service_type(name)
     except Exception:  # a server that is going, of another language, behind a wall
@@ -65,6 +65,7 @@ class Services:
         self._told: set[str] = set()
 
     def are(self, names: set[str]) -> None:
+        """The graph has the services ``names`` now: offer those that are new, take away the others."""
         gone = [name for name in self._there if name not in names]
         self._server.remove_services([name for name in gone if self._there.pop(name)])
         for name in sorted(names - set(self._there)):

@@ -71,4 +71,5 @@ def allowed(name: str, patterns: tuple[str, ...]) -> bool:
 
 
 def unknown(capabilities: tuple[str, ...]) -> list[str]:
+    """Those of ``capabilities`` that there are not."""
     return [name for name in capabilities if name not in CAPABILITIES]

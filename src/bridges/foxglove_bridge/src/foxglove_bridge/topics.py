@@ -36,7 +36,7 @@ class Topic:
         self._latched = False
 
     def read_by(self, client: int) -> None:
-        """What is latched comes once more for who comes later: a subscriber is told it when it connects."""
+        """``client`` reads it. What is latched comes once more for who comes later: a subscriber is told it when it connects."""
         with self._lock:
             self._readers.add(client)
             if self._subscriber is not None and not self._latched:
@@ -49,6 +49,7 @@ class Topic:
                 old.unregister()
 
     def left_by(self, client: int) -> None:
+        """``client`` does not read it any more."""
         with self._lock:
             self._readers.discard(client)
             if not self._readers and self._subscriber is not None:
@@ -95,6 +96,7 @@ class Topics:
                 self._by_channel[topic.channel.id()] = topic
 
     def by_channel(self, channel: int) -> Topic | None:
+        """The topic of ``channel``, its number, or None."""
         with self._lock:
             return self._by_channel.get(channel)
 
@@ -107,7 +109,7 @@ class Topics:
 
 
 def message_class(type_name: str) -> Any:
-    """None where it is not here."""
+    """The class of ``type_name``, package/Name; None where it is not here."""
     try:
         return roslib.message.get_message_class(type_name)
     except (ValueError, ImportError, AttributeError):

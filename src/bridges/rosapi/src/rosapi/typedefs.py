@@ -22,7 +22,7 @@ def of_message(name: str) -> list[TypeDef]:
 
 
 def of_class(kind: Any) -> list[TypeDef]:
-    """As :func:`of_message`, for the request or response of a service."""
+    """As :func:`of_message`, for ``kind``, the request or response of a service."""
     own = _typedef(kind)
     return [own, *_parts(own, set())]
 

@@ -48,6 +48,7 @@ class Clients:
         self._tell()
 
     def go(self, number: int) -> None:
+        """The client ``number`` has gone."""
         if self._there.pop(number, None) is not None:
             rospy.loginfo("Client disconnected. %d clients total.", len(self._there))
             self._tell()
@@ -99,7 +100,7 @@ class Connection(tornado.websocket.WebSocketHandler):
             self.ws_connection._abort()
 
     async def on_message(self, message: Frame) -> None:
-        """The next one is read when this one is done, so that a client that talks too much waits for itself."""
+        """``message`` came. The next one is read when this one is done, so that a client that talks too much waits for itself."""
         if self._client is None:
             return
         work = self._client.incoming if self._known else self._introduce

@@ -72,7 +72,7 @@ class Outbox:
         return dropped
 
     def wait_until_empty(self, seconds: float) -> bool:
-        """Not from the loop's thread."""
+        """Wait up to ``seconds``; whether it is empty. Not from the loop's thread."""
         return self._empty.wait(seconds)
 
     def close(self) -> None:

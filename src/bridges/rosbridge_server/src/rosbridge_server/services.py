@@ -102,6 +102,7 @@ class Offered:
             waiting.done.set()
 
     def close(self, reason: str) -> None:
+        """End the service; callers that wait are told ``reason``."""
         with self._lock:
             self._closed = True
             calls, self._calls = list(self._calls.values()), {}

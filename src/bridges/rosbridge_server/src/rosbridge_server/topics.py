@@ -105,6 +105,7 @@ class Feed:
         self._subscriber = rospy.Subscriber(topic, rospy.AnyMsg, self._take, buff_size=BUFFER, tcp_nodelay=True)
 
     def add(self, reader: Subscription) -> None:
+        """Let ``reader`` be told what comes, and what is latched."""
         with self._lock:
             new = reader not in self._readers
             self._readers += [reader] if new else []
@@ -117,7 +118,7 @@ class Feed:
             self._subscriber.impl.remove_callback(once, None)
 
     def remove(self, reader: Subscription) -> bool:
-        """Whether nobody reads any more; then it listens no more."""
+        """``reader`` is told no more. Whether nobody reads any more; then it listens no more."""
         with self._lock:
             self._readers = [each for each in self._readers if each is not reader]
             left = bool(self._readers)
@@ -160,6 +161,7 @@ class Feeds:
             feed.add(reader)
 
     def leave(self, reader: Subscription) -> None:
+        """``reader`` is told no more."""
         topic = rospy.resolve_name(reader.topic)
         with self._lock:
             feed = self._feeds.get(topic)
@@ -204,7 +206,7 @@ class Subscription:
             self._settle()
 
     def drop(self, number: Any) -> bool:
-        """Whether nothing is wished any more. None: all wishes."""
+        """The client does not want what it asked for by the id ``number`` (None: all). Whether nothing is wished any more."""
         with self._changed:
             if number is None:
                 self._wishes.clear()
@@ -231,7 +233,7 @@ class Subscription:
             self._changed.notify_all()
 
     def take(self, message: Message) -> None:
-        """Sends, keeps or drops it; does not wait for the client."""
+        """Sends, keeps or drops ``message``; does not wait for the client."""
         with self._changed:
             if self._closed:
                 return
@@ -304,6 +306,7 @@ class Publication:
         )
 
     def publish(self, values: Any) -> None:
+        """Publish a message of ``values``, by its fields. :raises RosbridgeError: they are none of it"""
         message = populate_instance(values, self.kind())
         if not self.latch:
             self._early.keep(message)

@@ -57,7 +57,7 @@ class Trajectory:
         return self.state(0) if len(self) else self._start.copy()
 
     def state(self, index: int) -> _core.RobotState:
-        """The whole robot at a way point."""
+        """The whole robot at way point ``index``."""
         state = self._start.copy()
         state.set_group(self.group, self.positions[index])
         return state
@@ -135,7 +135,7 @@ class Trajectory:
         )
 
     def joint_limits_exceeded(self, tolerance: float = 1e-3) -> list[str]:
-        """One line for each joint that leaves its limits of position, velocity or acceleration."""
+        """One line for each joint that leaves its limits of position, velocity or acceleration by more than ``tolerance``."""
         said = []
         for index, name in enumerate(self.variables):
             limits = self.model.variable_limits(name)

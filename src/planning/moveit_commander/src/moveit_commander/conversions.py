@@ -13,7 +13,7 @@ from .exception import MoveItCommanderException
 
 
 def msg_to_string(msg) -> bytes:
-    """A message, serialised."""
+    """``msg``, serialised."""
     buffer = io.BytesIO()
     msg.serialize(buffer)
     return buffer.getvalue()
@@ -25,13 +25,13 @@ def msg_from_string(msg, data: bytes) -> None:
 
 
 def pose_to_list(pose_msg: Pose) -> list[float]:
-    """[x, y, z, qx, qy, qz, qw] of a Pose."""
+    """[x, y, z, qx, qy, qz, qw] of ``pose_msg``."""
     at, turn = pose_msg.position, pose_msg.orientation
     return [at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w]
 
 
 def list_to_pose(pose_list: Sequence[float]) -> Pose:
-    """A Pose of [x, y, z, roll, pitch, yaw] or [x, y, z, qx, qy, qz, qw]; metres and radians.
+    """A Pose of ``pose_list``: [x, y, z, roll, pitch, yaw] or [x, y, z, qx, qy, qz, qw]; metres and radians.
 
     :raises MoveItCommanderException: another number of elements.
     """
@@ -52,12 +52,12 @@ def list_to_pose_stamped(pose_list: Sequence[float], target_frame: str) -> PoseS
 
 
 def transform_to_list(trf_msg: Transform) -> list[float]:
-    """[x, y, z, qx, qy, qz, qw] of a Transform."""
+    """[x, y, z, qx, qy, qz, qw] of ``trf_msg``."""
     at, turn = trf_msg.translation, trf_msg.rotation
     return [at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w]
 
 
 def list_to_transform(trf_list: Sequence[float]) -> Transform:
-    """A Transform of [x, y, z, qx, qy, qz, qw]."""
+    """A Transform of ``trf_list``: [x, y, z, qx, qy, qz, qw]."""
     values = [float(value) for value in trf_list]
     return Transform(Vector3(*values[:3]), Quaternion(*values[3:7]))

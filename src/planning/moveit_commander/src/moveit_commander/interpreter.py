@@ -105,7 +105,7 @@ class MoveGroupCommandInterpreter:
         return self._gdict.keys()
 
     def execute(self, cmd: str) -> Answer:
-        """Execute one line."""
+        """Execute one line, ``cmd``."""
         words = cmd.split()
         if not words:
             return _OK

@@ -105,7 +105,7 @@ class MoveGroupCommander(TargetCommands):
         return self._eef
 
     def set_end_effector_link(self, link_name: str) -> None:
-        """A link, or a thing that the robot holds, or a subframe of one (``thing/subframe``)."""
+        """``link_name``: a link, or a thing that the robot holds, or a subframe of one (``thing/subframe``)."""
         if not self._eef or not link_name:
             raise MoveItCommanderException("Unable to set end effector link")
         self._eef = self._link(link_name)
@@ -128,12 +128,12 @@ class MoveGroupCommander(TargetCommands):
     # --- the present state ---
 
     def get_current_pose(self, end_effector_link: str = "") -> PoseStamped:
-        """Of a link, in the planning frame."""
+        """Of ``end_effector_link`` ("": the group's), in the planning frame."""
         link = self._link(end_effector_link, "There is no end effector to get the pose of")
         return conversions.list_to_pose_stamped(self._current_pose(link), self._model.frame)
 
     def get_current_rpy(self, end_effector_link: str = "") -> list[float]:
-        """[roll, pitch, yaw] of a link, in the planning frame, radians."""
+        """[roll, pitch, yaw] of ``end_effector_link`` ("": the group's), in the planning frame, radians."""
         link = self._link(end_effector_link, "There is no end effector to get the rpy of")
         return list(euler_from_quaternion(self._current_pose(link)[3:]))
 
@@ -144,7 +144,7 @@ class MoveGroupCommander(TargetCommands):
         return [float(value) for value in state.get_group(self._name)]
 
     def get_random_pose(self, end_effector_link: str = "") -> PoseStamped:
-        """A pose that the link can have."""
+        """A pose that ``end_effector_link`` ("": the group's) can have, in the planning frame."""
         link = self._link(end_effector_link, "There is no end effector to get the pose of")
         state = self._state(link) or self._model.state()
         state.randomize(self._name)
@@ -189,7 +189,7 @@ class MoveGroupCommander(TargetCommands):
         return self._targets.orientation_tolerance
 
     def set_goal_tolerance(self, value: float) -> None:
-        """All three."""
+        """All three: ``value`` is rad or m of a joint, m of a position, rad of an orientation."""
         self.set_goal_joint_tolerance(value)
         self.set_goal_position_tolerance(value)
         self.set_goal_orientation_tolerance(value)
@@ -222,7 +222,7 @@ class MoveGroupCommander(TargetCommands):
         return self._requests.path_constraints or Constraints()
 
     def set_path_constraints(self, value: Constraints | str | None) -> None:
-        """Constraints that hold all along the path, or their name in the warehouse; None clears them."""
+        """``value``: constraints that hold all along the path, or their name in the warehouse; None clears them."""
         if value is not None and not isinstance(value, Constraints):
             if self._warehouse is None:
                 raise MoveItCommanderException(
@@ -265,7 +265,7 @@ class MoveGroupCommander(TargetCommands):
         return self._requests.planning_time
 
     def set_planning_pipeline_id(self, planning_pipeline: str) -> None:
-        """Which pipeline plans, for example ompl or pilz_industrial_motion_planner; another one clears the planner."""
+        """Plan with ``planning_pipeline``, for example ompl or pilz_industrial_motion_planner; another one clears the planner."""
         if planning_pipeline != self._requests.pipeline_id:
             self._requests.pipeline_id, self._requests.planner_id = planning_pipeline, ""
 
@@ -273,17 +273,20 @@ class MoveGroupCommander(TargetCommands):
         return self._requests.pipeline_id
 
     def set_planner_id(self, planner_id: str) -> None:
+        """Plan with ``planner_id``, a configuration of the pipeline; "" is the group's default."""
         self._requests.planner_id = planner_id
 
     def get_planner_id(self) -> str:
         return self._requests.planner_id
 
     def set_num_planning_attempts(self, num_planning_attempts: int) -> None:
+        """Plan ``num_planning_attempts`` times, and take the shortest path."""
         self._requests.attempts = int(num_planning_attempts)
 
     def set_workspace(self, ws: Sequence[float]) -> None:
-        """[], [minX, minY, maxX, maxY] or [minX, minY, minZ, maxX, maxY, maxZ]; metres. For planar and floating
-        joints."""
+        """``ws``: [], [minX, minY, maxX, maxY] or [minX, minY, minZ, maxX, maxY, maxZ]; metres. For planar and floating
+        joints.
+        """
         if len(ws) not in (0, 4, 6):
             raise MoveItCommanderException("Expected 0, 4 or 6 values in list specifying workspace")
         values = list(ws) or [0.0] * 6
@@ -341,7 +344,9 @@ class MoveGroupCommander(TargetCommands):
             self.set_joint_value_target(joints)
 
     def plan(self, joints=None) -> tuple[bool, RobotTrajectory, float, MoveItErrorCodes]:
-        """(success, trajectory, planning time in s, error code); scripts for Melodic may take it for the trajectory."""
+        """(success, trajectory, planning time in s, error code); scripts for Melodic may take it for the trajectory. ``joints``: as for
+        :meth:`go`.
+        """
         self._take_target(joints)
         result = self._requests.plan()
         return PlanTuple(
@@ -435,7 +440,7 @@ class MoveGroupCommander(TargetCommands):
         return np.asarray(state.jacobian(self._name, "", point))
 
     def enforce_bounds(self, robot_state_msg: RobotState) -> RobotState:
-        """The state with values outside the limits put on them.
+        """``robot_state_msg`` with values outside the limits put on them.
 
         :raises genpy.DeserializationError: the state is empty (as compiled clients do).
         """
@@ -459,7 +464,7 @@ class MoveGroupCommander(TargetCommands):
         return self._requests.attach(object_name, link, touch_links)
 
     def detach_object(self, name: str = "") -> bool:
-        """Detach the objects of a link, an object, or all of this group's links. True: the request was sent."""
+        """Detach ``name``, an object or all of a link, or ("") all of this group's links. True: the request was sent."""
         return self._requests.detach(name, self._group.links)
 
     def pick(self, object_name: str, grasp: Grasp | Sequence[Grasp] = (), plan_only: bool = False) -> int:
@@ -491,5 +496,5 @@ class MoveGroupCommander(TargetCommands):
         return location
 
     def set_support_surface_name(self, value: str) -> None:
-        """The object on which others stand: touching it is no collision while picking and placing."""
+        """``value``: the object on which others stand: touching it is no collision while picking and placing."""
         self._requests.support_surface = value

@@ -168,7 +168,7 @@ class PlanningSceneInterface:
         self.remove_world_object()
 
     def remove_world_object(self, name: str | None = None) -> None:
-        """Remove an object, or all."""
+        """Remove the object ``name``, or all."""
         self._submit(CollisionObject(id=name or "", operation=CollisionObject.REMOVE))
 
     def remove_attached_object(self, link: str | None = None, name: str | None = None) -> None:
@@ -214,18 +214,18 @@ class PlanningSceneInterface:
         return {item.id: item.pose for item in self._world() if item.id in object_ids}
 
     def get_objects(self, object_ids: Sequence[str] = ()) -> dict[str, CollisionObject]:
-        """Those named, or all."""
+        """Those named in ``object_ids``, or all."""
         return {item.id: item for item in self._world() if not object_ids or item.id in object_ids}
 
     def get_attached_objects(self, object_ids: Sequence[str] = ()) -> dict[str, AttachedCollisionObject]:
-        """Those named, or all."""
+        """Those named in ``object_ids``, or all."""
         scene = self.get_planning_scene(PlanningSceneComponents.ROBOT_STATE_ATTACHED_OBJECTS)
         return {
             item.object.id: item for item in scene.robot_state.attached_collision_objects if not object_ids or item.object.id in object_ids
         }
 
     def get_planning_scene(self, components: int) -> PlanningScene:
-        """The scene, or the parts that the bits of PlanningSceneComponents name.
+        """The scene, or the parts that ``components``, bits of PlanningSceneComponents, name.
 
         :raises MoveItCommanderException: move_group does not answer.
         """
@@ -234,7 +234,7 @@ class PlanningSceneInterface:
         return self._call(self._get, request).scene
 
     def apply_planning_scene(self, planning_scene_message: PlanningScene) -> bool:
-        """Apply a scene or a diff; False when some of it could not be (move_group says what)."""
+        """Apply ``planning_scene_message``, a scene or a diff; False when some of it could not be (move_group says what)."""
         request = ApplyPlanningScene._request_class(planning_scene_message)
         return self._call(self._apply_planning_scene_diff, request).success
 

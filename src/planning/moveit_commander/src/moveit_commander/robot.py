@@ -154,7 +154,7 @@ class RobotCommander:
         return self.Link(self, name)
 
     def get_group(self, name: str) -> MoveGroupCommander:
-        """The commander of a group, made once."""
+        """The commander of the group ``name``, made once. :raises MoveItCommanderException: there is no such group"""
         if name not in self._groups:
             self._checked(name)
             self._groups[name] = MoveGroupCommander(name, self._robot_description, self._ns)
@@ -165,7 +165,7 @@ class RobotCommander:
         return self._model.has_group(name)
 
     def get_default_owner_group(self, joint_name: str) -> str | None:
-        """The group with the fewest links that has the joint; None if there is none."""
+        """The group with the fewest links that has the joint ``joint_name``; None if there is none."""
         owners = [name for name in self._model.groups if joint_name in self._model.group(name).joints]
         return min(owners, key=lambda name: len(self._model.group(name).links), default=None)
 

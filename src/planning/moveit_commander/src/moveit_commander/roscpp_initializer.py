@@ -12,7 +12,8 @@ _arguments: list[str] | None = None
 def roscpp_initialize(args: list[str]) -> None:
     """Accepted before or after ``rospy.init_node``, once or several times. Without any ``rospy.init_node``, the first
     client
-    starts a node itself, with these arguments."""
+    starts a node itself, with ``args``, words of a command line.
+    """
     global _arguments
     _arguments = list(args)
 

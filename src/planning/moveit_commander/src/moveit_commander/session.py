@@ -119,7 +119,7 @@ class Action:
         return action_links.is_connected(self._client)
 
     def wait(self, timeout: float) -> bool:
-        """Wait (wall seconds; 0: for ever) for the server."""
+        """Wait up to ``timeout`` wall seconds (0: for ever) for the server."""
         end = time.monotonic() + timeout if timeout > 0 else float("inf")
         while not self.connected():
             if time.monotonic() > end or rospy.is_shutdown():

@@ -223,6 +223,7 @@ class TargetCommands:
         self.set_pose_target(pose, link)
 
     def clear_pose_target(self, end_effector_link: str) -> None:
+        """Forget the pose of ``end_effector_link`` ("": the group's)."""
         self._targets.poses.pop(end_effector_link or self._eef, None)
 
     def clear_pose_targets(self) -> None:
@@ -271,4 +272,5 @@ class TargetCommands:
         return {name: list(values) for name, values in self._remembered.items()}
 
     def forget_joint_values(self, name: str) -> None:
+        """Forget what was remembered as ``name``."""
         self._remembered.pop(name, None)

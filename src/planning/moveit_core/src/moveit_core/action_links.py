@@ -10,8 +10,7 @@ if TYPE_CHECKING:
 
 
 def is_connected(client: actionlib.ActionClient) -> bool:
-    """
-    Whether all topics of the action are connected to one server that listens. Does not wait.
+    """Whether all topics of the action of ``client`` are connected to one server that listens. Does not wait.
 
     A server that has died leaves its last status and, as rospy notices the end of a connection when it next writes, its subscriptions; a
     new one of the same name drops the goals that come before its first status.

@@ -40,7 +40,7 @@ class ControllerHandle(ABC):
 
     @abstractmethod
     def send(self, trajectory: RobotTrajectory) -> bool:
-        """Start to move; False (and ``reason``) when the controller does not take it."""
+        """Start to move along ``trajectory``; False (and ``reason``) when the controller does not take it."""
 
     @abstractmethod
     def cancel(self) -> bool:
@@ -48,7 +48,7 @@ class ControllerHandle(ABC):
 
     @abstractmethod
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait (wall seconds; None: for ever) until the trajectory has ended."""
+        """Wait (``timeout`` wall seconds; None: for ever) until the trajectory has ended."""
 
     @property
     @abstractmethod
@@ -81,10 +81,11 @@ class ControllerManager(ABC):
         return self.controllers()
 
     def is_default(self, controller: str) -> bool:
-        """Preferred where several would do."""
+        """Whether ``controller`` is preferred where several would do."""
         return False
 
     def is_active(self, controller: str) -> bool:
+        """Whether ``controller`` takes trajectories at the moment."""
         return controller in self.active_controllers()
 
     def switch(self, activate: Sequence[str], deactivate: Sequence[str]) -> bool:
@@ -118,7 +119,7 @@ class Completion:
             self._done.clear()
 
     def finish(self, status: ExecutionStatus) -> bool:
-        """Set the end; False when it had ended before (the first end counts)."""
+        """Set the end, ``status``; False when it had ended before (the first end counts)."""
         with self._lock:
             if self._status is not ExecutionStatus.RUNNING:
                 return False

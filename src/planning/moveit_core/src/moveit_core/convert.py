@@ -55,13 +55,13 @@ def pose(message, what: str = "the pose", empty_is_identity: bool = True) -> mot
 
 
 def pose_message(value) -> Pose:
-    """Any pair (position, quaternion) as a geometry_msgs/Pose."""
+    """``value``, any pair (position, quaternion), as a geometry_msgs/Pose."""
     position, quaternion = value[0], value[1]
     return Pose(Point(*(float(v) for v in position)), Quaternion(*(float(v) for v in quaternion)))
 
 
 def transform_message(value) -> Transform:
-    """Any pair (position, quaternion) as a geometry_msgs/Transform."""
+    """``value``, any pair (position, quaternion), as a geometry_msgs/Transform."""
     return Transform(Vector3(*(float(v) for v in value[0])), Quaternion(*(float(v) for v in value[1])))
 
 
@@ -86,7 +86,7 @@ def in_model_frame(scene, frame: str, value) -> motion.Pose:
 
 
 def primitive(message: SolidPrimitive):
-    """A SolidPrimitive as a shape.
+    """``message``, a SolidPrimitive, as a shape.
 
     :raises ValueError: unknown type, too few or impossible dimensions.
     """
@@ -107,7 +107,7 @@ def primitive(message: SolidPrimitive):
 
 
 def mesh(message: Mesh):
-    """A shape_msgs/Mesh as a shape.
+    """``message``, a shape_msgs/Mesh, as a shape.
 
     :raises ValueError: empty, or a triangle names a vertex that is not there.
     """
@@ -123,7 +123,7 @@ def mesh(message: Mesh):
 
 
 def plane(message: Plane):
-    """A shape_msgs/Plane, ax + by + cz + d = 0, as a shape."""
+    """``message``, a shape_msgs/Plane, ax + by + cz + d = 0, as a shape. :raises ValueError: it has no normal."""
     coefficients = finite(message.coef, "a plane")
     if not any(coefficients[:3]):
         raise ValueError("a plane has the normal 0 0 0")
@@ -179,7 +179,7 @@ def fill_shapes(message, found: Sequence, poses: Sequence) -> None:
 
 
 def primitive_message(shape) -> SolidPrimitive:
-    """A box, sphere, cylinder or cone as a SolidPrimitive."""
+    """``shape``, a box, sphere, cylinder or cone, as a SolidPrimitive."""
     if isinstance(shape, motion.Box):
         return SolidPrimitive(SolidPrimitive.BOX, [float(edge) for edge in shape.size])
     if isinstance(shape, motion.Sphere):

@@ -44,7 +44,7 @@ class SceneEditor:
     # --- objects of the world ---
 
     def collision_object(self, message: CollisionObject) -> bool:
-        """ADD, APPEND, MOVE or REMOVE an object of the world."""
+        """ADD, APPEND, MOVE or REMOVE the object of the world that ``message`` names."""
         try:
             return self._collision_object(message)
         except (ValueError, motion.MotionError) as error:
@@ -115,7 +115,7 @@ class SceneEditor:
     # --- attached bodies ---
 
     def attached_object(self, message: AttachedCollisionObject) -> bool:
-        """Attach an object to a link, or detach it; what is detached returns to the world."""
+        """Attach the object of ``message`` to a link, or detach it; what is detached returns to the world."""
         try:
             operation = message.object.operation
             if operation in (CollisionObject.ADD, CollisionObject.APPEND):
@@ -195,7 +195,7 @@ class SceneEditor:
     # --- whole scenes ---
 
     def planning_scene(self, message: PlanningScene) -> bool:
-        """Apply a PlanningScene: a diff changes what it names, any other replaces everything."""
+        """Apply ``message``: a diff changes what it names, any other replaces everything."""
         good = True
         if not message.is_diff:
             self._clear(message)
@@ -313,7 +313,8 @@ def attached_body(scene, state, message: AttachedCollisionObject) -> motion.Atta
 
 def attach_to_state(scene) -> Callable:
     """A function ``f(state, AttachedCollisionObject)`` for :func:`states.apply_robot_state`: bodies of a request's
-    state."""
+    state in ``scene``.
+    """
 
     def attach(state, message: AttachedCollisionObject) -> None:
         present = {body.id for body in state.attached}
@@ -442,12 +443,12 @@ def octomap_message(scene) -> OctomapWithPose:
 
 
 def colour_messages(scene) -> list[ObjectColor]:
-    """Colours that were given to objects."""
+    """Colours that were given to objects of ``scene``."""
     return [ObjectColor(name, ColorRGBA(*(float(v) for v in rgba))) for name, rgba in sorted(scene.colors.items())]
 
 
 def transform_messages(scene) -> list[TransformStamped]:
-    """Frames known from outside, in upstream's (reversed) notation."""
+    """Frames that ``scene`` knows from outside, in upstream's (reversed) notation."""
     messages = []
     for frame, pose in sorted(scene.transforms.items()):
         message = TransformStamped(child_frame_id=scene.frame, transform=convert.transform_message(pose))

@@ -19,7 +19,7 @@ _FLOATING = ("trans_x", "trans_y", "trans_z", "rot_x", "rot_y", "rot_z", "rot_w"
 
 
 def is_empty(message: RobotState) -> bool:
-    """True when a RobotState says nothing about joints or attached bodies (upstream's rule for "the current state")."""
+    """True when ``message`` says nothing about joints or attached bodies (upstream's rule for "the current state")."""
     return not (
         message.joint_state.name
         or message.joint_state.position
@@ -252,12 +252,12 @@ def trajectory_from_message(model, group: str, reference: motion.RobotState, mes
 
 
 def is_empty_trajectory(message: RobotTrajectory) -> bool:
-    """True for a trajectory without points."""
+    """True for a trajectory ``message`` without points."""
     return not message.joint_trajectory.points and not message.multi_dof_joint_trajectory.points
 
 
 def duration(message: RobotTrajectory) -> float:
-    """Seconds from start to the last point."""
+    """Seconds from the start of ``message`` to its last point."""
     ends = [
         part.points[-1].time_from_start.to_sec() for part in (message.joint_trajectory, message.multi_dof_joint_trajectory) if part.points
     ]

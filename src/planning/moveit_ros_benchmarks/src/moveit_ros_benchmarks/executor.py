@@ -221,7 +221,7 @@ class Executor:
     # --- runs ---
 
     def run(self, problems: list[Problem]) -> list[str]:
-        """Run everything; the log files, one for each problem."""
+        """Run all ``problems``; the log files, one for each problem."""
         files: list[str] = []
         for number, problem in enumerate(problems, 1):
             rospy.loginfo("Benchmarking query '%s' (%d of %d)", problem.name, number, len(problems))

@@ -9,7 +9,7 @@ from .log import Run
 
 
 def steps(trajectory: motion.Trajectory) -> np.ndarray:
-    """(k - 1, n) from each way point to the next, endless joints the short way."""
+    """(k - 1, n) from each way point of ``trajectory`` to the next, endless joints the short way."""
     model = trajectory.start.model
     rows = np.diff(trajectory.positions, axis=0)
     return _short(rows, model, trajectory.group)
@@ -26,7 +26,9 @@ def _short(rows: np.ndarray, model: motion.RobotModel, group: str) -> np.ndarray
 
 
 def smoothness(trajectory: motion.Trajectory) -> float:
-    """Mean of the squared outside angles between steps, twice each, as upstream weighs them; 0 for a straight line (rad2)."""
+    """Mean of the squared outside angles between steps of ``trajectory``, twice each, as upstream weighs them; 0 for a straight line
+    (rad2).
+    """
     total, lengths = 0.0, np.abs(steps(trajectory)).sum(axis=1)
     positions = trajectory.positions
     model, group = trajectory.start.model, trajectory.group

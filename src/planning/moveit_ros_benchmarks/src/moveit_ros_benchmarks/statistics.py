@@ -60,7 +60,7 @@ def _column(base: sqlite3.Connection, key: str, value: str) -> tuple[str, str]:
 
 
 def summary(entry: log.Log) -> list[str]:
-    """A line for each planner: solved, time and length in the middle."""
+    """A line for each planner of ``entry``: solved, time and length in the middle."""
     lines = [f"{entry.name}: {entry.runs} runs each"]
     for planner, runs in entry.planners.items():
         solved = [run for run in runs if run.get("solved BOOLEAN") == "1"]

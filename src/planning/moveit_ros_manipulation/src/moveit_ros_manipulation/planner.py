@@ -227,7 +227,7 @@ class Manipulation:
 
 
 def moves(move: GripperTranslation) -> bool:
-    """Whether a distance and a direction were given."""
+    """Whether ``move`` has a distance and a direction."""
     direction = move.direction.vector
     return move.desired_distance > 0 and math.hypot(direction.x, direction.y, direction.z) > 1e-9
 

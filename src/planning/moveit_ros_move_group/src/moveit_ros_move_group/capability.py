@@ -154,6 +154,7 @@ class ActionCapability(Capability):
         self.feedback("IDLE")
 
     def code(self, result) -> int:
+        """The error code in ``result``, of MoveItErrorCodes."""
         return result.error_code.val
 
     def failed(self, result, code: int, message: str) -> str:
@@ -168,7 +169,8 @@ _CHANGED = "Solution found but the environment changed during execution and the 
 def result_text(code: int, message: str, empty: bool, plan_only: bool) -> str:
     """The text of a goal's status, as upstream words it, with the reason of a failure, ``message``.
 
-    :param code: of MoveItErrorCodes. :param empty: there is no trajectory. :param plan_only: nothing was to be executed.
+    :param code: of MoveItErrorCodes. :param empty: the trajectory has no points, or there is none.
+    :param plan_only: nothing was to be executed.
     """
     codes = MoveItErrorCodes
     if code == codes.SUCCESS:

@@ -51,7 +51,7 @@ class Context:
         return result
 
     def group(self, name: str) -> motion.Group:
-        """A group of the robot.
+        """The group ``name`` of the robot.
 
         :raises PlanningError: INVALID_GROUP_NAME.
         """
@@ -89,7 +89,7 @@ class Display:
         self._path.publish(message)
 
     def contacts(self, contacts) -> None:
-        """Publish points of contact as red spheres."""
+        """Publish ``contacts`` as red spheres."""
         markers = [Marker(action=Marker.DELETEALL)]
         for number, contact in enumerate(contacts):
             marker = Marker(

@@ -94,7 +94,7 @@ class OccupancyMapMonitor:
             self._map.clear()
 
     def assign(self, tree: motion.OcTree) -> None:
-        """Take over an octree, in the map's frame."""
+        """Take over ``tree``, in the map's frame."""
         with self._lock:
             self._map.assign(tree)
         self._publish()

@@ -15,7 +15,7 @@ _NOISE = 0.125 / (525.0 * 0.075)  # per m: steps of depth of a usual structured 
 
 
 def depths(message: Image) -> np.ndarray:
-    """(height, width) depths in m along the camera's axis; NaN where there is none.
+    """(height, width) depths of ``message`` in m along the camera's axis; NaN where there is none.
 
     :raises UpdaterError: encoding or size of the data.
     """

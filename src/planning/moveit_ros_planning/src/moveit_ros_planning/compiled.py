@@ -24,7 +24,7 @@ _STATUS[MoveItErrorCodes.PLANNING_FAILED] = "failed"
 
 
 def exported(kind: str) -> dict[str, PluginClass]:
-    """All classes that packages export as planners (``planner``) or request adapters (``adapter``), by name."""
+    """All classes that packages export as ``kind``, planners (``planner``) or request adapters (``adapter``), by name."""
     base = {"planner": _PLANNER, "adapter": _ADAPTER}[kind]
     found, _problems = find_plugins("moveit_core")
     return {name: plugin for name, plugin in found.items() if plugin.base == base}

@@ -19,7 +19,9 @@ def table(name: str) -> dict[str, Any]:
 
 
 def joint_limits(name: str) -> dict[str, dict[str, Any]]:
-    """The usable part of joint_limits.yaml: a table of numbers and has_... flags for each joint, or ``joint/variable``."""
+    """The usable part of joint_limits.yaml at parameter ``name``: a table of numbers and has_... flags for each joint, or
+    ``joint/variable``.
+    """
     return _limits(name, table(name))
 
 

@@ -70,7 +70,7 @@ class Pipelines:
         return names[0]
 
     def find(self, name: str) -> Pipeline:
-        """The pipeline of a request; "" is the default one.
+        """The pipeline ``name`` of a request; "" is the default one.
 
         :raises PlanningError: there is no such pipeline.
         """

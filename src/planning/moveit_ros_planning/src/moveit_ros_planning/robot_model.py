@@ -178,7 +178,7 @@ def _words(value: Any) -> str:
 
 
 def prepare_scene(description: RobotDescription) -> motion.PlanningScene:
-    """An empty scene with the paddings and collision operations of the parameters."""
+    """An empty scene of ``description``'s robot with the paddings and collision operations of the parameters."""
     scene = motion.PlanningScene(description.model)
     scene.name = "(noname)"
     model = description.model
@@ -227,7 +227,7 @@ def _collision_operations(description: RobotDescription, scene) -> None:
 
 
 def scaling_factors(description: RobotDescription) -> tuple[float, float]:
-    """Default velocity and acceleration scaling of clients."""
+    """Default velocity and acceleration scaling of clients, by ``description``."""
     return (
         _planning_number(description, "default_velocity_scaling_factor", 0.1),
         _planning_number(description, "default_acceleration_scaling_factor", 0.1),

@@ -129,7 +129,7 @@ class SceneMonitor:
         return False
 
     def message(self, components: int = 0) -> PlanningScene:
-        """The scene as a message, with the present state."""
+        """The scene as a message, with the present state; ``components``: bits of PlanningSceneComponents, 0 is all."""
         return scene_messages.scene_message(self.copy(), components)
 
     def on_change(self, callback: Callable[[int], None]) -> None:

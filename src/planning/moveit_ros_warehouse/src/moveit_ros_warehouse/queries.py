@@ -27,7 +27,7 @@ class Queries:
 
 
 def write(queries: Queries) -> str:
-    """The text of a file."""
+    """``queries`` as the text of a file."""
     lines = [queries.scene]
     if queries.starts:
         lines += ["start", str(len(queries.starts))]
@@ -43,7 +43,7 @@ def write(queries: Queries) -> str:
 
 
 def read(text: str) -> Queries:
-    """What a file says.
+    """What ``text``, of a file, says.
 
     :raises ValueError: it is no file of queries; the line is named.
     """
@@ -120,7 +120,7 @@ def goal_constraints(
 
 
 def goal_of(constraints: Constraints):
-    """(link, xyz, rpy) of a goal, or None where it is none that a file can hold."""
+    """(link, xyz, rpy) of ``constraints``, a goal, or None where it is none that a file can hold."""
     for position in constraints.position_constraints:
         turns = [entry for entry in constraints.orientation_constraints if entry.link_name == position.link_name]
         if turns and position.constraint_region.primitive_poses:

@@ -62,7 +62,7 @@ class Warehouse:
         return StorageError(f"the database file '{self.path}' cannot be used: {error}")
 
     def run(self, text: str, *values: Any) -> sqlite3.Cursor:
-        """One SQL statement, committed.
+        """One SQL statement, ``text`` with ``values`` for its question marks, committed.
 
         :raises StorageError: the file cannot be used.
         """
@@ -101,7 +101,7 @@ class Warehouse:
         return [self.results.load(name, scene=scene) for name in sorted(names, key=lambda name: int(name.rpartition("#")[2]))]
 
     def remove_scene(self, name: str) -> None:
-        """Forget a scene with its requests and results."""
+        """Forget the scene ``name`` with its requests and results."""
         self.scenes.remove(name)
         self.requests.clear(scene=name)
         self.results.clear(scene=name)
@@ -196,7 +196,7 @@ class Collection:
         self._warehouse.run(f"UPDATE OR REPLACE {self._table} SET name = ? WHERE name = ?{where}", new, old, *values)
 
     def remove(self, name: str, **owners: str) -> None:
-        """Forget a message.
+        """Forget the message ``name``.
 
         :raises StorageError: there is none.
         """

@@ -66,7 +66,7 @@ class ActionHandle(ControllerHandle):
         return action_links.is_connected(self._client)
 
     def wait_for_server(self, timeout: float) -> bool:
-        """Wait (wall seconds) for the action server."""
+        """Wait (up to ``timeout`` wall seconds) for the action server."""
         end = time.monotonic() + timeout
         while not self.connected:
             if time.monotonic() > end or rospy.is_shutdown():

@@ -31,7 +31,7 @@ class Element:
 
     @classmethod
     def from_xml(cls, node: ET.Element):
-        """Read an element; unknown children and attributes are passed over.
+        """Read the element ``node``; unknown children and attributes are passed over.
 
         :raises ParseError: a required attribute is missing.
         """
@@ -57,7 +57,7 @@ class Element:
         """After the element was read."""
 
     def to_xml(self, tag: str | None = None) -> ET.Element:
-        """The element as XML."""
+        """The element as XML, called ``tag`` (None: as it always is)."""
         node = ET.Element(tag or self._tag)
         for name, _, field in self._attributes:
             value = getattr(self, field)
@@ -290,23 +290,28 @@ class Robot(Element):
         raise ParseError(f"a robot has no element <{type_name}>")
 
     def add_group(self, group: Group) -> None:
+        """Append ``group``."""
         self.add_aggregate("group", group)
 
     def add_group_state(self, state: GroupState) -> None:
+        """Append ``state``."""
         self.add_aggregate("group_state", state)
 
     def add_passive_joint(self, joint: PassiveJoint) -> None:
+        """Append ``joint``."""
         self.add_aggregate("passive_joint", joint)
 
     def add_disable_collisions(self, pair: DisableCollisions) -> None:
+        """Append ``pair``."""
         self.add_aggregate("disable_collisions", pair)
 
     def add_link_sphere_approximation(self, link: LinkSphereApproximation) -> None:
+        """Append ``link``."""
         self.add_aggregate("link_sphere_approximation", link)
 
     @classmethod
     def from_xml_string(cls: type[_Robot], text) -> _Robot:
-        """Read a document.
+        """Read a document, ``text``.
 
         :raises ParseError: not XML, not a robot, or an attribute is missing.
         """
@@ -320,13 +325,13 @@ class Robot(Element):
 
     @classmethod
     def from_xml_file(cls, path: str) -> Robot:
-        """Read a file."""
+        """Read the file ``path``. :raises ParseError: as :meth:`from_xml_string`"""
         with open(path, encoding="utf-8") as file:
             return cls.from_xml_string(file.read())
 
     @classmethod
     def from_parameter_server(cls, key: str = "robot_description_semantic") -> Robot:
-        """Read the document that a parameter holds."""
+        """Read the document that the parameter ``key`` holds. :raises ParseError: as :meth:`from_xml_string`"""
         import rospy
 
         return cls.from_xml_string(rospy.get_param(key))

@@ -21,7 +21,7 @@ def ask(name: str, kind: type, goal: Any) -> actionlib.SimpleActionClient | None
 
 
 def tell_state(client: actionlib.SimpleActionClient | None) -> None:
-    """How it ended, or that it did not within :data:`PATIENCE`."""
+    """How ``client``'s goal ended, or that it did not within :data:`PATIENCE`."""
     if client is None:
         return
     if client.wait_for_result(rospy.Duration(PATIENCE)):

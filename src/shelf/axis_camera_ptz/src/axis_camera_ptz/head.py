@@ -41,7 +41,10 @@ class Head:
 
     @classmethod
     def from_parameters(cls, values: dict[str, Any]) -> Head:
-        """:raises ValueError: a limit is no number, or the least is above the most; one line that names it."""
+        """By ``values`` of parameters.
+
+        :raises ValueError: a limit is no number, or the least is above the most; one line that names it.
+        """
         limits: list[tuple[float, float]] = []
         for name in ("pan", "tilt", "zoom"):
             try:

@@ -21,6 +21,7 @@ _TOGETHER = 0.1  # s that a reading of the field may be from one of the accelera
 
 
 def numbers(vector) -> tuple[float, float, float]:
+    """x, y, z of ``vector``, a message."""
     return vector.x, vector.y, vector.z
 
 

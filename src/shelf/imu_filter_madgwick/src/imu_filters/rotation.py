@@ -40,6 +40,7 @@ def product(a: Quaternion, b: Quaternion) -> Quaternion:
 
 
 def conjugate(q: Quaternion) -> Quaternion:
+    """The rotation that undoes ``q``."""
     return q[0], -q[1], -q[2], -q[3]
 
 
@@ -78,6 +79,7 @@ def of_axes(x: Vector, y: Vector, z: Vector) -> Quaternion:
 
 
 def roll_pitch_yaw(q: Quaternion) -> Vector:
+    """Of ``q``, rad, about the fixed axes x, y, z in that order."""
     w, x, y, z = q
     return (
         math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)),

@@ -37,7 +37,7 @@ class Drive:
         return max(least, min(most, scale * distance))
 
     def angular(self, yaw: float) -> float:
-        """rad/s for a turn of so many rad."""
+        """rad/s for a turn of ``yaw`` rad."""
         return max(-self._most_angular, min(self._most_angular, self._angular * yaw))
 
 

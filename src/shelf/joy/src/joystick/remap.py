@@ -22,7 +22,7 @@ class Remap:
         self._told: set[str] = set()
 
     def message(self, seen: Joy) -> Joy:
-        """The same moment; an entry that this joystick cannot give is 0, and told once."""
+        """What is made of ``seen``, the same moment; an entry that this joystick cannot give is 0, and told once."""
         made = Joy(header=seen.header)
         made.axes = [float(self._value(formula, seen)) for formula in self.axes]
         made.buttons = [int(self._value(formula, seen) > 0) for formula in self.buttons]

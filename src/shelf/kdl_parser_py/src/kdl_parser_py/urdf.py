@@ -12,16 +12,17 @@ _TURNS, _SLIDES = ("revolute", "continuous"), ("prismatic",)
 
 
 def treeFromFile(filename: str) -> tuple[bool, PyKDL.Tree]:
-    """:raises urdf_parser_py.xml_reflection.ParseError, OSError: what cannot be read"""
+    """Of the file ``filename``. :raises urdf_parser_py.xml_reflection.ParseError, OSError: what cannot be read"""
     return treeFromUrdfModel(URDF.from_xml_file(filename))
 
 
 def treeFromParam(param: str) -> tuple[bool, PyKDL.Tree]:
-    """:raises KeyError: there is no such parameter"""
+    """Of the URDF in the parameter ``param``. :raises KeyError: there is no such parameter"""
     return treeFromUrdfModel(URDF.from_parameter_server(param))
 
 
 def treeFromString(xml: str) -> tuple[bool, PyKDL.Tree]:
+    """Of ``xml``, the URDF's text. :raises urdf_parser_py.xml_reflection.ParseError: what cannot be read"""
     return treeFromUrdfModel(URDF.from_xml_string(xml))
 
 

@@ -67,6 +67,7 @@ class Cliffs:
         return dict(zip(self._places, ranges))
 
     def is_cliff(self, distance: float) -> bool:
+        """Whether a floor ``distance`` m away is too deep to drive over."""
         return distance >= self._threshold
 
 

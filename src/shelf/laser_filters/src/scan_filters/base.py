@@ -86,9 +86,10 @@ class Filter:
         return value
 
     def prepare(self, given: dict[str, Any]) -> None:
-        """What follows from the values; also after they were changed."""
+        """What follows from the values; also after they were changed. ``given``: all parameters as they are written, {} after a change."""
 
     def change(self, values: dict[str, Any]) -> None:
+        """Take new ``values``, of ``settings``."""
         self.values.update(values)
         self.prepare({})
 

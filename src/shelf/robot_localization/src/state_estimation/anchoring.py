@@ -60,7 +60,7 @@ class Anchor:
         return turn.rotation @ self.datum.cartesian(latitude, longitude, altitude) + turn.translation
 
     def to_earth(self, position: np.ndarray) -> tuple[float, float, float]:
-        """(latitude, longitude, altitude), degrees and m, of a (3,) point of the robot's world.
+        """(latitude, longitude, altitude), degrees and m, of ``position`` (3,), m, in the robot's world.
 
         :raises ValueError: too far away
         """
@@ -68,11 +68,11 @@ class Anchor:
         return (*self.datum.plane.point(east, north), float(up))
 
     def covariance_in_map(self, covariance: np.ndarray) -> np.ndarray:
-        """(3, 3) of east, north, up, in the world's axes."""
+        """``covariance`` (3, 3) of east, north, up, in the world's axes."""
         return self.world_plane.rotation @ covariance @ self.world_plane.rotation.T
 
     def covariance_on_earth(self, covariance: np.ndarray) -> np.ndarray:
-        """(3, 3) in the world's axes, of east, north, up."""
+        """``covariance`` (3, 3) in the world's axes, of east, north, up."""
         return self._plane_world.rotation @ covariance @ self._plane_world.rotation.T
 
 

@@ -37,7 +37,7 @@ def zone_of(latitude: float, longitude: float) -> Zone:
 
 
 def zone_named(name: str) -> Zone:
-    """The zone of "31U" (number, band of latitude) or of a polar "A", "B", "Y", "Z".
+    """The zone of ``name``, "31U" (number, band of latitude) or of a polar "A", "B", "Y", "Z".
 
     :raises ValueError: it is neither
     """

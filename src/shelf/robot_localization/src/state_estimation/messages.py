@@ -8,12 +8,12 @@ from .sensors import IDENTITY, FrameMissing, Transform, quaternion_matrix
 
 
 def vector(message) -> np.ndarray:
-    """(3,) of a Vector3 or Point."""
+    """(3,) of ``message``, a Vector3 or Point."""
     return np.array([message.x, message.y, message.z])
 
 
 def transform(pose) -> Transform:
-    """Of a Pose. :raises ValueError: its orientation is none"""
+    """Of ``pose``, a message. :raises ValueError: its orientation is none"""
     turn = pose.orientation
     return Transform(quaternion_matrix(turn.x, turn.y, turn.z, turn.w), vector(pose.position))
 
@@ -25,7 +25,7 @@ def fill(message, values, names: str = "xyz") -> None:
 
 
 def quaternion(turn: np.ndarray) -> np.ndarray:
-    """(4,): x, y, z, w of a rotation matrix, w not below 0."""
+    """(4,): x, y, z, w of ``turn``, a rotation matrix, w not below 0."""
     w = np.sqrt(max(0.0, 1 + turn[0, 0] + turn[1, 1] + turn[2, 2])) / 2
     if w > 1e-3:
         x, y, z = (turn[2, 1] - turn[1, 2]), (turn[0, 2] - turn[2, 0]), (turn[1, 0] - turn[0, 1])

@@ -13,12 +13,12 @@ _STEEP = 1e-6  # rad; nearer to straight up or down, roll and yaw cannot be told
 
 
 def wrap(angle):
-    """Angle or array of them, rad, into [-pi, pi)."""
+    """``angle``, or an array of them, rad, into [-pi, pi)."""
     return (angle + np.pi) % (2 * np.pi) - np.pi
 
 
 def rotation(rpy) -> np.ndarray:
-    """(3, 3): from the body's axes into the world's, for fixed-axis roll, pitch, yaw (REP-103). Or (N, 3) to (N, 3, 3)."""
+    """(3, 3): from the body's axes into the world's, for fixed-axis roll, pitch, yaw, ``rpy`` (REP-103). Or (N, 3) to (N, 3, 3)."""
     (sr, sp, sy), (cr, cp, cy) = np.moveaxis(np.sin(rpy), -1, 0), np.moveaxis(np.cos(rpy), -1, 0)
     rows = [
         [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],

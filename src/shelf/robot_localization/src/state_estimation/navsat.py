@@ -206,7 +206,7 @@ class NavsatTransform:
             self._fix = message
 
     def step(self, now: float) -> None:
-        """Finds where the world lies, then publishes what is new."""
+        """Finds where the world lies, then publishes what is new; ``now`` in s."""
         with self._mutex:
             if now < self._begin:
                 return

@@ -161,7 +161,7 @@ class Localization:
         return SetPoseResponse()
 
     def set_pose(self, message: PoseWithCovarianceStamped) -> None:
-        """The robot is said to stand there, at rest; what was measured before does not count any more."""
+        """The robot is said to stand where ``message`` says, at rest; what was measured before does not count any more."""
         try:
             pose = self._look_up(self.frames.world, message.header.frame_id or self.frames.world, message.header.stamp) @ transform(
                 message.pose.pose

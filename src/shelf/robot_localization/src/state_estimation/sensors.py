@@ -53,7 +53,7 @@ def quaternion_matrix(x: float, y: float, z: float, w: float) -> np.ndarray:
 
 
 def angles(matrix: np.ndarray) -> np.ndarray:
-    """(3,): fixed-axis roll, pitch, yaw of a rotation, rad."""
+    """(3,): fixed-axis roll, pitch, yaw of ``matrix``, a rotation, rad."""
     return np.array(
         [np.arctan2(matrix[2, 1], matrix[2, 2]), np.arcsin(np.clip(-matrix[2, 0], -1, 1)), np.arctan2(matrix[1, 0], matrix[0, 0])]
     )
@@ -109,7 +109,7 @@ class PoseInput:
         self._last: tuple | None = None
 
     def measure(self, pose: Pose) -> Measurement | None:
-        """:raises FrameMissing: a transform is not known"""
+        """What ``pose`` says of the state; None where that is nothing yet. :raises FrameMissing: a transform is not known"""
         used, transform, covariance = self._in_world(pose)
         if self._differential:
             return self._velocity(used, transform, covariance, pose.time)

@@ -25,7 +25,7 @@ def serve() -> None:
 
 
 def numbers(words: list[str]) -> tuple[int, int] | None:
-    """What was typed, two at random if nothing was, None if it is something else."""
+    """What was typed, ``words``, two at random if nothing was, None if it is something else."""
     if not words:
         return random.randint(-50000, 50000), random.randint(-50000, 50000)
     try:

@@ -39,7 +39,7 @@ class Keyboard:
             termios.tcsetattr(self._descriptor, termios.TCSADRAIN, self._settings)
 
     def read(self, timeout: float) -> str:
-        """The next key; "" if none came in time (s), Ctrl-C at the end of the input."""
+        """The next key; "" if none came within ``timeout`` (s), Ctrl-C at the end of the input."""
         if not select.select([self._descriptor], [], [], timeout)[0]:
             return ""
         return os.read(self._descriptor, 1).decode("latin-1") or CTRL_C

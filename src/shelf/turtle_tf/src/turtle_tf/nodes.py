@@ -15,7 +15,9 @@ _UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 
 
 def broadcast_turtle(node_name: str) -> int:
-    """The frame of a turtle in "world", as its pose topic has it. The name comes from ~turtle or the command line."""
+    """The node ``node_name``: the frame of a turtle in "world", as its pose topic has it. The name comes from ~turtle or the command
+    line.
+    """
     node_signals.init_node(node_name)
     arguments = rospy.myargv(sys.argv)[1:]
     turtle = rospy.get_param("~turtle", arguments[0] if len(arguments) == 1 else None)

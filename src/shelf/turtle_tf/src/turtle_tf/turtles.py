@@ -33,7 +33,7 @@ def steer(x: float, y: float) -> Twist:
 
 
 def broadcast_points(node_name: str) -> None:
-    """turtle3 runs in circles; where it is in "world" goes out as turtle_point_stamped."""
+    """The node ``node_name``: turtle3 runs in circles; where it is in "world" goes out as turtle_point_stamped."""
     node_signals.init_node(node_name)
     spawn(4, 2, "turtle3")
     points = rospy.Publisher("turtle_point_stamped", PointStamped, queue_size=1)

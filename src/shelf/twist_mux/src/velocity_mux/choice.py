@@ -20,6 +20,7 @@ class Input:
     stamp: float = -math.inf
 
     def silent(self, now: float) -> bool:
+        """Whether too long passed at ``now`` (s) since its last message."""
         return self.timeout > 0 and not 0 <= now - self.stamp <= self.timeout  # below 0: the clock was set back
 
 
@@ -39,6 +40,7 @@ class Lock(Input):
     closed: bool = False
 
     def locked(self, now: float) -> bool:
+        """Whether it stops others at ``now`` (s)."""
         return self.closed or self.silent(now)
 
 

@@ -47,10 +47,12 @@ class Turbo:
         self._linear_step = self._angular_step = self._first
 
     def change(self, by: int) -> None:
+        """``by`` steps faster or, below 0, slower."""
         self._linear_step = min(max(self._linear_step + by, 1), self.count)
         self.change_angular(by)
 
     def change_angular(self, by: int) -> None:
+        """``by`` steps faster or, below 0, slower in turning."""
         self._angular_step = min(max(self._angular_step + by, 1), self.count)
 
     def scale(self, twist: Twist) -> Twist:

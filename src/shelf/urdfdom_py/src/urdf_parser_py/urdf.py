@@ -401,9 +401,11 @@ class Robot(Object):
             self.link_map[obj.name] = obj
 
     def add_link(self, link: Link) -> None:
+        """Append ``link``."""
         self.add_aggregate("link", link)
 
     def add_joint(self, joint: Joint) -> None:
+        """Append ``joint``."""
         self.add_aggregate("joint", joint)
 
     def get_chain(self, root: str, tip: str, joints: bool = True, links: bool = True, fixed: bool = True) -> list[str]:
@@ -431,7 +433,7 @@ class Robot(Object):
 
     @classmethod
     def from_parameter_server(cls, key: str = "robot_description") -> Robot:
-        """:raises KeyError: there is no such parameter. :raises ParseError: it is no robot"""
+        """The robot in the parameter ``key``. :raises KeyError: there is no such parameter. :raises ParseError: it is no robot"""
         import rospy
 
         return cls.from_xml_string(rospy.get_param(key))

@@ -25,6 +25,7 @@ def groups(topics: Iterable[tuple[str, str]]) -> list[tuple[str, list[str]]]:
 
 
 def topics_page(topics: Iterable[tuple[str, str]]) -> str:
+    """HTML that lists ``topics``, (name, type)."""
     parts = ["<!DOCTYPE html><html><head><title>ROS Image Topic List</title></head><body><h1>Available ROS Image Topics:</h1>"]
     for base, names in groups(list(topics)):
         entries = "".join(_entry(base, name) for name in names)

@@ -16,7 +16,7 @@ _NAME = re.compile(r"/[A-Za-z][A-Za-z0-9_]*(/[A-Za-z0-9_]+)*")  # of a topic, ht
 
 
 def shown(text: str) -> str:
-    """What a stranger sent, for a log, a terminal or an answer: in one line of at most 200 printable characters."""
+    """``text``, what a stranger sent, for a log, a terminal or an answer: in one line of at most 200 printable characters."""
     plain = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
     return plain if len(plain) <= 200 else plain[:200] + "..."
 

@@ -39,7 +39,7 @@ class Latest:
             self._news.notify()
 
     def next(self, seconds: float) -> Any | None:
-        """A message that was not given before, or None if none comes in this wall time."""
+        """A message that was not given before, or None if none comes within ``seconds`` of wall time."""
         with self._news:
             self._news.wait_for(lambda: self._message is not None, seconds)
             message, self._message = self._message, None

@@ -43,7 +43,7 @@ class Topics:
         return self._keep(offers.publisher(self.resolve(name), kind, queue_size=queue_size, latch=latch))
 
     def subscriber(self, name: str, kind: type, callback: Callable[[Any], None], queue_size: int = 1) -> rospy.Subscriber:
-        """Call ``callback``, in a thread of rospy, with each message of class ``kind`` on ``name``; of ``queue_size`` that wait."""
+        """Call ``callback``, in a thread of rospy, with each message of class ``kind`` on ``name``; the newest ``queue_size`` may wait."""
         return self._keep(offers.subscriber(self.resolve(name), kind, callback, queue_size=queue_size, tcp_nodelay=True))
 
     def service(self, name: str, kind: type, handler: Callable[[Any], Any]) -> rospy.Service:

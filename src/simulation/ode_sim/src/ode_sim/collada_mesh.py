@@ -93,7 +93,7 @@ def _bound(instance: ElementTree.Element, skin: ElementTree.Element) -> ElementT
 
 
 def document(data: bytes):
-    """What the library reads. A shape is there all the same where how it looks is told wrongly, as in Gazebo."""
+    """What the library reads of ``data``. A shape is there all the same where how it looks is told wrongly, as in Gazebo."""
     import collada
     from collada.common import DaeBrokenRefError, DaeError, DaeUnsupportedError
 

@@ -31,7 +31,7 @@ def flat(pose: Pose, what: str = "pose") -> tuple[float, ...]:
 
 
 def unit_pose(pose: Pose) -> Pose:
-    """With a quaternion of unit length; one that has it already is left as it is, to the last bit."""
+    """``pose`` with a quaternion of unit length; one that has it already is left as it is, to the last bit."""
     if abs(sum(v * v for v in pose.q) - 1.0) < 1e-9:
         return pose
     largest = max(map(abs, pose.q)) or 1.0  # squares of 1e200 overflow
@@ -39,10 +39,10 @@ def unit_pose(pose: Pose) -> Pose:
 
 
 def pose_of(values) -> Pose:
-    """A :class:`Pose` of the core's seven floats."""
+    """A :class:`Pose` of ``values``, the core's seven floats."""
     return Pose(tuple(values[:3]), tuple(values[3:]))
 
 
 def unlimited(limit: float) -> float:
-    """Limits of 1e8 and beyond (1e9 and 1e16 are common) mean none."""
+    """``limit``, or infinity: limits of 1e8 and beyond (1e9 and 1e16 are common) mean none."""
     return math.copysign(math.inf, limit) if abs(limit) >= 1e8 else float(limit)

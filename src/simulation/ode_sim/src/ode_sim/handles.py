@@ -142,15 +142,17 @@ class LinkHandle:
         self.core.run_belt(speed, left_W, linear, angular)
 
     def add_torque(self, t_W: Vec3) -> None:
+        """Torque ``t_W``, N m, in the next step."""
         finite(t_W, f"torque on link {self.scoped_name}")
         self.core.add_torque(tuple(t_W))
 
     def set_force(self, f_W: Vec3) -> None:
-        """Takes the place of all forces added for the next step."""
+        """``f_W``, N, takes the place of all forces added for the next step."""
         finite(f_W, f"force on link {self.scoped_name}")
         self.core.set_force(tuple(f_W))
 
     def set_torque(self, t_W: Vec3) -> None:
+        """``t_W``, N m, takes the place of all torques added for the next step."""
         finite(t_W, f"torque on link {self.scoped_name}")
         self.core.set_torque(tuple(t_W))
 
@@ -190,7 +192,7 @@ class LinkHandle:
         self.core.changed()
 
     def set_inertial(self, inertial: description.Inertial) -> None:
-        """New mass, centre of mass and tensor.
+        """New mass, centre of mass and tensor, those of ``inertial``.
 
         :raises ValueError: one that no body can have; nothing is changed.
         """
@@ -308,7 +310,7 @@ class JointHandle:
         return self.core.set_position(q, axis)
 
     def limits(self, axis: int = 0) -> tuple[float, float]:
-        """Lower and upper, rad or m; infinite = none."""
+        """Lower and upper of ``axis``, rad or m; infinite = none."""
         return self.core.get(axis)[:2]
 
     def set_limits(self, lower: float, upper: float, axis: int = 0) -> None:
@@ -370,7 +372,7 @@ class JointHandle:
         return pose_of(self.core.frame())
 
     def world_axis(self, axis: int = 0) -> Vec3:
-        """Unit vector."""
+        """Unit vector along ``axis``."""
         from_parent = pose_of(self.core.parent_frame() if axis == 0 else self.core.frame())
         return compose(Pose(q=from_parent.q), Pose(p=self.description.axes[axis].xyz)).p
 

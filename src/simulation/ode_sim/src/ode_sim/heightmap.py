@@ -11,7 +11,7 @@ MOST_HEIGHTS = 4097**2  # 250 MB in the collision space
 
 
 def load_heights(heightmap: Heightmap) -> np.ndarray:
-    """(rows, columns) heights in m above the shape's origin; the first row is at +y, the first column at -x.
+    """(rows, columns) heights of ``heightmap`` in m above the shape's origin; the first row is at +y, the first column at -x.
 
     White is ``size.z``, black 0.
 

@@ -31,7 +31,7 @@ IDENTITY = Pose()
 
 
 def vec3(values: Iterable[float]) -> Vec3:
-    """Three numbers of any kind, such as an array's."""
+    """Three numbers of any kind, ``values``, such as an array's."""
     x, y, z = values
     return float(x), float(y), float(z)
 
@@ -62,6 +62,7 @@ def cross(a: Vec3, b: Vec3) -> Vec3:
 
 
 def norm(a: Vec3) -> float:
+    """The length of ``a``."""
     return math.sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
 
 
@@ -87,12 +88,12 @@ def quat_multiply(a: Quat, b: Quat) -> Quat:
 
 
 def quat_inverse(q: Quat) -> Quat:
-    """q_BA of a unit q_AB."""
+    """q_BA of a unit ``q``, q_AB."""
     return (-q[0], -q[1], -q[2], q[3])
 
 
 def quat_normalize(q: Sequence[float]) -> Quat:
-    """Unit length; a null quaternion becomes the identity, as ROS messages filled with zeros mean it."""
+    """``q`` with unit length; a null quaternion becomes the identity, as ROS messages filled with zeros mean it."""
     x, y, z, w = q
     n = math.sqrt(x * x + y * y + z * z + w * w)
     return (x / n, y / n, z / n, w / n) if n > 0.0 else (0.0, 0.0, 0.0, 1.0)
@@ -123,7 +124,7 @@ def quat_from_rpy(roll: float, pitch: float, yaw: float) -> Quat:
 
 
 def quat_to_rpy(q: Quat) -> Vec3:
-    """Roll, pitch, yaw in rad, pitch within +-pi/2. At pitch +-pi/2 the roll is 0 and the yaw carries the turn."""
+    """Roll, pitch, yaw of ``q`` in rad, pitch within +-pi/2. At pitch +-pi/2 the roll is 0 and the yaw carries the turn."""
     x, y, z, w = q
     sin_pitch = 2.0 * (w * y - z * x)
     if abs(sin_pitch) > 1.0 - 1e-14:
@@ -138,7 +139,7 @@ def quat_to_rpy(q: Quat) -> Vec3:
 
 
 def quat_to_matrix(q: Quat) -> Mat3:
-    """R_AB as three rows."""
+    """R_AB as three rows, of ``q``, q_AB."""
     x, y, z, w = q
     return (
         (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)),
@@ -148,7 +149,7 @@ def quat_to_matrix(q: Quat) -> Mat3:
 
 
 def quat_from_matrix(r: Sequence[Sequence[float]]) -> Quat:
-    """Unit quaternion of a proper rotation matrix (rows)."""
+    """Unit quaternion of ``r``, a proper rotation matrix (rows)."""
     (a, b, c), (d, e, f), (g, h, i) = r
     trace = a + e + i
     if trace > 0.0:
@@ -198,7 +199,7 @@ def compose(x_ab: Pose, x_bc: Pose) -> Pose:
 
 
 def inverse(x_ab: Pose) -> Pose:
-    """X_BA."""
+    """X_BA of ``x_ab``."""
     q = quat_inverse(x_ab.q)
     return Pose(scale(quat_rotate(q, x_ab.p), -1.0), q)
 
@@ -224,17 +225,18 @@ def from_rpy(x: float = 0.0, y: float = 0.0, z: float = 0.0, roll: float = 0.0, 
 
 
 def to_rpy(pose: Pose) -> Vec3:
+    """Roll, pitch, yaw of ``pose``, rad, as :func:`quat_to_rpy`."""
     return quat_to_rpy(pose.q)
 
 
 def to_matrix(pose: Pose) -> tuple[tuple[float, float, float, float], ...]:
-    """4x4 homogeneous matrix, rows."""
+    """4x4 homogeneous matrix of ``pose``, rows."""
     r = quat_to_matrix(pose.q)
     return ((*r[0], pose.p[0]), (*r[1], pose.p[1]), (*r[2], pose.p[2]), (0.0, 0.0, 0.0, 1.0))
 
 
 def from_matrix(m: Sequence[Sequence[float]]) -> Pose:
-    """Of a 4x4 (or 3x4) homogeneous matrix with a proper rotation."""
+    """Of ``m``, a 4x4 (or 3x4) homogeneous matrix with a proper rotation."""
     return Pose((float(m[0][3]), float(m[1][3]), float(m[2][3])), quat_from_matrix([[float(v) for v in row[:3]] for row in m[:3]]))
 
 
@@ -242,6 +244,7 @@ def from_matrix(m: Sequence[Sequence[float]]) -> Pose:
 
 
 def mat3(rows: Sequence[Sequence[float]]) -> Mat3:
+    """``rows``, three of three numbers, as tuples."""
     (a, b, c), (d, e, f), (g, h, i) = rows
     return (a, b, c), (d, e, f), (g, h, i)
 

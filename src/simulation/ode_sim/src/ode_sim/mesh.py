@@ -56,7 +56,7 @@ class MassProperties:
 
 
 def load(mesh: Mesh) -> Surface:
-    """The surface to collide with, scaled.
+    """The surface of ``mesh`` to collide with, scaled.
 
     :raises DescriptionError: one line that names the file; the caller goes on without this shape.
     """
@@ -105,7 +105,7 @@ def mass_properties(surface: Surface) -> MassProperties:
 
 
 def file_stamp(path: str) -> tuple[int, int]:
-    """Size and time of the file: an edited mesh is read again."""
+    """Size and time of the file ``path``: an edited mesh is read again. :raises DescriptionError: there is none."""
     try:
         status = os.stat(path)
     except OSError as error:

@@ -21,6 +21,7 @@ class Bounds(NamedTuple):
     or_zero: bool = False
 
     def hold(self, value: float) -> bool:
+        """Whether ``value`` may be. A NaN may not."""
         return self.least <= value <= self.most or (self.or_zero and value == 0)  # never for a NaN
 
     def __str__(self) -> str:
@@ -56,7 +57,7 @@ def check_physics(physics: Physics, gravity: Vec3 | None = None) -> Physics:
 
 
 def check_gravity(gravity: Vec3) -> Vec3:
-    """Three floats, m/s^2.
+    """``gravity`` as three floats, m/s^2.
 
     :raises ValueError: not three finite numbers, or beyond :data:`STRONGEST_GRAVITY`.
     """
@@ -87,7 +88,7 @@ def check_setting(name: str, value: Any) -> Any:
 
 
 def usable_physics(physics: Physics) -> tuple[Physics, list[str]]:
-    """The settings as near as possible to those of a file, and one line for each that had to be changed."""
+    """The settings as near as possible to ``physics``, those of a file, and one line for each that had to be changed."""
     changed: dict[str, Any] = {}
     lines = []
     for name, bounds in BOUNDS.items():
@@ -134,7 +135,7 @@ class PhysicsSettings:
         self.update(replace(physics, solver=wanted) if wanted else physics)
 
     def update(self, physics: Physics) -> None:
-        """Take over all settings, or none.
+        """Take over all settings of ``physics``, or none.
 
         :raises ValueError: as :func:`check_physics`.
         """

@@ -8,7 +8,7 @@ from ode_sim.description.model import DescriptionError, Polyline
 
 
 def extrude(polyline: Polyline) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (V, 3) m and triangles (T, 3) of the solid between z = 0 and ``height``.
+    """Vertices (V, 3) m and triangles (T, 3) of the solid between z = 0 and ``height`` that ``polyline`` is.
 
     :raises DescriptionError: fewer than three corners, or an outline that crosses itself.
     """

@@ -82,7 +82,7 @@ class Timeline:
             self._next_ns = self.keep().time_ns + self._period_ns
 
     def find(self, number: int) -> Moment:
-        """:raises ValueError: it is not kept (any more)."""
+        """The moment ``number``. :raises ValueError: it is not kept (any more)."""
         for moment in self._moments:
             if moment.number == number:
                 return moment

@@ -228,7 +228,7 @@ class World:
         return handle
 
     def remove(self, name: str) -> None:
-        """Take a model out of the world."""
+        """Take the model ``name`` out of the world. :raises KeyError: there is none."""
         if name not in self.models:
             raise KeyError(f"there is no model '{name}' in the world")
         handle = self.models[name]
@@ -413,7 +413,7 @@ class World:
         collision.core.watched = collision.watchers > 0
 
     def collision(self, collision_id: int) -> CollisionHandle | None:
-        """By the id that contacts and ray hits carry."""
+        """By ``collision_id``, the id that contacts and ray hits carry."""
         return self._collisions.get(int(collision_id))
 
     def cast_rays(self, origins, directions, max_range: float, ignore: Iterable[CollisionHandle] = ()) -> tuple[np.ndarray, np.ndarray]:

@@ -23,6 +23,7 @@ class ContactWatch:
         world.on_remove.append(lambda model: self._watched.pop(model.name, None))
 
     def watch(self, on: bool) -> None:
+        """Begin or end to measure (``on``)."""
         self._on = on
         for collisions in self._watched.values():
             for collision in collisions:

@@ -29,16 +29,17 @@ _GRID_LIFT = 0.002  # m, so that the grid is seen on a ground plane
 
 
 def wxyz(q: d.Quat) -> tuple[float, float, float, float]:
-    """viser's order of a quaternion x y z w."""
+    """viser's order of a quaternion ``q``, x y z w."""
     return (q[3], q[0], q[1], q[2])
 
 
 def byte_of(part: float) -> int:
-    """0 to 255 from 0 to 1."""
+    """``part``, 0 to 1, as 0 to 255."""
     return int(round(255 * min(1.0, max(0.0, part))))
 
 
 def rgb255(colour) -> tuple[int, int, int]:
+    """``colour``, red green blue from 0 to 1, as 0 to 255."""
     red, green, blue = (byte_of(part) for part in colour[:3])
     return red, green, blue
 
@@ -152,7 +153,7 @@ class Drawing:
     # ------------------------------------------------------------------------------------------ what is there
 
     def update(self, world: WorldRecord) -> None:
-        """Draw what is new, take away what has gone."""
+        """Draw what is new in ``world``, take away what has gone."""
         wanted = {model.name: model for model in world.models}
         for name in [
             name for name, drawn in self._models.items() if name not in wanted or drawn.record.description != wanted[name].description
@@ -176,7 +177,7 @@ class Drawing:
         self._shown = None
 
     def hide(self, on: bool) -> None:
-        """Leave the models out for a while, so that something else is seen; their clicks too."""
+        """Leave the models out for a while (``on``), so that something else is seen; their clicks too."""
         self._hidden = on
         for drawn in self._models.values():
             for node in drawn.links.values():
@@ -185,13 +186,14 @@ class Drawing:
             mesh.visible = not on
 
     def redraw(self, world: WorldRecord) -> None:
-        """All anew, after a change of how things are drawn."""
+        """All of ``world`` anew, after a change of how things are drawn."""
         for name in list(self._models):
             self._remove(name)
         self._lit, self._laid = (), ()
         self.update(world)
 
     def model_root(self, name: str) -> ModelDrawing | None:
+        """How the model ``name`` is drawn; None where it is not."""
         return self._models.get(name)
 
     def _remove(self, name: str) -> None:
@@ -263,8 +265,9 @@ class Drawing:
         return np.array([transform(part.pose, vec3(corner)) for corner in corners])
 
     def corners(self, frame: Frame) -> tuple[np.ndarray, np.ndarray]:
-        """(N, 3) corners in the world, m, of the boxes around what stands still and around what can move; not the
-        ground's."""
+        """(N, 3) corners in the world at ``frame``, m, of the boxes around what stands still and around what can move; not the
+        ground's.
+        """
         found: tuple[list, list] = ([], [])
         for drawn in self._models.values():
             for link, box in drawn.boxes:

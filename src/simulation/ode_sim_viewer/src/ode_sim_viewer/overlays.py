@@ -37,7 +37,7 @@ class Overlays:
         self.force_scale = 0.01  # m of an arrow for each N
 
     def contacts(self, on: bool) -> None:
-        """Show where bodies touch, and with what force. Drawing thread."""
+        """Show where bodies touch, and with what force, or do not (``on``). Drawing thread."""
         if on == (self._contacts is not None):
             return
         self._page.simulation.watch_contacts(on)
@@ -62,7 +62,7 @@ class Overlays:
                 self._draw(kind, world)
 
     def move(self, frame: Frame) -> None:
-        """All but the contacts hangs on the links' frames."""
+        """Draw the contacts of ``frame``: all else hangs on the links' frames."""
         if self._contacts is not None:
             found = self._page.simulation.contacts()
             with self._page.server.atomic():
@@ -187,7 +187,7 @@ class Overlays:
 
 
 def inertia_box(inertial: d.Inertial) -> tuple[Pose, tuple[float, float, float]] | None:
-    """Pose X_LB and size, m, of the box of even density that has this inertia; None where no box has it."""
+    """Pose X_LB and size, m, of the box of even density that has this ``inertial``; None where no box has it."""
     i = inertial
     tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
     if not (np.isfinite(tensor).all() and i.mass > 0.0):

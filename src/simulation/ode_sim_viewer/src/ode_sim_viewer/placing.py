@@ -77,7 +77,7 @@ class Placing:
         self._listening, self._nodes = [], []
 
     def takes(self, event: Any) -> bool:
-        """Whether a click of that page puts something down: then nothing is picked by it."""
+        """Whether the click ``event`` puts something down: then nothing is picked by it."""
         who = getattr(event, "client_id", None)
         return who is not None and (who == self._client_id or who == self._last[0] and time.monotonic() - self._last[1] < _ECHO)
 

@@ -50,7 +50,7 @@ def ray_of(camera: Any, x: float, y: float) -> Ray:
 
 
 def on_plane(ray: Ray, height: float = 0.0, farthest: float = 1000.0) -> tuple[float, float] | None:
-    """(x, y) m where ``ray`` meets the level at ``height``, m; None where it does not, or ``farthest`` m away."""
+    """(x, y) m where ``ray`` meets the level at ``height``, m; None where it does not, or beyond ``farthest`` m."""
     origin, way = (np.asarray(part, float) for part in ray)
     if abs(way[2]) < 1e-9:
         return None

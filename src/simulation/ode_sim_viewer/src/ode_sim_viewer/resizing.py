@@ -27,7 +27,7 @@ _COLOURS = ((220, 60, 60), (60, 180, 60), (60, 90, 220))
 
 
 def shape_of(model: d.Model) -> tuple[Simple, Pose] | None:
-    """The geometry of a simple shape and X_LG, or None."""
+    """The geometry of ``model``, if it is a simple shape, and X_LG, or None."""
     if len(model.links) != 1 or model.joints:
         return None
     link = model.links[0]
@@ -39,7 +39,7 @@ def shape_of(model: d.Model) -> tuple[Simple, Pose] | None:
 
 
 def size_of(geometry: Simple) -> d.Vec3:
-    """Along the axes of the shape, m."""
+    """Along the axes of ``geometry``, m."""
     if isinstance(geometry, d.Box):
         return vec3(geometry.size)
     across = 2.0 * float(geometry.radius)

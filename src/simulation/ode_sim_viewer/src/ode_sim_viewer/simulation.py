@@ -54,6 +54,7 @@ class WorldRecord:
     view: Pose | None = None
 
     def model(self, name: str) -> ModelRecord | None:
+        """The model ``name``, or None."""
         return next((model for model in self.models if model.name == name), None)
 
 
@@ -144,11 +145,12 @@ class Simulation(ABC):
         """Somebody looks from now on, or nobody: frames need not come."""
 
     @abstractmethod
-    def pause(self, on: bool) -> None: ...
+    def pause(self, on: bool) -> None:
+        """Let the clock stand still (``on``), or go on."""
 
     @abstractmethod
     def step(self, count: int) -> None:
-        """Take steps; the simulation is paused for it."""
+        """Take ``count`` steps; the simulation is paused for it."""
 
     @abstractmethod
     def reset(self, what: str) -> None:
@@ -164,7 +166,7 @@ class Simulation(ABC):
 
     @abstractmethod
     def delete(self, name: str) -> None:
-        """A model, or a light of the world."""
+        """Take the model, or the light of the world, ``name`` out."""
 
     @abstractmethod
     def set_joint_position(self, model: str, joint: str, position: float) -> None:
@@ -242,7 +244,7 @@ class Simulation(ABC):
 
     @abstractmethod
     def go_back(self, number: int) -> None:
-        """To a moment that was kept; paused from then on."""
+        """To the moment ``number``, which was kept; paused from then on."""
 
     @abstractmethod
     def save(self) -> str:

@@ -118,7 +118,7 @@ class Website:
         return f"?token={self.guard.token}" if self.guard.token else ""
 
     def knocked(self, seconds: float) -> bool:
-        """Whether a browser has come to the door, within that time."""
+        """Whether a browser has come to the door, within ``seconds``."""
         return self._porter.knocked.wait(seconds)
 
     def open(self) -> Any:

@@ -9,7 +9,7 @@ import sys
 
 
 def load_spec(path: str):
-    """The spec; its faults go to the terminal, and the program ends with 2."""
+    """The spec of the file ``path``; its faults go to the terminal, and the program ends with 2."""
     from .specs.spec import SpecError, load
 
     try:
@@ -61,6 +61,7 @@ def parser_for(name: str, text: str) -> argparse.ArgumentParser:
 
 
 def sandbox_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of all that examines to ``parser``."""
     parser.add_argument("--unsafe", action="store_true", help="without a sandbox, for code that you trust and machines that allow none")
     parser.add_argument("--no-films", action="store_true", help="leave the films out, which cost most of the time")
     parser.add_argument("--port", type=int, default=0, help="with --unsafe: first port to try for the ROS master")
@@ -118,7 +119,7 @@ def check(arguments: list[str] | None = None) -> int:
 
 
 def shown(text: str) -> str:
-    """For a terminal: what a submission wrote moves no cursor and begins no line."""
+    """``text`` for a terminal: what a submission wrote moves no cursor and begins no line."""
     from .outcome import readable
 
     return "".join(c if c.isprintable() or c == " " else "\ufffd" for c in readable(text))

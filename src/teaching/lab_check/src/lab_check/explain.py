@@ -78,6 +78,7 @@ _MEANINGS: list[tuple[re.Pattern, str]] = [
 
 
 def lines_of(text: str) -> list[str]:
+    """The lines of ``text`` that are not empty, without colours; very long ones are cut."""
     return [line.rstrip() for line in (_COLOURS.sub("", whole[: 2 * _LONGEST])[:_LONGEST] for whole in text.splitlines()) if line.strip()]
 
 
@@ -92,7 +93,7 @@ def _makes_own(line: str) -> bool:
 
 
 def error_lines(text: str) -> list[str]:
-    """In the order in which they were printed; CMake's with the sentence that it says in the lines below."""
+    """Errors in ``text``, in the order in which they were printed; CMake's with the sentence that it says in the lines below."""
     lines = lines_of(text)
     return [_whole(lines, i) for i, line in enumerate(lines) if _is_error(line)]
 
@@ -103,7 +104,7 @@ def _whole(lines: list[str], index: int) -> str:
 
 
 def refusal(text: str) -> str:
-    """The first line by which a program says that it does not take its arguments, '' when there is none."""
+    """The first line of ``text`` by which a program says that it does not take its arguments, '' when there is none."""
     return next((line for line in lines_of(text) if _REFUSAL.search(timeless(line))), "")
 
 
@@ -120,7 +121,7 @@ def timeless(line: str) -> str:
 
 
 def meaning(line: str) -> str:
-    """What an error usually comes from, '' for one that nobody knows."""
+    """What the error ``line`` usually comes from, '' for one that nobody knows."""
     return next((text for pattern, text in _MEANINGS if pattern.search(line)), "")
 
 
@@ -145,7 +146,7 @@ def excerpt(text: str, before: int = 2, after: int = 6, most: int = 40) -> list[
 
 
 def first_cause(text: str) -> tuple[str, str]:
-    """(line, what it means); ('', '') when nothing is an error."""
+    """(line, what it means) of the first error in ``text``; ('', '') when nothing is one."""
     for line in error_lines(text):
         return timeless(line)[:300], meaning(line)
     return "", ""

@@ -48,6 +48,7 @@ class Result:
     sandbox: str = ""
 
     def add(self, task: TaskResult) -> None:
+        """Take ``task`` in, with its points."""
         self.tasks.append(task)
         self.points = rounded(sum(t.points for t in self.tasks))
         self.of = rounded(sum(t.of for t in self.tasks))
@@ -57,11 +58,13 @@ class Result:
 
     @classmethod
     def from_data(cls, data: dict[str, Any]) -> Result:
+        """The result that ``data`` of a report says, see :meth:`data`."""
         tasks = [task_from(task) for task in data["tasks"]]
         return cls(**{**data, "tasks": tasks})
 
 
 def task_from(data: dict[str, Any]) -> TaskResult:
+    """The result of a task that ``data`` of a report says."""
     return TaskResult(**{**data, "verdicts": [Verdict(**verdict) for verdict in data["verdicts"]]})
 
 
@@ -84,7 +87,7 @@ def name_for(name: str) -> str:
 
 
 def rounded(points: float) -> float:
-    """Marks to a millionth: sums of thirds come out the same in any order."""
+    """``points`` to a millionth: sums of thirds come out the same in any order."""
     return round(points + 0.0, 6)
 
 
@@ -92,7 +95,7 @@ _LONGEST_SENTENCE, _MOST_FIGURES = 2000, 20_000  # characters of a reason or not
 
 
 def sentence(text: str) -> str:
-    """Names of nodes, topics and files stand in it, which a submission makes as long as it likes."""
+    """``text``, cut: names of nodes, topics and files stand in it, which a submission makes as long as it likes."""
     return text if len(text) <= _LONGEST_SENTENCE else f"{text[:_LONGEST_SENTENCE]} ..."
 
 

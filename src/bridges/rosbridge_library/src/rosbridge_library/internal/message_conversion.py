@@ -66,7 +66,7 @@ class FieldValueException(RosbridgeError):
 
 @functools.cache
 def split_type(rostype: str) -> tuple[str, int | None]:
-    """``float64[36]`` -> ("float64", 36), "float64[]" -> ("float64", 0), "float64" -> ("float64", None)"""
+    """``rostype`` as base and length: ``float64[36]`` -> ("float64", 36), "float64[]" -> ("float64", 0), "float64" -> ("float64", None)"""
     base, bracket, length = rostype.partition("[")
     return base, int(length[:-1] or 0) if bracket else None
 
@@ -106,7 +106,7 @@ def _outward(rostype: str, bson: bool) -> Callable[[Any], Any]:
 
 
 def finite(value: Any) -> Any:
-    """JSON has no infinity and no NaN: null."""
+    """``value``; JSON has no infinity and no NaN: null."""
     return value if math.isfinite(value) else None
 
 

@@ -28,23 +28,27 @@ def get_message_class(typestring: str) -> Any:
 
 
 def get_service_class(typestring: str) -> Any:
-    """As :func:`get_message_class`."""
+    """The class of the service ``typestring``, as :func:`get_message_class`."""
     return _loaded(_normal(typestring), True)
 
 
 def get_message_instance(typestring: str) -> Any:
+    """An empty message of the type ``typestring``, as :func:`get_message_class`."""
     return get_message_class(typestring)()
 
 
 def get_service_instance(typestring: str) -> Any:
+    """An object of the service class ``typestring``, as :func:`get_message_class`."""
     return get_service_class(typestring)()
 
 
 def get_service_request_instance(typestring: str) -> Any:
+    """An empty request of the service ``typestring``, as :func:`get_message_class`."""
     return get_service_class(typestring)._request_class()
 
 
 def get_service_response_instance(typestring: str) -> Any:
+    """An empty response of the service ``typestring``, as :func:`get_message_class`."""
     return get_service_class(typestring)._response_class()
 
 

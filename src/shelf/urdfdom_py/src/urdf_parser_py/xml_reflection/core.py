@@ -72,6 +72,7 @@ class Field:
         setattr(obj, self.var, list(self.default) if isinstance(self.default, list) else self.default)
 
     def value_to_write(self, obj: Any) -> Any:
+        """The field's value in ``obj``. :raises ValueError: it is required and not set"""
         value = getattr(obj, self.var)
         if value is None and self.required:
             raise ValueError(f"Required {self.kind} not set in object: {self.var}")
@@ -139,17 +140,17 @@ class Object:
 
     @classmethod
     def from_xml_string(cls, xml_string: str | bytes) -> Any:
-        """:raises ParseError: what it says is missing or wrong, or no XML"""
+        """The object of ``xml_string``. :raises ParseError: what it says is missing or wrong, or no XML"""
         return cls._read(cls.__new_empty(), xml_string)
 
     @classmethod
     def from_xml_file(cls, file_path: str) -> Any:
-        """:raises ParseError: as above. :raises OSError: the file cannot be read"""
+        """The object of the file ``file_path``. :raises ParseError: as above. :raises OSError: the file cannot be read"""
         with open(file_path, "rb") as file:
             return cls.from_xml_string(file.read())
 
     def parse(self, xml_string: str) -> Any:
-        """Reads into this object, and returns it."""
+        """Reads ``xml_string`` into this object, and returns it."""
         return self._read(self, xml_string)
 
     @classmethod
@@ -234,6 +235,7 @@ class Object:
         return node
 
     def write_xml(self, node: ElementTree.Element) -> None:
+        """Write the fields into ``node``. :raises ValueError: a required one is not set"""
         self.check_valid()
         for field in self.FIELDS:
             if isinstance(field, Aggregate):
@@ -248,6 +250,7 @@ class Object:
             by_name[xml_var].to_xml(node, value)
 
     def to_xml_string(self, addHeader: bool = True) -> str:
+        """The element as text, its children indented by two; ``addHeader``: with the XML declaration."""
         document = minidom.parseString(ElementTree.tostring(self.to_xml())).toprettyxml(indent="  ")
         lines = [line for line in document.split("\n") if line.strip()]
         return "\n".join(lines if addHeader else lines[1:])
@@ -264,6 +267,7 @@ class Object:
         self.aggregate_order.append((xml_var, obj))
 
     def remove_aggregate(self, obj: Any) -> None:
+        """Take ``obj``, a child, out of its list."""
         xml_var = next(name for name, one in self.aggregate_order if one is obj)
         self.aggregate_order = [(name, one) for name, one in self.aggregate_order if one is not obj]
         field = next(field for field in self.FIELDS if field.xml == xml_var)

@@ -37,7 +37,7 @@ class Animation:
         return float(self.times[-1])
 
     def pose_at(self, time: float) -> tuple[np.ndarray, np.ndarray]:
-        """Positions (N, 3) and rotations (N, 4); after its end it begins anew, before its first frame that one counts."""
+        """Positions (N, 3) and rotations (N, 4) at ``time``, s; after its end it begins anew, before its first frame that one counts."""
         time = looped(time, self.length)
         after = int(np.searchsorted(self.times, time, side="right"))
         if after == 0 or after == len(self.times):
@@ -51,7 +51,7 @@ class Animation:
         )
 
     def time_at(self, distance: float) -> float | None:
-        """When the root has come so far along its x, m; beyond the last frame it begins anew. None: it does not go there."""
+        """When the root has come ``distance`` along its x, m; beyond the last frame it begins anew. None: it does not go there."""
         x = self.positions[:, 0, 0]
         if not self.moved[0] or not x[-1] > max(x[0], 1e-6):
             return None
@@ -74,7 +74,7 @@ def looped(value: float, length: float) -> float:
 
 
 def load_animation(path: str) -> Animation:
-    """The first animation of a file, Collada or BVH; for the skin of a skeleton see :func:`animation_for`.
+    """The first animation of the file ``path``, Collada or BVH; for the skin of a skeleton see :func:`animation_for`.
 
     :raises DescriptionError: one line that names the file.
     """

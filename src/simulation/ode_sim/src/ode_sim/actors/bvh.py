@@ -86,7 +86,7 @@ class _Reader:
 
 
 def read_bvh(path: str) -> Animation:
-    """In the bones of the file, see :func:`fitted`.
+    """The motion of the file ``path`` in its own bones, see :func:`fitted`.
 
     :raises DescriptionError: one line that names the file. A broken file may raise anything else.
     """

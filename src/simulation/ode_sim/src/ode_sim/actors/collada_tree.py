@@ -15,6 +15,7 @@ Element = ElementTree.Element
 
 
 def tag(element: Element) -> str:
+    """The tag of ``element`` without its namespace."""
     return str(element.tag).rpartition("}")[2]
 
 
@@ -24,7 +25,7 @@ def children(element: Element | None, name: str) -> list[Element]:
 
 
 def child(element: Element | None, *names: str) -> Element | None:
-    """The first child of that name, its first child of the next ..."""
+    """The first child of ``element`` with the first of ``names``, its first child with the next ..."""
     for name in names:
         element = next(iter(children(element, name)), None)
     return element
@@ -45,6 +46,7 @@ class ColladaTree:
         self.unit = self.number(unit.get("meter", "1"), "its unit") if unit is not None else 1.0
 
     def fault(self, reason: str) -> DescriptionError:
+        """A DescriptionError that names the file and says ``reason``."""
         return DescriptionError(f"{self.path}: {reason}")
 
     def number(self, text: str, what: str) -> float:
@@ -113,4 +115,5 @@ class ColladaTree:
         return found
 
     def iter(self, name: str) -> Iterator[Element]:
+        """All elements with the tag ``name``, in their order."""
         return (element for element in self.root.iter() if tag(element) == name)

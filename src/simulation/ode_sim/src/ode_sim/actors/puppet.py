@@ -96,7 +96,7 @@ class Puppet:
     # ------------------------------------------------------------------ playing
 
     def restart(self, time_ns: int) -> None:
-        """As just spawned, at that time: where its script begins, or where it was put if that is another's work."""
+        """As just spawned, at ``time_ns``: where its script begins, or where it was put if that is another's work."""
         self.active = self.script.auto_start
         self.started_ns = time_ns
         self.custom = None
@@ -110,7 +110,7 @@ class Puppet:
             self._bend(self.model.initial_pose, self._first_animation(), 0.0, 0.0, waits=True)
 
     def take_over(self, animation: str) -> None:
-        """From now on a plugin moves the model and sets :attr:`script_time`, until a reset."""
+        """From now on a plugin moves the model, which plays ``animation``, and sets :attr:`script_time`, until a reset."""
         self.custom, self._taken = animation, True
 
     def direct(self, director: Any) -> None:
@@ -131,6 +131,7 @@ class Puppet:
             self.collides = True
 
     def play(self, time_ns: int) -> None:
+        """Its script begins at ``time_ns``."""
         self.active = True
         self.started_ns = time_ns
 
@@ -138,7 +139,7 @@ class Puppet:
         self.active = False
 
     def shift(self, time_ns: int) -> None:
-        """The clock was set forward by so much; the actor goes on where it is."""
+        """The clock was set forward by ``time_ns``; the actor goes on where it is."""
         self.started_ns += time_ns
         self._frame = -1
         if self.custom is None:
@@ -158,6 +159,7 @@ class Puppet:
         return int(started), bool(active), int(frame), None if custom is None else str(custom), float(script_time), bool(collides)
 
     def set_state(self, state: tuple[int, bool, int, str | None, float, bool]) -> None:
+        """Go on from ``state``, which another puppet of this actor had."""
         self.started_ns, self.active, self._frame, self.custom, self.script_time, self.collides = state
         if self.custom is None:
             self._tell(anew=True)
@@ -177,7 +179,9 @@ class Puppet:
             self._play((time_ns if self.collides else frame_time(frame)) - self.started_ns, seconds)
 
     def let_collide(self, link_name: str = "") -> None:
-        """The shapes of a link (all links) touch others from now on, but not the skin itself: it is what rays and cameras see."""
+        """The shapes of the link ``link_name`` (all links) touch others from now on, but not the skin itself: it is what rays and
+        cameras see.
+        """
         for link in self._links:
             if link_name not in ("", link.name):
                 continue

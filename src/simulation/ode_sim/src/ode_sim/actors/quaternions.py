@@ -6,6 +6,7 @@ import numpy as np
 
 
 def normalized(q: np.ndarray) -> np.ndarray:
+    """``q`` (..., 4) with unit length; what has none is no rotation."""
     length = np.linalg.norm(q, axis=-1, keepdims=True)
     if length.size and length.min() > 1e-12:
         return q / length
@@ -26,7 +27,7 @@ def slerp(a: np.ndarray, b: np.ndarray, part) -> np.ndarray:
 
 
 def from_matrices(m: np.ndarray) -> np.ndarray:
-    """Of (..., 3, 3); what they scale by is left out, neighbours in the first axis are on the same side."""
+    """Of ``m`` (..., 3, 3); what they scale by is left out, neighbours in the first axis are on the same side."""
     length = np.linalg.norm(m, axis=-2, keepdims=True)
     m = np.divide(m, length, out=np.zeros_like(m), where=length > 1e-12)
     xx, yy, zz = m[..., 0, 0], m[..., 1, 1], m[..., 2, 2]
@@ -48,7 +49,7 @@ def from_matrices(m: np.ndarray) -> np.ndarray:
 
 
 def to_matrices(q: np.ndarray) -> np.ndarray:
-    """(..., 3, 3)."""
+    """(..., 3, 3) of ``q``."""
     x, y, z, w = np.moveaxis(q, -1, 0)
     rows = [
         [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)],

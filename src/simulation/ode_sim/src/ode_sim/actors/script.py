@@ -34,7 +34,7 @@ class Path:
         self._lengths: list[float] = []  # ways walked until each, m; measured when somebody asks
 
     def pose(self, time: float) -> Pose:
-        """In the world."""
+        """In the world, at ``time`` (s)."""
         time = min(max(time, 0.0), self.duration)
         after = bisect.bisect_left(self._times, time)
         if after == len(self._times):
@@ -56,7 +56,7 @@ class Path:
         return lengths
 
     def walked(self, time: float) -> float:
-        """The way from the beginning until then, m."""
+        """The way from the beginning until ``time`` (s), m."""
         self._lengths = self._lengths or self._measure()
         frame = min(max(time, 0.0), self.duration) / self._step
         before = min(int(frame), len(self._lengths) - 2)
@@ -113,7 +113,7 @@ class Script:
             self.length += duration
 
     def moment(self, elapsed_ns: int) -> Moment | None:
-        """What is played so long after the start, ns; None without trajectories.
+        """What is played ``elapsed_ns`` after the start; None without trajectories.
 
         Until ``delay_start`` is over, in every round anew, the first moment; after the end of what does not loop, the last.
         """
@@ -133,8 +133,10 @@ class Script:
         return Moment(clip, min(max(time - clip.start, 0.0), clip.duration), rounds)
 
     def walked(self, moment: Moment) -> float:
-        """The way by which an animation with ``interpolate_x`` goes on, m: from the beginning of the trajectory; a script of one
-        trajectory that loops walks on, through the gap between its end and its beginning."""
+        """The way at ``moment`` by which an animation with ``interpolate_x`` goes on, m: from the beginning of the trajectory; a script
+        of one
+        trajectory that loops walks on, through the gap between its end and its beginning.
+        """
         path = moment.clip.path
         if path is None:
             return 0.0
@@ -145,7 +147,7 @@ class Script:
 
 
 def frame_of(time_ns: int) -> int:
-    """The number of the frame that is shown at a time."""
+    """The number of the frame that is shown at ``time_ns``."""
     return time_ns * FRAME_RATE // _NANO
 
 

@@ -53,10 +53,11 @@ class Skeleton:
         return counts
 
     def children(self, index: int) -> list[int]:
+        """Numbers of the bones that hang on bone ``index``."""
         return [i for i, bone in enumerate(self.bones) if bone.parent == index]
 
     def index_of(self, word: str) -> int | None:
-        """By name, as skins tell bones; else by id, as animations do."""
+        """The bone called ``word``: by name, as skins tell bones; else by id, as animations do."""
         for index, bone in enumerate(self.bones):
             if bone.name == word:
                 return index
@@ -71,7 +72,7 @@ class Skeleton:
 
 
 def load_skeleton(path: str) -> Skeleton:
-    """:raises DescriptionError: one line that names the file."""
+    """The skeleton of the file ``path``. :raises DescriptionError: one line that names the file."""
     return _load(path, file_stamp(path))
 
 
@@ -92,7 +93,7 @@ def told_in_one_line(path: str, read: Callable[[], T]) -> T:
 
 
 def read_skeleton(tree: ColladaTree) -> Skeleton:
-    """:raises DescriptionError: there is none, or it is broken."""
+    """The skeleton in ``tree``. :raises DescriptionError: there is none, or it is broken."""
     controller, instance = skin_of(tree)
     roots = [tree.by_url(skeleton.text, "node") for skeleton in children(instance, "skeleton")]
     nodes = [node for node in roots if node is not None] or children(tree.scene(), "node")
@@ -112,7 +113,7 @@ def read_skeleton(tree: ColladaTree) -> Skeleton:
 
 
 def skin_of(tree: ColladaTree) -> tuple[Element, Element]:
-    """The first controller with a skin that the scene shows, and where it does so."""
+    """The first controller in ``tree`` with a skin that the scene shows, and where it does so."""
     for instance in tree.iter("instance_controller"):
         controller = tree.by_url(instance.get("url"), "controller")
         if child(controller, "skin") is not None:
@@ -148,7 +149,7 @@ def _transforms(tree: ColladaTree, node: Element, name: str) -> tuple[NodeTransf
 
 
 def matrix_of(transforms: tuple[NodeTransform, ...]) -> np.ndarray:
-    """(4, 4), one after the other."""
+    """(4, 4) of ``transforms``, one after the other."""
     result = np.eye(4)
     for transform in transforms:
         result = result @ matrices_of(transform.kind, np.array([transform.values]))[0]

@@ -76,7 +76,7 @@ class Entity:
         return (replace(model, name=name) if name else model), self._reader.problems
 
     def light(self, name: str | None = None) -> tuple[Light, list[Problem]]:
-        """The light, as :meth:`model`."""
+        """The light, with ``name`` as for :meth:`model`."""
         if self.kind != "light":
             raise fault(self._element, "is no <light>")
         light = self._reader.light(self._element)

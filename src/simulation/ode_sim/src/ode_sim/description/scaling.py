@@ -32,7 +32,7 @@ def scaled_geometry(shape: Geometry, scale: Vec3) -> Geometry:
 
 
 def largest_size(model: Model) -> float:
-    """Of all its shapes, m; a mesh counts by its scale."""
+    """Of all shapes of ``model``, m; a mesh counts by its scale."""
 
     def sizes(shape: Geometry):
         for name in ("size", "radius", "length", "scale"):

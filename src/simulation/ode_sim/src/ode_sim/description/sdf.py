@@ -109,6 +109,7 @@ class SdfReader(SdfActors):
     """Reads one file or text, worlds included; collects :attr:`problems` on the way."""
 
     def world(self, element: ET.Element) -> World:
+        """The world of ``element``, a ``<world>``."""
         plugins = self.plugins(element)
         contents = _Contents(self, world_frames(self, element))
         for child in element:

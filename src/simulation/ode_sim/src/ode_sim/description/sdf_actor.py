@@ -43,10 +43,11 @@ class SdfActors(SdfModels):
     """Reads ``<actor>``. What of it cannot be had is left out with a line, as in Gazebo: it walks without skin, or stands."""
 
     def model(self, element: ET.Element) -> Model:
-        """A ``<model>``, or an ``<actor>``."""
+        """The model of ``element``, a ``<model>`` or an ``<actor>``."""
         return self.actor(element) if element.tag == "actor" else super().model(element)
 
     def actor(self, element: ET.Element) -> Model:
+        """The model of ``element``, an ``<actor>``: its links are the bones."""
         parts = self._parts(element)
         name = parts.name
         skin, scale = self._skin(element, name)

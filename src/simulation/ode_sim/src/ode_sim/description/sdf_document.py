@@ -55,7 +55,7 @@ def _version(root: Element) -> tuple[int, ...]:
 
 
 def first_entity(root: Element) -> Element:
-    """The first model, light or actor of an ``<sdf>`` element, also when it lies in a ``<world>``.
+    """The first model, light or actor of ``root``, an ``<sdf>`` element, also when it lies in a ``<world>``.
 
     :raises DescriptionError: there is none.
     """

@@ -77,6 +77,7 @@ class SdfModels(SdfJoints):
         return True
 
     def model(self, element: ET.Element) -> Model:
+        """The model of ``element``, a ``<model>``. :raises DescriptionError: it has no link."""
         parts = self._parts(element)
         if not parts.links:
             raise fault(element, "has no <link>; a model needs at least one")
@@ -180,6 +181,7 @@ class SdfModels(SdfJoints):
         parts.plugins += sub.plugins
 
     def plugins(self, parent: ET.Element) -> list[Plugin]:
+        """The ``<plugin>``s that are children of ``parent``."""
         return [
             Plugin(name=(p.get("name") or "").strip(), filename=(p.get("filename") or "").strip(), element=p, source=source_of(p))
             for p in parent.findall("plugin")

@@ -40,6 +40,10 @@ class SdfShapes(SdfValues):
     """Reads ``<geometry>``, ``<material>`` and ``<light>``."""
 
     def geometry(self, parent: ET.Element) -> Geometry:
+        """The shape in the ``<geometry>`` of ``parent``; None where there is none, or one that is not known.
+
+        :raises DescriptionError: a size that no shape has.
+        """
         element = parent.find("geometry")
         shape = next((child for child in element if child.tag != "empty"), None) if element is not None else None
         if shape is None:
@@ -110,6 +114,7 @@ class SdfShapes(SdfValues):
         return ""
 
     def material(self, element: ET.Element | None) -> Material | None:
+        """The look that ``element``, a ``<material>``, gives; None where it says nothing."""
         if element is None:
             return None
         name = text_of(element.find("script/name"))
@@ -133,7 +138,7 @@ class SdfShapes(SdfValues):
         return replace(known or Material(name), **given)
 
     def road(self, element: ET.Element) -> Visual:
-        """:raises DescriptionError: it leads nowhere, or is no road."""
+        """The road of ``element``, a ``<road>``. :raises DescriptionError: it leads nowhere, or is no road."""
         points = element.findall("point")
         if len(points) > _MOST_POINTS:
             raise fault(element, f"a road of {len(points)} points; it may have {_MOST_POINTS}")
@@ -159,6 +164,7 @@ class SdfShapes(SdfValues):
         return materials.gazebo_material("Gazebo/Road", self.finder)
 
     def light(self, element: ET.Element) -> Light:
+        """The light of ``element``, a ``<light>``."""
         default = Light(name="")
 
         def value(path: str, usual: float) -> float:

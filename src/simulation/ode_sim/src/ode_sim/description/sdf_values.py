@@ -39,7 +39,7 @@ class SdfValues:
             self.problems.append(problem)
 
     def warn_of_text(self, root: ET.Element) -> None:
-        """What of the text was read otherwise than it is written."""
+        """What of the text of ``root`` was read otherwise than it is written."""
         for line, what in getattr(root, "oddities", ()):
             self.warn(Source(getattr(root, "file", ""), line), f"{what}; the text is not well-formed XML, Gazebo reads it so")
 
@@ -113,7 +113,7 @@ class SdfValues:
         return (*self.numbers(element, (0.0, 0.0, 0.0), most=_BRIGHTEST), 1.0)
 
     def pose(self, element: ET.Element | None) -> Pose:
-        """The numbers of a ``<pose>``, whatever frame they are in.
+        """The numbers of ``element``, a ``<pose>``, whatever frame they are in; None is no shift and no turn.
 
         :raises DescriptionError: not finite, or farther away than :data:`FARTHEST`.
         """

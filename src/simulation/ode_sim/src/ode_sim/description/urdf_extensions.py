@@ -92,6 +92,7 @@ class Extensions:
     # ------------------------------------------------------------------ fixed joints
 
     def keeps_fixed_joint(self, joint: str) -> bool:
+        """Whether the fixed ``joint`` stays one, instead of the links it joins becoming one."""
         return self._flag(joint, "preserveFixedJoint") or self._flag(joint, "disableFixedJointLumping")
 
     def fixed_as_revolute(self, joint: str) -> bool:
@@ -159,6 +160,7 @@ class Extensions:
     # ------------------------------------------------------------------ insertion
 
     def insert_in_model(self, model: Element) -> None:
+        """Put what is said about the robot itself into ``model``, its SDF."""
         for block in self._blocks.get("", ()):
             if "static" in block.values:
                 self._set(model, "static", "1" if is_true(text_of(block.values["static"])) else "0")
@@ -195,6 +197,7 @@ class Extensions:
             self._set(element, "material/script/uri", _MATERIAL_SCRIPT)
 
     def sensors_of(self, joint: str) -> list[Element]:
+        """The ``<sensor>``s that are said to be of ``joint``."""
         return [element for block in self._blocks.get(joint, ()) for element in block.others if element.tag == "sensor"]
 
     def insert_in_joint(self, element: Element, joint: str) -> None:

@@ -89,7 +89,7 @@ def floats(element: ET.Element, key: str, default: Numbers) -> Numbers:
 
 
 def origin(parent: ET.Element) -> Pose:
-    """:raises DescriptionError: no numbers, or farther away than :data:`FARTHEST`."""
+    """The ``<origin>`` of ``parent``. :raises DescriptionError: no numbers, or farther away than :data:`FARTHEST`."""
     element = parent.find("origin")
     if element is None:
         return math3.IDENTITY
@@ -100,7 +100,7 @@ def origin(parent: ET.Element) -> Pose:
 
 
 def is_xacro(error: DescriptionError) -> bool:
-    """Whether the fault is that xacro was not run: then nothing else of the text makes sense."""
+    """Whether ``error`` says that xacro was not run: then nothing else of the text makes sense."""
     return error.message.endswith(_XACRO)
 
 
@@ -148,7 +148,7 @@ def part(inertial: ET.Element, tag: str) -> ET.Element:
 
 
 def shape(element: ET.Element) -> tuple[ET.Element, Pose]:
-    """The shape in the ``<geometry>`` of a visual or collision, and its pose in the link.
+    """The shape in the ``<geometry>`` of ``element``, a visual or collision, and its pose in the link.
 
     :raises DescriptionError: what urdfdom would not take.
     """
@@ -182,7 +182,7 @@ def shape(element: ET.Element) -> tuple[ET.Element, Pose]:
 
 
 def mesh_scale(mesh: ET.Element) -> tuple[float, ...]:
-    """Three numbers; one stands for all three axes."""
+    """Three numbers, ``mesh``'s scale; one stands for all three axes."""
     words = (mesh.get("scale") or "").split()
     return floats(mesh, "scale", (1.0, 1.0, 1.0)) if len(words) != 1 else (number(mesh, "scale"),) * 3
 
@@ -258,7 +258,7 @@ def _check_what_is_not_simulated(element: ET.Element) -> None:
 
 
 def check_robot(robot: ET.Element) -> None:
-    """:raises DescriptionError: another version of URDF than 1.0, or two materials of a name."""
+    """:raises DescriptionError: ``robot`` is of another version of URDF than 1.0, or has two materials of a name."""
     version = robot.get("version")
     if version is not None and not re.fullmatch(r"\s*\+?0*1\.\s*\+?0+", version):
         raise fault(robot, f"version='{quoted(version)}'; there is URDF 1.0 only, write version='1.0' or leave it out")

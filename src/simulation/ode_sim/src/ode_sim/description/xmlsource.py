@@ -183,7 +183,7 @@ def read_bytes(file: str) -> bytes:
 
 
 def clone(element: ET.Element) -> Element:
-    """A deep copy that keeps the lines."""
+    """A deep copy of ``element`` that keeps the lines."""
     copy = Element(element.tag, dict(element.attrib))
     copy.text, copy.tail = element.text, element.tail
     copy.line, copy.file = getattr(element, "line", 0), getattr(element, "file", "")
@@ -231,7 +231,7 @@ def joint_end(joint: ET.Element, tag: str) -> str:
 
 
 def is_true(text: str) -> bool:
-    """SDF and URDF extension booleans: true, yes, 1 in any case."""
+    """SDF and URDF extension booleans: ``text`` is true, yes or 1, in any case."""
     return text.strip().lower() in ("true", "yes", "1")
 
 

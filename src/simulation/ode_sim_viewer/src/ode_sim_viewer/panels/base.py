@@ -28,7 +28,7 @@ class Panel:
         """Another world, a change of what is in it, or all of it drawn anew. Drawing thread."""
 
     def on_frame(self, frame: Frame) -> None:
-        """Five times a second. Drawing thread."""
+        """Show what is in ``frame``. Five times a second, in the drawing thread."""
 
     def on_move(self, frame: Frame) -> None:
         """For every frame that is drawn, up to thirty a second. Drawing thread."""
@@ -54,7 +54,7 @@ def escaped(text: object) -> str:
 
 
 def note(text: object) -> str:
-    """For add_html: a small line."""
+    """For add_html: ``text`` as a small line."""
     return f"<div style='padding:0 0.6em;font-size:0.8em'>{escaped(text)}</div>"
 
 

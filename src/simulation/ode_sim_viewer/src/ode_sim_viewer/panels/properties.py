@@ -31,6 +31,7 @@ class Properties:
         """
 
     def add(self, handle: Any) -> Any:
+        """Remove ``handle`` with the others. :return: it"""
         self.handles.append(handle)
         return handle
 
@@ -39,13 +40,13 @@ class Properties:
             handle.remove()
 
     def on_frame(self, frame: Frame) -> None:
-        """Show what moves."""
+        """Show what moves in ``frame``."""
 
     def show(self, world: WorldRecord) -> None:
-        """Show what is now, after an undo; else a field has what was typed into it."""
+        """Show what is now in ``world``, after an undo; else a field has what was typed into it."""
 
     def show_size(self, geometry: Simple) -> None:
-        """While a hand makes it so."""
+        """Show the size of ``geometry`` while a hand makes it so."""
         self._put({"size": size_of(geometry)})
 
     def _put(self, values: dict[str, Any]) -> None:

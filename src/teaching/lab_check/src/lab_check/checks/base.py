@@ -62,7 +62,7 @@ class Check:
         """After the commands."""
 
     def sample(self, sample: Sample) -> None:
-        """After each quantum."""
+        """Look at ``sample``, after each quantum."""
 
     def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         """(passed, sentence, figures)"""

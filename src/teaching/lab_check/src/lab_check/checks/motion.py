@@ -150,6 +150,7 @@ def _subject(check: Check) -> str:
 
 
 def yaw(pose: list[float]) -> float:
+    """The angle about z, rad, of ``pose``: x, y, z, qx, qy, qz, qw."""
     x, y, z, w = pose[3:]
     return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 

@@ -198,7 +198,7 @@ class Cluster(Engine):
 
 
 def connect(address: str):
-    """Ray, connected.
+    """Ray, connected to ``address``: "local", "auto", HOST or HOST:PORT.
 
     :raises ClusterError: it is not installed, nobody answers, or there is no token for it
     """

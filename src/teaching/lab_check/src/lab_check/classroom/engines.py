@@ -94,7 +94,7 @@ class Engine(abc.ABC):
 
     @abc.abstractmethod
     def take(self, name: str) -> Result | str:
-        """The result of one that ended, or in one line why there is none."""
+        """The result of ``name``, which has ended, or in one line why there is none."""
 
     @abc.abstractmethod
     def end(self) -> None:

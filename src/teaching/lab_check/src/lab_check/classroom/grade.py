@@ -25,8 +25,9 @@ TRIES = 2  # for a submission whose worker died
 
 
 def named(paths: list[pathlib.Path]) -> dict[str, pathlib.Path]:
-    """Submissions by the last part of their path, as :func:`lab_check.outcome.name_for` has it; where two have the same, the folder
-    before it goes in front."""
+    """Submissions, ``paths``, by the last part of their path, as :func:`lab_check.outcome.name_for` has it; where two have the same, the
+    folder before it goes in front.
+    """
     found: dict[str, pathlib.Path] = {}
     last = [path.name for path in paths]
     for path in paths:
@@ -79,7 +80,7 @@ def _run(store: Store, engine: Engine, waiting: list[str], bar: Progress, show: 
 
 
 def results(out: pathlib.Path) -> pathlib.Path:
-    """Where a class's reports go, each in a folder with the submission's name; the class's own files lie elsewhere."""
+    """Where a class's reports go below ``out``, each in a folder with the submission's name; the class's own files lie elsewhere."""
     return out / RESULTS
 
 

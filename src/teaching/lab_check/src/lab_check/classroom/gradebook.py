@@ -35,7 +35,7 @@ def write(spec: Spec, store: Store, out: pathlib.Path) -> None:
 
 
 def safe(text: str) -> str:
-    """A name that begins as a formula does would be one in a spreadsheet."""
+    """``text`` for a cell: a name that begins as a formula does would be one in a spreadsheet."""
     return "'" + text if text[:1] in tuple("=+-@\t\r") else text
 
 

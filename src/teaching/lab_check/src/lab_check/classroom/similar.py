@@ -37,7 +37,7 @@ class Pair:
 
 
 def prints(submission: pathlib.Path) -> set[int]:
-    """Winnowed prints of all source files of a folder, or of a zip or tar; empty for what is neither."""
+    """Winnowed prints of all source files of ``submission``, a folder, zip or tar; empty for what is neither."""
     if submission.is_dir():
         return _of_folder(submission) if submission.resolve() != pathlib.Path("/") else set()
     with tempfile.TemporaryDirectory(prefix="lab_check_similar.") as place:
@@ -65,6 +65,7 @@ def _of_folder(folder: pathlib.Path) -> set[int]:
 
 
 def of_text(text: str) -> set[int]:
+    """Winnowed prints of ``text``."""
     tokens = _TOKEN.findall(_COMMENT.sub(" ", text))
     hashes = [zlib.crc32("\0".join(tokens[i : i + _RUN]).encode()) for i in range(max(len(tokens) - _RUN + 1, 0))]
     return {min(hashes[i : i + _WINDOW]) for i in range(max(len(hashes) - _WINDOW + 1, 1))} if hashes else set()

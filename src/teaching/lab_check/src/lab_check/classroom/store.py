@@ -52,12 +52,15 @@ class Store:
         return self._db.execute(f"SELECT {column} FROM submissions WHERE name = ?", (name,)).fetchone()[column]
 
     def path_of(self, name: str) -> pathlib.Path:
+        """Where the submission ``name`` is."""
         return pathlib.Path(os.fsdecode(self._one(name, "path")))
 
     def tries(self, name: str) -> int:
+        """How often the examination of ``name`` was begun."""
         return self._one(name, "tries")
 
     def started(self, name: str) -> None:
+        """The examination of ``name`` begins; it is one more of its tries."""
         self._db.execute("UPDATE submissions SET state = 'running', tries = tries + 1 WHERE name = ?", (name,))
 
     def waits_again(self, name: str, why: str, tried: bool = True) -> None:
@@ -87,6 +90,7 @@ class Store:
 
 
 def result_of(row: sqlite3.Row) -> Result | None:
+    """The result in ``row``, None while there is none."""
     return Result.from_data(json.loads(row["result"])) if row["result"] else None
 
 

@@ -49,9 +49,7 @@ class Actor:
         return self.called.pop(service, 0)
 
     def give(self, command: dict[str, Any]) -> None:
-        """
-        :raises CommandError: nobody is there to take it
-        """
+        """Do what ``command``, an entry of the task's list, says. :raises CommandError: nobody is there to take it"""
         ((kind, wanted),) = command.items()
         getattr(self, f"_{kind}")(wanted)
 
@@ -184,8 +182,8 @@ class Actor:
 
 
 def find_topic(pattern: str) -> str:
-    """A name as it is; with ``*`` in it the one topic of the graph that fits; ``command of JOINT`` is the topic by which the running
-    controller of that joint takes commands, whatever it was called.
+    """``pattern``, a name, as it is; with ``*`` in it the one topic of the graph that fits; ``command of JOINT`` is the topic by which the
+    running controller of that joint takes commands, whatever it was called.
 
     :raises CommandError: none or several fit
     """

@@ -41,10 +41,12 @@ class Job:
     handed_in: int = 0  # bytes that lie on the submission's disk from the beginning
 
     def save(self, path: str | os.PathLike) -> None:
+        """Write it to ``path``, for :meth:`load` in another process."""
         pathlib.Path(path).write_text(json.dumps(asdict(self)), encoding="utf-8")
 
     @classmethod
     def load(cls, path: str) -> Job:
+        """The job that :meth:`save` wrote to ``path``."""
         return cls(**json.loads(pathlib.Path(path).read_text(encoding="utf-8")))
 
     @property
@@ -133,5 +135,5 @@ class Job:
 
 
 def most_tasks(limits: dict[str, float]) -> int:
-    """The bound that the kernel keeps, on processes and threads; the Guard counts processes."""
+    """The bound by ``limits`` that the kernel keeps, on processes and threads; the Guard counts processes."""
     return int(limits["processes"]) * 8

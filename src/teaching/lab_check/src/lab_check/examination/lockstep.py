@@ -74,10 +74,12 @@ class Nodes:
         return [pid for pid in self.pids if pid not in self._own and pid not in self._simulators]
 
     def simulator_is(self, pid: int | None) -> None:
+        """``pid`` and what it started are the simulator; None: there is none."""
         self._simulator = pid
         self._simulators = set() if pid is None else set(descendants(pid))
 
     def add_own(self, pid: int) -> None:
+        """``pid`` is a process of the checker's."""
         self._own.add(pid)
 
     def stop(self) -> None:

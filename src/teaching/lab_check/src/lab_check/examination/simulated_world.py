@@ -44,10 +44,11 @@ class Sample:
         return None
 
     def models_with(self, joint: str) -> list[str]:
+        """Names of the models that have ``joint``."""
         return [name for name, entry in self.models.items() if joint in entry.get("joints", {})]
 
     def place(self, name: str) -> list[float] | None:
-        """Pose of ``model`` or ``model::link``: x, y, z, qx, qy, qz, qw."""
+        """Pose of ``name``, ``model`` or ``model::link``: x, y, z, qx, qy, qz, qw; None where it is not there."""
         model, _, link = name.partition("::")
         entry = self.models.get(model)
         if entry is None:
@@ -142,6 +143,7 @@ class Bench:
         return self.now
 
     def pass_time(self, seconds: float) -> None:
+        """Let ``seconds`` of simulated time pass, quantum by quantum."""
         end = self.now.time + seconds - 1e-9
         while self.now.time < end:
             self.tick()
@@ -164,6 +166,7 @@ class Bench:
             self.nodes.settle(_UNCONNECTED)
 
     def watch_contacts(self, on: bool) -> None:
+        """Have contacts told in each sample from now on (``on``), or not any more."""
         self._ask("contacts", on)
 
     def seen(self, topic: str) -> dict[str, float] | str:

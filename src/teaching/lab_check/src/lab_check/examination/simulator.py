@@ -48,7 +48,8 @@ class Wire:
         self._connection, self._alive, self._lock = connection, alive, threading.Lock()
 
     def ask(self, what: str, *arguments) -> Any:
-        """
+        """The answer to ``what``, with its ``arguments``.
+
         :raises Refused: it cannot, with its reason
         :raises Lost: see there
         """
@@ -93,7 +94,7 @@ class Refused(LabError, RuntimeError):
 
 
 def checked_state(data: Any) -> dict[str, Any]:
-    """What :class:`lab_check.examination.probe.Probe` tells of the world.
+    """``data``, if it is what :class:`lab_check.examination.probe.Probe` tells of the world.
 
     :raises Lost: it is not that
     """
@@ -109,7 +110,7 @@ def checked_state(data: Any) -> dict[str, Any]:
 
 
 def png_of(text: Any) -> bytes:
-    """b'' for what is none."""
+    """The bytes of ``text``, a picture in base64; b'' for what is none."""
     try:
         return base64.b64decode(text)
     except (TypeError, ValueError):

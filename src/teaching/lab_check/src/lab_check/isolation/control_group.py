@@ -45,12 +45,13 @@ def bounded(most: int, memory: float = 0.0) -> Iterator[str]:
 
 
 def enter(place: str) -> None:
-    """This process, and all that it starts from now on."""
+    """Put this process, and all that it starts from now on, into the group ``place``."""
     for folder in filter(None, place.split(os.pathsep)):
         pathlib.Path(folder, "cgroup.procs").write_text("0")
 
 
 def counts_memory(place: str) -> bool:
+    """Whether the kernel counts the memory of the group ``place``."""
     return any(
         os.path.exists(os.path.join(folder, name))
         for folder in place.split(os.pathsep)
@@ -60,7 +61,7 @@ def counts_memory(place: str) -> bool:
 
 
 def memory(place: str) -> float | None:
-    """Bytes that only the group's processes hold, in whatever way; None where no group counts them."""
+    """Bytes that only the processes of the group ``place`` hold, in whatever way; None where no group counts them."""
     for folder in filter(None, place.split(os.pathsep)):
         try:
             figures = dict(line.split() for line in pathlib.Path(folder, "memory.stat").read_text().splitlines())
@@ -74,7 +75,7 @@ def memory(place: str) -> float | None:
 
 
 def ended_for_memory(place: str) -> int:
-    """How many processes of the group the kernel has ended so far because they took more memory than it may."""
+    """How many processes of the group ``place`` the kernel has ended so far because they took more memory than it may."""
     for folder in filter(None, place.split(os.pathsep)):
         for name in ("memory.events", "memory.oom_control"):
             try:

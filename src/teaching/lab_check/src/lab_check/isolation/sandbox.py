@@ -257,11 +257,12 @@ def make_world(platform: Platform, world: str, size: int, user: int) -> None:
 
 
 def checkers_own(world: str | os.PathLike) -> pathlib.Path:
-    """For what the checker writes down meanwhile: the submission's disk may be full."""
+    """The folder in ``world`` for what the checker writes down meanwhile: the submission's disk may be full."""
     return pathlib.Path(world, "checker")
 
 
 def filter_file(world: str | os.PathLike) -> pathlib.Path:
+    """The file in ``world`` with the system calls that are refused."""
     return pathlib.Path(world, "system_calls")
 
 

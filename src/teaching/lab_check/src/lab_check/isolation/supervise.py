@@ -29,6 +29,7 @@ class Output:
         self._lock = threading.Lock()
 
     def add(self, data: bytes) -> None:
+        """Take ``data``, which was said after what is there."""
         with self._lock:
             self.total += len(data)
             room = _HEAD - len(self._head)
@@ -118,7 +119,7 @@ class Program:
                 self.breaks(f"it printed more than {self._limits['log'] / 1e6:.0f} MB")
 
     def breaks(self, what: str) -> None:
-        """Ended for breaking a limit."""
+        """End it for breaking a limit; ``what``: how, a sentence."""
         self.broke = self.broke or what
         self.kill()
 
@@ -131,7 +132,7 @@ class Program:
         return self.process.poll()
 
     def write(self, text: str) -> None:
-        """To its standard input, as keys."""
+        """``text`` to its standard input, as keys."""
         if self.process.stdin is None:
             return
         try:
@@ -187,8 +188,9 @@ def die_with_parent() -> None:
 
 
 def bound(memory: float) -> None:
-    """This process, which answers to nodes of a submission, takes no more than that for them, and keeps no more connections than one of
-    their programs can."""
+    """This process, which answers to nodes of a submission, takes no more than ``memory`` bytes for them, and keeps no more connections
+    than one of their programs can.
+    """
     for what, most in ((resource.RLIMIT_DATA, int(memory)), (resource.RLIMIT_NOFILE, _MOST_FILES)):
         soft, hard = resource.getrlimit(what)
         resource.setrlimit(what, (most if soft == resource.RLIM_INFINITY else min(most, soft), hard))
@@ -289,7 +291,7 @@ class Guard(threading.Thread):
 
 
 def processor_time(pid: int) -> tuple[float, bool]:
-    """(s of processor time so far, whether it wants a processor now)."""
+    """(s of processor time so far, whether it wants a processor now) of the process ``pid``."""
     try:
         with open(f"/proc/{pid}/stat", "rb") as file:
             fields = file.read().rpartition(b")")[2].split()
@@ -309,6 +311,7 @@ class Held:
         self._due, self._known, self._machine = 0.0, 0.0, 0.0
 
     def bytes(self, pids: list[int]) -> float:
+        """What the processes ``pids`` hold in RAM."""
         now, machine = time.monotonic(), _shared_of_machine()
         if now >= self._due or machine - self._machine > self._GROWN:
             self._known = _shared(pids) + (sockets.queued() if self._own_network else 0.0)

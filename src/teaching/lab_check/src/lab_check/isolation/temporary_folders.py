@@ -31,7 +31,7 @@ def _open_to_others(place: pathlib.Path) -> bool:
 
 @contextlib.contextmanager
 def folder(prefix: str) -> Iterator[pathlib.Path]:
-    """A new one among the machine's temporary files, which goes when the context is left."""
+    """A new one among the machine's temporary files, its name begun with ``prefix``, which goes when the context is left."""
     sweep(prefix)
     place = pathlib.Path(tempfile.mkdtemp(prefix=prefix, dir=top()))
     lock = os.open(place, os.O_RDONLY)
@@ -44,7 +44,7 @@ def folder(prefix: str) -> Iterator[pathlib.Path]:
 
 
 def remove(place: pathlib.Path) -> None:
-    """However deep its folders lie in each other: Python's own goes down by recursion."""
+    """Remove ``place``, however deep its folders lie in each other: Python's own goes down by recursion."""
     subprocess.run(["rm", "-rf", "--", str(place)], stderr=subprocess.DEVNULL, check=False)
 
 

@@ -21,7 +21,7 @@ def write(result: Result, spec: Spec, out: pathlib.Path) -> None:
 
 
 def marks(result: Result) -> str:
-    """All that decides about marks and what was measured, as one text: the same in every run."""
+    """All of ``result`` that decides about marks and what was measured, as one text: the same in every run."""
     data = {
         "points": result.points,
         "of": result.of,
@@ -35,7 +35,7 @@ def marks(result: Result) -> str:
 
 
 def junit(result: Result) -> bytes:
-    """Where the checker itself failed one error, and no task failed."""
+    """``result`` as JUnit XML; where the checker itself failed one error, and no task failed."""
     if result.fault:
         result = replace(result, tasks=[])
     failed = [task for task in result.tasks if task.points < task.of or not all(v.passed for v in task.verdicts)]
@@ -61,12 +61,14 @@ def junit(result: Result) -> bytes:
 
 
 def clean(text: str) -> str:
-    """Without what XML cannot hold."""
+    """``text`` without what XML cannot hold."""
     return "".join(c if c in "\t\n" or 0x20 <= ord(c) <= 0xD7FF or 0xE000 <= ord(c) <= 0xFFFD or ord(c) >= 0x10000 else "?" for c in text)
 
 
 def gradescope(result: Result) -> dict:
-    """results.json; without a score where the checker itself failed: Gradescope then tells of a failed autograder instead of giving 0."""
+    """results.json of ``result``; without a score where the checker itself failed: Gradescope then tells of a failed autograder instead of
+    giving 0.
+    """
     if result.fault:
         return {
             "execution_time": round(result.seconds),

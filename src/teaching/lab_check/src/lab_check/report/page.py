@@ -83,7 +83,7 @@ def _task(number: int, task: TaskResult, result: Result, out: pathlib.Path) -> s
 
 
 def drawn(series: dict[str, list[list[float]]]) -> str:
-    """The curves over simulated time as an SVG in base64; '' when there is nothing to draw."""
+    """The curves of ``series``, points (s, value) by name, as an SVG in base64; '' when there is nothing to draw."""
     series = {name: points for name, points in series.items() if len(points) > 1}
     if not series:
         return ""

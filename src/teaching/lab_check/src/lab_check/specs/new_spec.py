@@ -130,7 +130,7 @@ def _goal(joint: ET.Element) -> float:
 
 
 def text(found: Found) -> str:
-    """The spec."""
+    """The spec for what was ``found``."""
     lines = [
         f"# Written for: roslaunch {found.launch}. All of it can be changed;",
         "# docs/grading.md has a line for everything that can be asked.",

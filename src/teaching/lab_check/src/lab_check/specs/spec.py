@@ -38,7 +38,7 @@ class Spec:
     lines: dict[tuple, int] = field(default_factory=dict)
 
     def limit(self, name: str) -> float:
-        """Bytes, processes or seconds."""
+        """The limit ``name``: bytes, processes or seconds."""
         value = self.data["limits"][name]
         return size(value) if isinstance(value, str) else value
 
@@ -48,18 +48,17 @@ class Spec:
 
 
 def size(text: str) -> float:
-    """'1.5 GB' in bytes."""
+    """``text`` as '1.5 GB' in bytes."""
     return float(text[:-2]) * _UNITS[text[-2:]]
 
 
 def kind_of(expectation: dict[str, Any]) -> str:
+    """The kind of ``expectation``, an entry of ``expect``."""
     return next(key for key in expectation if key not in EXTRAS)
 
 
 def load(path: str | pathlib.Path) -> Spec:
-    """
-    :raises SpecError: the file is not there, no YAML, or not what the schema allows
-    """
+    """The spec of the file ``path``. :raises SpecError: the file is not there, no YAML, or not what the schema allows"""
     path = pathlib.Path(path)
     data, lines = read(path, SCHEMA)
     _fill(data)

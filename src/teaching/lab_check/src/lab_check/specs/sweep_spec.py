@@ -62,9 +62,7 @@ class Sweep:
 
 
 def load_sweep(path: str | pathlib.Path) -> Sweep:
-    """
-    :raises SpecError: a line for each mistake: file, line, what is wrong
-    """
+    """The sweep of the file ``path``. :raises SpecError: a line for each mistake: file, line, what is wrong"""
     path = pathlib.Path(path)
     data, lines = read(path, SCHEMA)
     data = {"seed": 0, "draws": 1, **data}
@@ -148,7 +146,7 @@ def _try_places(path, sweep: Sweep, lines) -> list[str]:
 
 
 def cases(data: dict[str, Any]) -> list[dict[str, Any]]:
-    """The grid, each of its points ``draws`` times. A parameter's draws depend on the seed and its name alone."""
+    """The grid of ``data``, the file's, each of its points ``draws`` times. A parameter's draws depend on the seed and its name alone."""
     listed: dict[str, list[Any]] = {}
     drawn = {}
     for name, given in data["parameters"].items():
