@@ -89,7 +89,12 @@ class Parameter:
 
 
 class Server:
-    """A dynamic_reconfigure server in ``namespace`` (absolute, or relative to the node's namespace, or ``~...``)."""
+    """A dynamic_reconfigure server in ``namespace`` (absolute, or relative to the node's namespace, or ``~...``).
+
+    :param parameters: what can be set. :param initial: by name, in place of the parameter server's values and the defaults.
+    :param callback: is given all values and the level of what was changed; it may return others, which then hold.
+    :param current: gives the values that are, where they change otherwise, too.
+    """
 
     def __init__(
         self,

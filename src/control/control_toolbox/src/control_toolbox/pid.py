@@ -23,6 +23,8 @@ class Pid(Law):
 
     Without ``antiwindup`` only the integral term is clamped, while the integral itself goes on growing; with it the
     integral stops where its term meets the clamp. Gains may be replaced from any thread at any time.
+
+    :param p, i, d, i_max, i_min, antiwindup: as for :meth:`set_gains`; ``i_min`` = ``i_max`` = 0 switches the integral part off.
     """
 
     def __init__(self, p: float = 0.0, i: float = 0.0, d: float = 0.0, i_max: float = 0.0, i_min: float = 0.0, antiwindup: bool = False):

@@ -30,6 +30,9 @@ class RosPid(Pid):
     """A Pid that belongs to a parameter namespace; made by load_pid.
 
     Gains set by the program through set_gains are told to dynamic_reconfigure clients.
+
+    :param nh: NodeHandle that owns its topics and services. :param gains: to begin with.
+    :param dynamic: offer dynamic_reconfigure. :param publish_state: publish ``<namespace>/state``.
     """
 
     def __init__(self, namespace: str, gains: Gains, nh: Any, dynamic: bool, publish_state: bool):

@@ -40,7 +40,7 @@ class Sinusoid:
 
 
 class SineSweep:
-    """Sine whose frequency grows exponentially from ``start`` to ``end`` (Hz) in ``duration`` (s); 0 afterwards.
+    """Sine of ``amplitude`` whose frequency grows exponentially from ``start`` to ``end`` (Hz) in ``duration`` (s); 0 afterwards.
 
     :raises ValueError: start > end, or something is negative.
     """

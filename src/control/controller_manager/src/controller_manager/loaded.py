@@ -7,7 +7,10 @@ from hardware_interface import ControllerInfo
 
 
 class LoadedController:
-    """A controller with its name and what it holds."""
+    """A controller with its name and what it holds.
+
+    :param info: its name, type and what it claims. :param nh: its namespace, which owns what it made.
+    """
 
     __slots__ = ("controller", "info", "nh", "update")
 

@@ -48,7 +48,11 @@ def plan(
 
 
 class Switch:
-    """A switch on its way through the control loop."""
+    """A switch on its way through the control loop.
+
+    :param start, stop: controllers that begin and end. :param start_asap: each begins when its hardware is ready.
+    :param timeout: s to wait for the hardware; 0 for ever.
+    """
 
     def __init__(self, start: list[LoadedController], stop: list[LoadedController], start_asap: bool, timeout: float):
         self.start = start

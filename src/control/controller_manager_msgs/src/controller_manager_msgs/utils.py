@@ -69,7 +69,7 @@ def describe_controller_managers() -> str:
 
 
 class ControllerManagerLister:
-    """Lists controller managers again and again, asking only new ones for their types."""
+    """Lists controller managers below ``namespace`` again and again, asking only new ones for their types."""
 
     def __init__(self, namespace: str = "/"):
         self._namespace = namespace
@@ -81,7 +81,7 @@ class ControllerManagerLister:
 
 
 class ControllerLister:
-    """Lists the controllers of one manager over a connection that is kept open; [] while it cannot be reached."""
+    """Lists the controllers of the manager at ``namespace`` over a connection that is kept open; [] while it cannot be reached."""
 
     def __init__(self, namespace: str = "/controller_manager"):
         self._service = _join(namespace, "list_controllers")

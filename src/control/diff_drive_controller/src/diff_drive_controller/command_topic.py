@@ -15,10 +15,12 @@ _LARGEST = 1e12
 
 
 class CommandTopic:
-    """Keeps the last command of a topic and forgets it after parameter ``cmd_vel_timeout`` seconds.
+    """Keeps the last command of ``topic`` and forgets it after parameter ``cmd_vel_timeout`` seconds.
 
     Commands are dated with the time of the control loop, so that no clock has to agree with another.
 
+    :param nh: namespace of the controller
+    :param message_type: class of the commands
     :param values: takes the commanded numbers out of a message; those of an empty message are the base at rest
     :param what: what is commanded, for the log
     """
@@ -84,6 +86,7 @@ class VelocityCommand(CommandTopic):
 
     :param on_conflict: called (in a thread of rospy) when a second publisher appears although
         ``allow_multiple_cmd_vel_publishers`` is false
+    :param nh: namespace of the controller
     """
 
     def __init__(self, nh: NodeHandle, on_conflict: Callable[[], None]):

@@ -16,6 +16,7 @@ from .laws import PlanarOdometry
 class OdometryPublisher:
     """Publishes a PlanarOdometry at parameter ``publish_rate``.
 
+    :param root_nh, controller_nh: the namespaces that a controller's ``init`` is given
     :param odom_frame: fixed name of the odometry frame; None reads the parameter ``odom_frame_id``
     """
 

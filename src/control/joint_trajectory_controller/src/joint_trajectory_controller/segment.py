@@ -22,6 +22,7 @@ class Segment(Spline):
 
     Before its start a segment holds its start position, after its end its end position, both at rest.
 
+    :param first, last: the joint's states at ``start`` and ``end``
     :ivar start: seconds
     :ivar end: seconds, not before ``start``
     :ivar point_time: ``time_from_start`` of the way-point that the segment starts at (0 for bridges and holds), seconds

@@ -18,6 +18,7 @@ class RealtimePublisher:
     :param nh: NodeHandle (anything with ``publisher(name, type, queue_size)``).
     :param topic: name relative to ``nh``.
     :param queue_size: per subscriber that has fallen behind.
+    :param message_type: class of the messages.
     """
 
     def __init__(self, nh: Any, topic: str, message_type: type, queue_size: int = 4):

@@ -76,7 +76,7 @@ class _Lawful(Law, Transmission):
 
 
 class SimpleTransmission(_Lawful):
-    """j = a/n + o."""
+    """j = a/n + o: ``reduction`` is n, ``offset`` o, rad or m."""
 
     _coupling = Coupling.SIMPLE
 
@@ -87,6 +87,8 @@ class SimpleTransmission(_Lawful):
 class DifferentialTransmission(_Lawful):
     """The joints move with the sum and the difference of the actuators.
 
+    :param actuator_reduction, joint_reduction: of each actuator and joint
+    :param joint_offset: of each joint, rad or m
     :param crosswise: absolute encoders sit on the joints, each on the other one
     """
 
@@ -104,7 +106,10 @@ class DifferentialTransmission(_Lawful):
 
 
 class FourBarLinkageTransmission(_Lawful):
-    """The first actuator moves the first joint, and the second one along with it."""
+    """The first actuator moves the first joint, and the second one along with it.
+
+    ``actuator_reduction``, ``joint_reduction``, ``joint_offset``: as of :class:`DifferentialTransmission`.
+    """
 
     num_actuators = num_joints = 2
     _coupling = Coupling.FOUR_BAR

@@ -44,6 +44,7 @@ def word(value):
 class ArbotiX:
     """A board, or a chain of Dynamixel servos without one. Thread-safe.
 
+    `port` is its serial device, `baud` the speed of that, bit/s; `open_port` False leaves it closed.
     Getters return -1 when no valid answer comes within `timeout` (s).
     """
 

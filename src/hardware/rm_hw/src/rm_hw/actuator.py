@@ -23,6 +23,9 @@ class Actuator:
     RobotHW), ``offset`` (rad, added to the position; a calibration controller writes it).
 
     :param feedback_id: CAN id of the feedback frame; for ``cheetah`` the motor id.
+    :param name: of the motor. :param type_name: ``rm_3508`` ..., the row of ``coefficients``. :param bus: name of its CAN bus.
+    :param need_calibration: its position means nothing until a controller has calibrated it.
+    :param cutoff: Hz, of the velocity's :class:`LowPass`. :param timeout: s of silence that halt it.
     """
 
     def __init__(

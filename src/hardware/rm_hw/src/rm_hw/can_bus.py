@@ -46,6 +46,7 @@ class CanBus:
 
     :param name: as the configuration calls it, for example can0.
     :param report: called with (level, line); level is info, warn or error.
+    :param interface, channel, bitrate: as for :func:`open_interface`.
     """
 
     def __init__(self, name: str, interface: str, channel: str, report: Callable[[str, str], None], bitrate: int = BITRATE) -> None:

@@ -11,7 +11,7 @@ from motion import _core
 
 
 class Trajectory:
-    """Way points of a group, with or without times.
+    """Way points of ``group`` of ``model``, with or without times.
 
     :param start: the whole robot at the first point; what the group does not move stays as there.
     :param positions: (k, n) group values in the group's order of variables, rad or m.

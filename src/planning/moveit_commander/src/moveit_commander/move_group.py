@@ -51,8 +51,9 @@ class PlanTuple(tuple):
 
 
 class MoveGroupCommander(TargetCommands):
-    """Commands for one group: targets, plans, motions.
+    """Commands for the group ``name``: targets, plans, motions.
 
+    :param robot_description: parameter of the URDF. :param ns: namespace of move_group; "" is the node's own.
     :param wait_for_servers: wall seconds to wait for move_group; 0 waits for ever.
     :raises RuntimeError: no robot description, no such group, or no move_group.
     """
@@ -284,9 +285,7 @@ class MoveGroupCommander(TargetCommands):
         self._requests.attempts = int(num_planning_attempts)
 
     def set_workspace(self, ws: Sequence[float]) -> None:
-        """``ws``: [], [minX, minY, maxX, maxY] or [minX, minY, minZ, maxX, maxY, maxZ]; metres. For planar and floating
-        joints.
-        """
+        """``ws``: [], [minX, minY, maxX, maxY] or [minX, minY, minZ, maxX, maxY, maxZ]; m. For planar and floating joints."""
         if len(ws) not in (0, 4, 6):
             raise MoveItCommanderException("Expected 0, 4 or 6 values in list specifying workspace")
         values = list(ws) or [0.0] * 6
@@ -379,8 +378,7 @@ class MoveGroupCommander(TargetCommands):
         avoid_collisions: bool = True,
         path_constraints: Constraints | None = None,
     ) -> tuple[RobotTrajectory, float]:
-        """Straight lines of the end effector through ``waypoints`` (in the pose reference frame), a point every
-        ``eef_step`` metres:
+        """Straight lines of the end effector through ``waypoints`` (in the pose reference frame), a point every ``eef_step`` m:
         (trajectory, fraction that could be followed); the fraction is -1.0 on an error.
 
         ``jump_threshold`` may be left out: ``compute_cartesian_path(waypoints, step, True)``. The path ends before what collides

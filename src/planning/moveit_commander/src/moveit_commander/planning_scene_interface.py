@@ -31,6 +31,7 @@ class PlanningSceneInterface:
     """Adds, attaches, removes and lists objects.
 
     :param synchronous: changes have happened when a method returns; otherwise they are sent as topics and happen later.
+    :param ns: namespace of move_group; "" is the node's own.
     """
 
     def __init__(self, ns: str = "", synchronous: bool = True):

@@ -20,6 +20,7 @@ from .session import session
 class RobotCommander:
     """Asks for the robot. ``robot.<name>`` is a group, joint or link of that name.
 
+    :param robot_description: parameter of the URDF. :param ns: namespace of move_group; "" is the node's own.
     :raises RuntimeError: no robot description.
     """
 

@@ -14,7 +14,11 @@ JOINT, POSE, POSITION, ORIENTATION = "joint", "pose", "position", "orientation"
 
 
 class Targets:
-    """What a group is to reach: joint values, or poses of links. Tolerances in radians and metres."""
+    """What ``group`` of ``model`` is to reach: joint values, or poses of links.
+
+    :param joint_tolerance: of each joint, rad or m. :param position_tolerance: radius of a ball, m.
+    :param orientation_tolerance: about each axis, rad.
+    """
 
     def __init__(
         self,

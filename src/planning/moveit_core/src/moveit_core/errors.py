@@ -33,7 +33,7 @@ class MoveItError(Exception):
 
 
 class PlanningError(MoveItError):
-    """A request that cannot be served: ``code`` (MoveItErrorCodes value) and one line saying what to do about it."""
+    """A request that cannot be served: ``code`` (MoveItErrorCodes value) and ``message``, one line saying what to do about it."""
 
     def __init__(self, code: int, message: str):
         super().__init__(message)

@@ -134,7 +134,10 @@ class Sphere(Element):
 
 
 class VirtualJoint(Element):
-    """A joint between the robot and the world."""
+    """A joint ``name`` between the robot and the world: ``child_link`` moves in ``parent_frame``.
+
+    :param joint_type: fixed, floating or planar.
+    """
 
     TYPES = ["unknown", "fixed", "floating", "planar"]
     _tag = "virtual_joint"
@@ -171,7 +174,7 @@ class VirtualJoint(Element):
 
 
 class Chain(Element):
-    """All joints between two links."""
+    """All joints from ``base_link`` to ``tip_link``."""
 
     _tag, _attributes = "chain", (("base_link", True, "base_link"), ("tip_link", True, "tip_link"))
 
@@ -181,7 +184,7 @@ class Chain(Element):
 
 
 class EndEffector(Element):
-    """A group that hangs on a link of another."""
+    """A ``group``, called ``name``, that hangs on ``parent_link``, a link of ``parent_group`` (None: of whichever has it)."""
 
     _tag = "end_effector"
     _attributes = (
@@ -199,7 +202,7 @@ class EndEffector(Element):
 
 
 class DisableCollisions(Element):
-    """Two links that are never checked against each other."""
+    """Two links, ``link1`` and ``link2``, that are never checked against each other; ``reason``: for people."""
 
     _tag = "disable_collisions"
     _attributes = (("link1", True, "link1"), ("link2", True, "link2"), ("reason", False, "reason"))
@@ -228,7 +231,7 @@ Group._children = (("link", Link, "links"), ("joint", Joint, "joints"), ("chain"
 
 
 class GroupState(Element):
-    """A named state of a group."""
+    """A state ``name`` of ``group``."""
 
     _tag, _attributes = "group_state", (("name", True, "name"), ("group", True, "group"))
     _children = (("joint", JointVal, "joints"),)

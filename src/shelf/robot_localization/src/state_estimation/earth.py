@@ -87,7 +87,7 @@ class Utm:
 
 
 class Tangent:
-    """East and north on the plane that touches the ellipsoid at a point, degrees."""
+    """East and north on the plane that touches the ellipsoid at ``latitude``, ``longitude``, degrees."""
 
     def __init__(self, latitude: float, longitude: float):
         _check(latitude, longitude, 0.0)

@@ -20,6 +20,7 @@ _NS = 1_000_000_000
 class Topics:
     """Publishers, subscribers and services of one plugin; :meth:`close` unregisters them all.
 
+    :param sdf: the plugin's element. :param model_name: of its model
     :param rule: namespace rule A, B, C or D of :mod:`gazebo_ros.names`
     """
 
@@ -89,6 +90,7 @@ class Noise:
     """Zero-mean Gaussian noise, the same in every run of the same world and seed.
 
     :param rng: of ``world.rng(name)``
+    :param sigma: standard deviation, in the unit of what it is added to
     """
 
     def __init__(self, rng, sigma: float):

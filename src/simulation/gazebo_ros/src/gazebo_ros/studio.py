@@ -24,6 +24,7 @@ class Shooting:
 
     :param label: ``camera 'c' of model 'm'``, for the one line that says why there are no pictures.
     :param most: of its pictures that may be under way, 1 to 8.
+    :param depth_range: m; depths outside of it are invalid.
     """
 
     def __init__(self, server, camera: Camera, label: str, depth_range: tuple[float, float] = (0.0, np.inf), most: int = 8):

@@ -54,7 +54,7 @@ class Source:
 
 
 class SimulationError(Exception):
-    """The root. ``str(error)`` is the whole line: the place, if it is known, and the message."""
+    """The root. ``str(error)`` is the whole line: ``source``, the place, if it is known, and the ``message``."""
 
     def __init__(self, message: object = "", source: Source = Source()) -> None:
         self.message = one_line(message)

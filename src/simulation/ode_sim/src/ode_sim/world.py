@@ -50,6 +50,7 @@ class World:
     """:param description: what to start with; models of it are spawned in file order.
     :param seed: of every random number drawn in this world.
     :param finder: of ``model://`` and ``package://``, for :meth:`spawn_urdf` and :meth:`spawn_sdf`.
+    :param problems: what was noticed while ``description`` was read; more is added to them.
     """
 
     def __init__(self, description: d.World | None = None, seed: int = 0, finder=None, problems: Iterable[d.Problem] = ()) -> None:

@@ -41,6 +41,7 @@ class Episodes:
     :param period: s of simulated time from one action to the next, rounded to whole steps.
     :param start: ``start(episodes, random)`` brings the robot into the state that an episode begins with; ``random`` is a
         numpy.random.Generator of the episode's seed.
+    :param finder: of the files that world and robot name; None is a ResourceFinder of the environment.
     :raises ValueError: a joint or a link that is not there, a command without limits; one line.
     :raises ode_sim.DescriptionError: the world or the robot cannot be read.
     """

@@ -67,6 +67,7 @@ def _says_something(material: d.Material) -> bool:
 class Assets:
     """Meshes by key and textures by file, with the lines to say about those that could not be had.
 
+    :param load_mesh: reads a mesh file; None: ``ode_sim.mesh.load_visual``.
     :ivar meshes: key -> TriMesh. :ivar problems: lines, each naming visual, model and file; drained by the caller.
     """
 

@@ -87,6 +87,7 @@ class Renderer:
     :param shadows: of the sun, where the scene wants them: ``on``, ``off`` or ``auto``: only where a graphics card
         draws, because with software GL a shadow costs several times the picture (``ODE_SIM_SHADOWS`` overrides
         ``auto``).
+    :param assets: meshes and textures that are loaded already; None: none.
     :raises RenderingUnavailable: no OpenGL.
     """
 

@@ -9,7 +9,10 @@ NOTHING = -1  # of a segmentation image: no visual there
 
 
 class Target:
-    """Frame buffer of one size for some outputs, multi-sampled or not."""
+    """Frame buffer of ``width`` x ``height`` pixels for some ``outputs``, with ``samples`` for each pixel, or not multi-sampled (0).
+
+    :param ctx: moderngl's.
+    """
 
     _KINDS = {"color": (4, "f1"), "depth": (1, "f4"), "ident": (1, "f4")}
 

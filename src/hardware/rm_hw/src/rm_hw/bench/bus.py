@@ -111,6 +111,7 @@ class Bench:
         a mapping with inertia, gravity, damping, friction. None: the one motor of rm_controls_tutorials.
     :param directory: where the links to the serial ports are made, ``<bus>`` and ``<bus>.monitor``.
     :param watch: called with (bus, frame) for every frame that passes a bus.
+    :param seed: of its random numbers.
     """
 
     def __init__(

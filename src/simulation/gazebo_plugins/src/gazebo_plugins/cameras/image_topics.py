@@ -63,6 +63,7 @@ class ImageTopics:
     :param topic: absolute name. :param source: output of the render process that is the raw image.
     :param compressible: offer ``<topic>/compressed`` and ``<topic>/theora``.
     :param queue_size: messages kept for a slow subscriber.
+    :param encoding: of sensor_msgs/Image. :param shape: (height, width), pixels.
     """
 
     def __init__(

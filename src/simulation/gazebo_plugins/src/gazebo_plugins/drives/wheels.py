@@ -18,7 +18,7 @@ POSE_COVARIANCE = (1e-5, 1e-5, UNKNOWN, UNKNOWN, UNKNOWN, 1e-3)  # x y z roll pi
 
 
 class Command:
-    """The last Twist received; a value that is not finite is dropped with a warning."""
+    """The last Twist received on ``topic`` of ``topics``; a value that is not finite is dropped with a warning."""
 
     def __init__(self, topics: Topics, topic: str):
         self.x = self.y = self.yaw_rate = 0.0
@@ -58,8 +58,9 @@ def ground_truth(model) -> tuple[Pose, tuple[float, float, float]]:
 
 
 class OdometryPublisher:
-    """nav_msgs/Odometry and the transform that goes with it.
+    """nav_msgs/Odometry and the transform that goes with it, named by ``sdf``, the plugin's element.
 
+    :param topics: of the plugin. :param base_frame: where the element has no ``<robotBaseFrame>``
     :param pose_covariance: six variances, see :data:`POSE_COVARIANCE`
     :param twist_covariance: the same of the twist
     """

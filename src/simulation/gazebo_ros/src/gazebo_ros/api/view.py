@@ -69,6 +69,7 @@ class Stream:
     :param on_demand: takes it on and off the graph
     :param read: the message, asked for in the physics thread
     :param watched: told there of the first subscriber, and of the last one's end
+    :param name: of the topic. :param kind: class of its messages. :param period: wall s between two of them
     """
 
     def __init__(

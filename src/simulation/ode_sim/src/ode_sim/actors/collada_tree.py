@@ -32,7 +32,7 @@ def child(element: Element | None, *names: str) -> Element | None:
 
 
 class ColladaTree:
-    """:raises DescriptionError: one line that names the file."""
+    """The file ``path``. :raises DescriptionError: one line that names the file."""
 
     def __init__(self, path: str):
         self.path = path

@@ -17,7 +17,7 @@ _NOWHERE = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 class Rig:
-    """The bones of a skin as a pose of an animation bends them."""
+    """The bones of ``skeleton``, ``size`` times as large, as a pose of an animation bends them."""
 
     def __init__(self, skeleton: Skeleton, size: float):
         self.names = [bone.name for bone in skeleton.bones]

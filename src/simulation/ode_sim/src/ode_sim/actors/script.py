@@ -17,7 +17,7 @@ _MOST_SAMPLES = 50_000  # of a path, to measure its length
 
 
 class Path:
-    """A curve through waypoints.
+    """A curve through ``waypoints``; ``tension`` 0: a Catmull-Rom curve, 1: straight lines.
 
     The first one counts from 0 on, whatever time it has, as in Gazebo; of two of the same time the later counts.
     """

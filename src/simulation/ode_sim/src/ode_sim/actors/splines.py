@@ -14,7 +14,10 @@ _SMALL = 1e-3  # of a sine or a rest of a cosine: below, upstream takes the stra
 
 
 class PositionSpline:
-    """:param tension: 0: a Catmull-Rom curve; 1: straight lines."""
+    """A curve through ``points``, m.
+
+    :param tension: 0: a Catmull-Rom curve; 1: straight lines.
+    """
 
     def __init__(self, points: Sequence[Vec3], tension: float = 0.0):
         self._points = list(points)
@@ -44,6 +47,8 @@ class PositionSpline:
 
 
 class RotationSpline:
+    """A way through ``points``, rotations x y z w."""
+
     def __init__(self, points: Sequence[Quat]):
         self._points = list(points)
         self._tangents = self._make_tangents()

@@ -48,6 +48,7 @@ class Entity:
     """A text to spawn, parsed once: :attr:`kind` says what it is, :meth:`model` or :meth:`light` reads it, once.
 
     :param file: where the text is from: for messages, and for file names relative to it.
+    :param finder: of the files that it names; None is a ResourceFinder of the environment.
     :raises DescriptionError: neither URDF nor SDF, nothing in it to spawn, or not XML.
     """
 
