@@ -97,7 +97,10 @@ class Link:
             return self._replies.pop(number)[0]
 
     def describe(self, name: str, form: str) -> dict[str, dict[str, str]]:
-        """Fields of ``package/Name``, a msg, srv or action, and of all it consists of; {} where ROS 2 has no such type here."""
+        """Fields of ``name``, ``package/Name``, and of all it consists of; {} where ROS 2 has no such type here.
+
+        :param form: "msg", "srv" or "action"
+        """
         if (name, form) not in self._described:
             self._described[name, form] = self.ask("describe", name, form)
         return self._described[name, form]

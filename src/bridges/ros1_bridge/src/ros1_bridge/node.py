@@ -65,34 +65,44 @@ class Bridge:
         self.changed.set()
 
     def on_message(self, topic: str, data: Any) -> None:
+        """``data`` came on ``topic`` in ROS 2. The link calls this and the methods below, by the word that the other side tells."""
         found = self.to_ros1.get(topic)
         if found is not None:
             found.message(data)
 
     def on_matched(self, topic: str, count: int, _: Any) -> None:
+        """``topic``, published in ROS 2, has ``count`` subscribers there now."""
         found = self.to_ros2.get(topic)
         if found is not None:
             found.matched(count)
 
     def on_unequal(self, topic: str, policy: str, words: dict[str, Any] | None, _: Any) -> None:
+        """A subscriber or publisher in ROS 2 asks for another ``policy`` than that of ``topic``.
+
+        :param words: the quality of service that we publish with; None: it is a topic that we read
+        """
         if words is not None and topic in self.to_ros2:
             self.to_ros2[topic].unequal(policy, words)
         elif words is None and topic in self.to_ros1:
             self.to_ros1[topic].unequal(policy)
 
     def on_failed(self, words: list[Any], line: str, trace: str, _: Any) -> None:
+        """The order ``words`` failed in ROS 2: ``line`` says it to people, ``trace`` to developers."""
         rospy.logdebug("%s", trace)
         self.pairs.once(f"{' '.join(map(str, words))} in ROS 2: {line}")
 
     def on_call(self, number: int, name: str, data: Any) -> None:
+        """A client in ROS 2 calls the service ``name`` with the request ``data``; ``number`` is the call's."""
         found = self.of_ros1.get(name)
         if found is not None:
             found.call(number, data)
 
     def on_done(self, number: int, error: str | None, data: Any) -> None:
+        """The call ``number`` of a service in ROS 2 has ended, with the response ``data`` or with ``error``."""
         self.calls.done(number, error, data)
 
     def on_goal(self, number: int, name: str, data: Any) -> None:
+        """A client in ROS 2 sends the goal ``data`` to the action ``name``; ``number`` is the goal's."""
         found = self.actions_of_ros1.get(name)
         if found is None:
             self.link.tell("result", number, "aborted")
@@ -103,9 +113,11 @@ class Bridge:
         any(one.cancel(number) for one in list(self.actions_of_ros1.values()))
 
     def on_progress(self, number: int, data: Any) -> None:
+        """``data`` is feedback for the goal ``number``, which is in ROS 2."""
         any(one.progress(number, data) for one in list(self.actions_of_ros2.values()))
 
     def on_end(self, number: int, status: str, data: Any) -> None:
+        """The goal ``number``, which was in ROS 2, has ended with ``status`` and the result ``data``."""
         any(one.end(number, status, data) for one in list(self.actions_of_ros2.values()))
 
     # ------------------------------------------------------------------------------------------ all that both know
@@ -201,7 +213,11 @@ class Bridge:
     # ------------------------------------------------------------------------------------------ what parameters name
 
     def named(self, topics: Any, services_1_to_2: Any, services_2_to_1: Any, names: tuple[str, str, str]) -> None:
-        """``parameter_bridge``: each topic in both directions."""
+        """``parameter_bridge``: each of ``topics`` in both directions, and the services, each by an entry of its parameter.
+
+        :param services_1_to_2, services_2_to_1: entries, by where calls come from and go to
+        :param names: of the three parameters, for messages
+        """
 
         def warn(line: str, about: str = "") -> None:
             rospy.logwarn("%s%s", about, line)

@@ -36,7 +36,7 @@ def service_class(name: str) -> Any:
 
 
 def types_of_ros1(kind: Any, name: str, found: Types | None = None) -> Types:
-    """``kind`` and all that it consists of."""
+    """``kind``, a class called ``name``, and all that it consists of, added to ``found``."""
     found = {} if found is None else found
     found[name] = fields_of_ros1(kind.__slots__, kind._slot_types)
     for field in found[name]:
@@ -59,19 +59,21 @@ class Pairs:
         self._lock = threading.RLock()
 
     def message(self, of_ros1: str, of_ros2: str | None = None) -> Pair | None:
-        """None where there is none, which has been said."""
+        """The pair of the type ``of_ros1`` and ``of_ros2`` (None: the one that it is there); None where there is none, which has been
+        said.
+        """
         return self._one(("msg", of_ros1, of_ros2 or ""), of_ros1, of_ros2, lambda two: self._message(of_ros1, two))
 
     def service(self, of_ros1: str, of_ros2: str | None = None) -> tuple[str, Pair, Pair] | None:
-        """The type of ROS 2, request and response."""
+        """The type of ROS 2 for ``of_ros1``, request and response; ``of_ros2`` as for :meth:`message`."""
         return self._one(("srv", of_ros1, of_ros2 or ""), of_ros1, of_ros2, lambda two: self._service(of_ros1, two))
 
     def action(self, of_ros1: str, of_ros2: str | None = None) -> tuple[str, Pair, Pair, Pair] | None:
-        """The type of ROS 2, goal, result and feedback."""
+        """The type of ROS 2 for ``of_ros1``, goal, result and feedback; ``of_ros2`` as for :meth:`message`."""
         return self._one(("action", of_ros1, of_ros2 or ""), of_ros1, of_ros2, lambda two: self._action(of_ros1, two))
 
     def of_ros2(self, form: str, of_ros2: str) -> str | None:
-        """The type of ROS 1 that ``of_ros2`` is."""
+        """The type of ROS 1 that ``of_ros2`` is; ``form``: "msg", "srv" or "action"."""
         tests = {"msg": message_class, "srv": service_class, "action": lambda name: message_class(name + "Goal")}
         known = [one for one in candidates_of_ros1(of_ros2) if tests[form](one) is not None]
         if not known:

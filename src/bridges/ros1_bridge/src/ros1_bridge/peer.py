@@ -33,7 +33,7 @@ BULK = 65536  # bytes from which data goes as a piece of its own
 
 
 def kind_of(name: str, form: str) -> Any:
-    """The class of ``package/Name``, which is a msg, srv or action; None where it is not here."""
+    """The class of ``name``, ``package/Name``, which is by ``form`` a "msg", "srv" or "action"; None where it is not here."""
     package, _, short = name.partition("/")
     try:
         kind = getattr(importlib.import_module(f"{package}.{form}"), short)
@@ -50,7 +50,7 @@ def short_name(name: str) -> str:
 
 
 def fields(kind: Any, found: dict[str, dict[str, str]], name: str) -> None:
-    """All types that ``kind`` consists of, into ``found``."""
+    """All types that ``kind``, called ``name``, consists of, into ``found``."""
     found[name] = kind.get_fields_and_field_types()
     for inner in found[name].values():
         inner = inner.removeprefix("sequence<").partition(",")[0].rstrip(">").partition("[")[0]
@@ -126,7 +126,7 @@ class Peer:
             rclpy.try_shutdown()
 
     def ask(self, word: str, *words: Any, goal: Any = None, data: Any = None) -> tuple[Any, Any]:
-        """What ROS 1 answers; waits for it.
+        """What ROS 1 answers to ``word`` with ``words`` and ``data``; waits for it.
 
         :param goal: the handle of a goal of whose end this waits, and its type
         """
@@ -150,6 +150,7 @@ class Peer:
             self._goals.pop(number, None)
 
     def do_answer(self, number: int, error: str | None, data: Any) -> None:
+        """ROS 1's answer to the question ``number``: ``data``, or ``error``. These methods are called by the word that is ordered."""
         waiting = self._waiting.get(number)
         if waiting is not None:
             waiting.put((error, bytes(data) if data else None))
@@ -157,6 +158,7 @@ class Peer:
     # -------------------------------------------------------------------------------------------- what is here
 
     def do_describe(self, number: int, name: str, form: str, _: Any) -> None:
+        """Tell the fields of ``name``, by ``form`` a "msg", "srv" or "action", as the reply ``number``."""
         kind = kind_of(name, form)
         found: dict[str, dict[str, str]] = {}
         parts = {"msg": ("",), "srv": ("Request", "Response"), "action": ("Goal", "Result", "Feedback")}[form]
@@ -220,6 +222,7 @@ class Peer:
     # -------------------------------------------------------------------------------------------- topics
 
     def do_advertise(self, topic: str, type_name: str, words: dict[str, Any], _: Any) -> None:
+        """Publish ``topic``, of ``type_name``, with the quality of service ``words``."""
         old = self._publishers.pop(topic, None)
         if old is not None:
             self.node.destroy_publisher(old[0])
@@ -236,11 +239,13 @@ class Peer:
                 self._gids.add(bytes(info.endpoint_gid))
 
     def do_publish(self, topic: str, data: Any) -> None:
+        """Publish ``data``, a message as bytes of CDR, on ``topic``."""
         found = self._publishers.get(topic)
         if found is not None:
             found[0].publish(bytes(data))
 
     def do_subscribe(self, topic: str, type_name: str, words: dict[str, Any], _: Any) -> None:
+        """Tell what comes on ``topic``, of ``type_name``, read with the quality of service ``words``."""
         self.do_forget("subscriber", topic, None)
 
         def take(data: bytes, info: Any) -> None:
@@ -260,6 +265,7 @@ class Peer:
         return data is None or bytes(data)[:16] not in {own[:16] for own in self._gids}
 
     def do_forget(self, what: str, name: str, _: Any) -> None:
+        """End the publisher, subscriber, server, client ... (``what``) called ``name``."""
         if what == "publisher":
             found = self._publishers.pop(name, None)
             if found is not None:
@@ -279,7 +285,7 @@ class Peer:
     # -------------------------------------------------------------------------------------------- services
 
     def do_serve(self, name: str, type_name: str, _: Any) -> None:
-        """A service of ROS 1, offered here."""
+        """The service ``name`` of ROS 1, of ``type_name``, offered here."""
         kind = kind_of(type_name, "srv")
 
         def answer(request: Any, response: Any) -> Any:
@@ -296,7 +302,9 @@ class Peer:
         threading.Thread(target=lambda: work() if wait(timeout_sec=FOUND) else missing(), daemon=True).start()
 
     def do_call(self, number: int, name: str, type_name: str, data: Any) -> None:
-        """A service that is here, for a client of ROS 1."""
+        """Call the service ``name``, of ``type_name``, which is here, for a client of ROS 1; ``number`` is the call's, ``data`` the
+        request.
+        """
         kind = kind_of(type_name, "srv")
         key = ("client", name)
         if key not in self._others:
@@ -313,7 +321,7 @@ class Peer:
     # -------------------------------------------------------------------------------------------- actions
 
     def do_serve_action(self, name: str, type_name: str, _: Any) -> None:
-        """An action server of ROS 1, offered here."""
+        """The action server ``name`` of ROS 1, of ``type_name``, offered here."""
         kind = kind_of(type_name, "action")
 
         def execute(handle: Any) -> Any:
@@ -344,15 +352,19 @@ class Peer:
         )
 
     def do_feedback(self, number: int, data: Any) -> None:
+        """``data`` is ROS 1's feedback for the goal ``number``."""
         found = self._goals.get(number)
         if found is not None:
             found[0].publish_feedback(deserialize_message(bytes(data), found[1].Feedback))
 
     def do_result(self, number: int, status: str, data: Any) -> None:
+        """The goal ``number`` has ended in ROS 1 with ``status`` and the result ``data``."""
         self.do_answer(number, status, data)
 
     def do_send_goal(self, number: int, name: str, type_name: str, data: Any) -> None:
-        """A goal of a client of ROS 1 for an action server that is here."""
+        """``data`` is a goal of a client of ROS 1 for the action server ``name``, of ``type_name``, that is here; ``number`` is the
+        goal's.
+        """
         kind = kind_of(type_name, "action")
         key = ("action_client", name)
         if key not in self._others:

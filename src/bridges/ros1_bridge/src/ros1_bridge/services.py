@@ -19,6 +19,7 @@ PATIENCE = 5.0  # s of wall time that a service of ROS 2 has, as upstream's
 
 
 def filled(message: Any, data: Any) -> Any:
+    """``message``, filled with ``data``, its bytes."""
     message.deserialize(bytes(data))
     return message
 
@@ -36,7 +37,11 @@ class Calls:
         self._answers: dict[int, tuple[str | None, Any]] = {}
 
     def call(self, name: str, type_of_ros2: str, data: Any, patience: float) -> Any:
-        """:raises CallFailed:"""
+        """The response of the service ``name`` of ROS 2 to the request ``data``, as bytes; ``type_of_ros2`` is its type.
+
+        :param patience: s to wait for it
+        :raises CallFailed: no answer, or the other side says why
+        """
         number = self._link.number()
         self._link.tell("call", number, name, type_of_ros2, data=data)
         with self._came:
@@ -48,6 +53,7 @@ class Calls:
         return answer
 
     def done(self, number: int, error: str | None, data: Any) -> None:
+        """The call ``number`` has ended, with the response ``data`` or with ``error``."""
         with self._came:
             self._answers[number] = error, data
             self._came.notify_all()
@@ -84,7 +90,7 @@ class ServiceOfRos1:
         link.tell("serve", name, self._two)
 
     def call(self, number: int, data: Any) -> None:
-        """Answered in a thread of its own."""
+        """The request ``data`` of the call ``number``, answered in a thread of its own."""
         threading.Thread(target=self._call, args=(number, data), daemon=True).start()
 
     def _call(self, number: int, data: Any) -> None:
@@ -123,6 +129,7 @@ class ActionOfRos1:
                 self._link.tell("serve_action", self.name, self._two)
 
     def send(self, number: int, data: Any) -> None:
+        """Send the goal ``data`` on; ``number`` is its number in ROS 2."""
         try:
             goal = filled(message_class(self.type + "Goal")(), self._goal.to_ros1(data))
         except MappingError as error:
@@ -188,12 +195,14 @@ class ActionOfRos2:
                     self._link.tell("cancel_goal", number)
 
     def progress(self, number: int, data: Any) -> bool:
+        """Feedback ``data`` of the goal ``number``; False where it is none of this action's."""
         handle = self._goals.get(number)
         if handle is not None:
             handle.publish_feedback(filled(message_class(self.type + "Feedback")(), self._feedback.to_ros1(data)))
         return handle is not None
 
     def end(self, number: int, status: str, data: Any) -> bool:
+        """The goal ``number`` has ended with ``status`` and the result ``data``; False where it is none of this action's."""
         handle = self._goals.pop(number, None)
         if handle is None:
             return False
@@ -212,7 +221,10 @@ class ActionOfRos2:
 
 
 def actions_of_ros1(published: dict[str, list[str]], types: dict[str, str], own: str) -> dict[str, str]:
-    """Action servers by name: package/Name, by the topics that they publish. Our own are left out."""
+    """Action servers by name: package/Name, by the topics that they publish. Those of the node ``own`` are left out.
+
+    :param published: nodes by topic. :param types: by topic
+    """
     found = {}
     for topic, nodes in published.items():
         name, _, last = topic.rpartition("/")
@@ -223,7 +235,7 @@ def actions_of_ros1(published: dict[str, list[str]], types: dict[str, str], own:
 
 
 def of_an_action(topic: str, kind: str) -> bool:
-    """Whether actionlib made this topic: it is bridged as an action, or not at all."""
+    """Whether actionlib made ``topic``, of type ``kind``: it is bridged as an action, or not at all."""
     last = topic.rpartition("/")[2]
     return (
         last in ("goal", "result", "feedback")

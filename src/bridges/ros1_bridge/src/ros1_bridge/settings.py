@@ -32,8 +32,10 @@ class Options:
 
 
 def options(words: list[str], get: Callable[[str, Any], Any]) -> Options:
-    """:param get: value of a private parameter, or a default
-    :raises SettingError:
+    """What ``words`` of the command line and the private parameters say.
+
+    :param get: value of a private parameter, or a default
+    :raises SettingError: a value cannot be used
     """
     parser = argparse.ArgumentParser(prog="dynamic_bridge", description="Bridge what both ROS 1 and ROS 2 know.")
     parser.add_argument("--bridge-all-topics", action="store_true", help="bridge all topics in both directions")
@@ -55,6 +57,7 @@ def options(words: list[str], get: Callable[[str, Any], Any]) -> Options:
 
 
 def patterns(name: str, value: Any) -> tuple[str, ...]:
+    """``value`` of the parameter ``name``, a regular expression or a list of them. :raises SettingError: it is something else"""
     words = [value] if isinstance(value, str) else value
     if not isinstance(words, (list, tuple)) or not all(isinstance(word, str) for word in words):
         raise SettingError(f"~{name} should be a list of texts, not {value!r}")
@@ -67,11 +70,12 @@ def patterns(name: str, value: Any) -> tuple[str, ...]:
 
 
 def allowed(name: str, words: tuple[str, ...]) -> bool:
+    """Whether ``name`` fits one of ``words``, regular expressions, whole."""
     return any(re.fullmatch(word, name) for word in words)
 
 
 def quality(words: Any, say: Callable[[str], None]) -> dict[str, Any]:
-    """``qos`` of a topic in upstream's form; what is wrong in it is said and left out."""
+    """``qos`` of a topic, ``words``, in upstream's form; what is wrong in it is told to ``say`` and left out."""
     found: dict[str, Any] = {"depth": 10}
     if not isinstance(words, dict):
         say("qos should be a dictionary; it is left out")
@@ -107,7 +111,10 @@ def quality(words: Any, say: Callable[[str], None]) -> dict[str, Any]:
 
 
 def entries(parameter: str, value: Any, key: str, say: Callable[[str], None]) -> list[dict[str, Any]]:
-    """Entries of ``topics``, ``services_1_to_2`` and ``services_2_to_1`` that can be used."""
+    """Entries of ``value``, that of ``topics``, ``services_1_to_2`` or ``services_2_to_1``, that can be used.
+
+    :param parameter: its name, for messages. :param key: what an entry names, "topic" or "service". :param say: is told what is wrong
+    """
     if not isinstance(value, list):
         say(f"The parameter '{parameter}' either doesn't exist or isn't an array")
         return []

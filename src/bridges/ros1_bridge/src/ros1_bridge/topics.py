@@ -23,7 +23,7 @@ SENSORS = {
 
 
 def promised(topic: str, type_name: str) -> dict[str, Any]:
-    """The quality of service of a topic that has not been told one."""
+    """The quality of service of ``topic``, of ``type_name``, that has not been told one."""
     if topic == "/tf_static":
         return {"depth": 100, "durability": "transient_local"}
     if topic == "/tf":
@@ -56,7 +56,9 @@ class ToRos2:
                 self._subscriber = None
 
     def unequal(self, policy: str, words: dict[str, Any]) -> None:
-        """A subscriber asks for more than is promised: it is promised, unless a parameter says what is to be."""
+        """A subscriber asks for more of ``policy`` than is promised, which was ``words``: it is promised, unless a parameter says what
+        is to be.
+        """
         more = {"DURABILITY": ("durability", "transient_local"), "RELIABILITY": ("reliability", "reliable")}.get(policy)
         if self._told or more is None:
             self._pairs.once(f"{self.topic}: a subscriber of ROS 2 asks for another {policy.lower()} than this topic's, and gets nothing")
@@ -148,11 +150,13 @@ class ToRos1(rospy.SubscribeListener):
         self._pairs.once(f"{self.topic}: a publisher of ROS 2 gives less {policy.lower()} than this topic's, and is not heard")
 
     def peer_subscribe(self, topic_name: str, topic_publish: Any, peer_publish: Any) -> None:
+        """rospy tells of a subscriber to ``topic_name``: ``topic_publish`` and ``peer_publish`` send to all and to it."""
         self._listen()
         for message in list(self._old)[:-1] if self._latched else []:  # rospy itself gives the last
             peer_publish(message)
 
     def peer_unsubscribe(self, topic_name: str, num_peers: int) -> None:
+        """rospy tells that a subscriber to ``topic_name`` has gone, and ``num_peers`` are left."""
         if not num_peers and not self._latched:
             with self._lock:
                 self._listening = False

@@ -34,7 +34,7 @@ Types = dict[str, tuple[Field, ...]]
 
 
 def fields_of_ros1(names: list[str], kinds: list[str]) -> tuple[Field, ...]:
-    """By ``__slots__`` and ``_slot_types`` of a class."""
+    """By ``names`` and ``kinds``, ``__slots__`` and ``_slot_types`` of a class."""
     found = []
     for name, kind in zip(names, kinds):
         array = _FIXED.fullmatch(kind)
@@ -87,6 +87,8 @@ def shared(type_of_ros1: str, one: tuple[Field, ...], two: tuple[Field, ...]) ->
     """Names of ROS 1's fields by those of ROS 2; None where each side has a field that the other has not (upstream's rule).
 
     Names are compared in small letters, as ROS 2 has no others: ``CameraInfo``'s ``K`` is ``k``. Header's ``seq`` is left out.
+
+    :param one, two: the fields of ``type_of_ros1`` and of its counterpart
     """
     if type_of_ros1 in RULES and RULES[type_of_ros1][1]:
         special = RULES[type_of_ros1][1]

@@ -62,7 +62,7 @@ class Overlays:
                 self._draw(kind, world)
 
     def move(self, frame: Frame) -> None:
-        """Draw the contacts of ``frame``: all else hangs on the links' frames."""
+        """Draw the contacts anew with each ``frame``: all else hangs on the links' frames."""
         if self._contacts is not None:
             found = self._page.simulation.contacts()
             with self._page.server.atomic():

@@ -159,7 +159,7 @@ class Puppet:
         return int(started), bool(active), int(frame), None if custom is None else str(custom), float(script_time), bool(collides)
 
     def set_state(self, state: tuple[int, bool, int, str | None, float, bool]) -> None:
-        """Go on from ``state``, which another puppet of this actor had."""
+        """Go on from ``state``, which :meth:`state` gave."""
         self.started_ns, self.active, self._frame, self.custom, self.script_time, self.collides = state
         if self.custom is None:
             self._tell(anew=True)
