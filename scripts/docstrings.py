@@ -18,10 +18,12 @@ LIBRARIES = (
     "common/*",
     "control/*",
     "hardware/*",
+    "labs/lab_tools",
     "planning/*",
     "shelf/*",
     "simulation/*",
     "teaching/*",
+    "tools/*",
 )
 
 

@@ -34,7 +34,10 @@ class Topic:
             self._changed.notify_all()
 
     def wait_for(self, condition, what):
-        """The first message, among those that came and those to come, for which `condition` holds; each is asked once."""
+        """The first message, among those that came and those to come, for which `condition` holds; each is asked once.
+
+        :raises AssertionError: `what` did not come
+        """
         deadline = time.monotonic() + PATIENCE
         asked = 0
         with self._changed:

@@ -175,6 +175,7 @@ class BagSink:
         self._bag.close()
 
     def write(self, channel: Channel, stamp: int, data: bytes) -> None:
+        """Append ``data``, a message as bytes, of ``channel``; ``stamp``: ns since the epoch."""
         if channel not in self._connections:
             self._connections[channel] = self._bag.add_connection(
                 channel.topic,
@@ -208,6 +209,7 @@ class McapSink:
             self._stream.close()
 
     def write(self, channel: Channel, stamp: int, data: bytes) -> None:
+        """Append ``data``, a message as bytes, of ``channel``; ``stamp``: ns since the epoch."""
         if channel not in self._channels:
             self._channels[channel] = self._register(channel)
         number = self._channels[channel]

@@ -17,7 +17,9 @@ from bag_tools.files import BagError
 
 
 def named(arguments: list[str], now: float) -> tuple[list[str], Path]:
-    """The recorder's arguments with a name for its bag, as it would choose it, and that name without ending."""
+    """The recorder's ``arguments`` with a name for its bag, as it would choose it ``now`` (s since the epoch), and that name without
+    ending.
+    """
     parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
     parser.add_argument("-O", "--output-name")
     parser.add_argument("-o", "--output-prefix")

@@ -45,7 +45,10 @@ def parser() -> argparse.ArgumentParser:
 
 
 def visit(launch: Launch, given: dict[str, str], folder: str, options: argparse.Namespace) -> Entry:
-    """Launch, take pictures, stop. Never raises for what is wrong with the launch file: the entry's notes say it."""
+    """Run ``launch``, take pictures, stop. Never raises for what is wrong with the launch file: the entry's notes say it.
+
+    :param given: arguments by name. :param folder: where the pictures go. :param options: of the command line
+    """
     entry = Entry(launch.name, shlex.join(["roslaunch", *launch.words]))
     try:
         values = arguments(launch, given)

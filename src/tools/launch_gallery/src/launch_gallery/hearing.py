@@ -71,7 +71,9 @@ def rate(stamps: list[float], seconds: float) -> float | None:
 
 
 def contents(kind: str, message) -> str:
-    """In a few words: how much of a scan hit something, whether a picture has one colour only, what an IMU weighs."""
+    """What is in ``message``, of type ``kind``, in a few words: how much of a scan hit something, whether a picture has one colour only,
+    what an IMU weighs.
+    """
     if kind == "sensor_msgs/LaserScan":
         return f"{int(np.isfinite(message.ranges).sum())} of {len(message.ranges)} hit"
     if kind == "sensor_msgs/Image":

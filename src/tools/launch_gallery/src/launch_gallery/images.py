@@ -9,7 +9,7 @@ from sensor_msgs.msg import Image
 
 
 def save(message: Image, path: str) -> None:
-    """Colours as they are; depth in gray from its least (black) to its largest (white).
+    """Write ``message`` to ``path``: colours as they are; depth in gray from its least (black) to its largest (white).
 
     :raises ValueError: an encoding that cannot be shown.
     """

@@ -89,7 +89,7 @@ class Content:
 
 
 def content(launch: Launch, values: dict[str, str]) -> Content:
-    """:raises LaunchError: the launch file cannot be read."""
+    """What ``launch`` brings up with ``values``, arguments by name. :raises LaunchError: the launch file cannot be read."""
     switched_on = {name: "true" if name in WINDOWLESS and name != "gui" else value for name, value in values.items()}
     nodes = _load(launch, values)
     passing = {_name(node) for node in nodes if (node.package, node.type) in _PASSING}

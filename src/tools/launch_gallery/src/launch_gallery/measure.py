@@ -71,7 +71,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def errors(log: str, most: int = 4) -> list[str]:
-    """Different lines in which something complained, the first ``most`` of them."""
+    """Different lines of the file ``log`` in which something complained, the first ``most`` of them."""
     found: list[str] = []
     for line in session.lines(log):
         match = _ERROR.search(line)
@@ -84,6 +84,7 @@ def errors(log: str, most: int = 4) -> list[str]:
 def measure(launches: list[Launch], given: dict[str, str], options: argparse.Namespace) -> dict:
     """The figures, as :mod:`.measuring` finds them, with the notes of what went wrong.
 
+    :param launches: run together. :param given: their arguments by name. :param options: of the command line
     :raises LaunchError: a launch file cannot be read, or lacks an argument.
     """
     values: dict[str, str] = {}

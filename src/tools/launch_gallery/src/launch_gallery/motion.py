@@ -21,7 +21,7 @@ class Sample:
 
 
 def sample(time: float, position: Sequence[float], quaternion: Sequence[float]) -> Sample:
-    """:param position: x, y, z, m. :param quaternion: x, y, z, w, of length 1."""
+    """:param time: s. :param position: x, y, z, m. :param quaternion: x, y, z, w, of length 1."""
     x, y, z, w = quaternion
     p_x, p_y, p_z = position
     return Sample(
@@ -66,7 +66,7 @@ class Motion:
 
 
 def reachable(angle: float, step: float, lower: float | None, upper: float | None) -> float:
-    """A place for a joint to go: ``step`` further, or back where a limit is in the way; None is no limit."""
+    """A place for a joint at ``angle`` to go: ``step`` further, or back where ``lower`` or ``upper`` is in the way; None is no limit."""
     low, high = -math.inf if lower is None else lower, math.inf if upper is None else upper
     for target in (angle + step, angle - step):
         if low <= target <= high:

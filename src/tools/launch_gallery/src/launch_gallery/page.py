@@ -22,7 +22,7 @@ class Entry:
 
 
 def render(title: str, entries: list[Entry]) -> str:
-    """HTML that stands beside the pictures."""
+    """HTML of ``entries`` under ``title`` that stands beside the pictures."""
     sections = []
     for entry in entries:
         figures = "\n".join(

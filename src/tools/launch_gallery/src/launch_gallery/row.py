@@ -43,7 +43,10 @@ def straight(found: dict) -> str:
 
 
 def turn(found: dict, wheelbase: float) -> str:
-    """:param wheelbase: m, of a car that is told its steering angle; 0: it is told its turn rate."""
+    """How far it turned, of how far it should have, by the figures ``found``.
+
+    :param wheelbase: m, of a car that is told its steering angle; 0: it is told its turn rate.
+    """
     if "turn" not in found:
         return "-"
     motion = found["turn"]
@@ -85,6 +88,7 @@ def reach(found: dict) -> list[str]:
 
 
 def row(robot: str, launch: str, found: dict, wheelbase: float) -> str:
+    """The row of ``robot``, brought up by ``launch``, with the figures ``found``; ``wheelbase`` as for :func:`turn`."""
     cells = (
         robot,
         f"`{launch}`",

@@ -28,8 +28,9 @@ def subject(simulator: Simulator, seconds: float) -> str:
 
 
 def pictures(simulator: Simulator, folder: str, stem: str, seconds: float) -> list[tuple[str, str]]:
-    """The robot filling the frame, and all that stands on the ground.
+    """The robot filling the frame, and all that stands on the ground, as ``stem``-... .png in ``folder``.
 
+    :param seconds: that the robot is waited for
     :returns: (file name, caption) of each
     :raises rospy.ROSException, rospy.ServiceException: the simulator did not answer, or cannot draw
     """

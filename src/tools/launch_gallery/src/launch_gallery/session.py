@@ -29,7 +29,10 @@ def free_port() -> int:
 
 @contextlib.contextmanager
 def running(words: list[str], environment: dict[str, str], log: str | os.PathLike) -> Iterator[subprocess.Popen]:
-    """roslaunch in a process group of its own, which gets Ctrl-C's signal at the end, and SIGKILL if that is in vain."""
+    """roslaunch, ``words``, in a process group of its own, which gets Ctrl-C's signal at the end, and SIGKILL if that is in vain.
+
+    :param environment: all of it. :param log: the file that takes what it says
+    """
     with open(log, "w") as file:
         process = subprocess.Popen(
             words, env=environment, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, start_new_session=True
@@ -72,6 +75,7 @@ def look(module: str, words: list[str], log: str, job: dict, windows: bool = Tru
     :param words: files and arguments of roslaunch.
     :param windows: with a display, on which windows may open.
     :param variables: more of the environment.
+    :param log: the file that takes what roslaunch says.
     """
     outcome = Outcome()
     port = free_port()

@@ -21,12 +21,15 @@ class Simulator:
         return f"{self.space}/gazebo/{name}"
 
     def service(self, name: str, persistent: bool = False) -> rospy.ServiceProxy:
-        """The kind is asked of the running one. :raises rosservice.ROSServiceException: nobody offers it."""
+        """The service ``name``; its kind is asked of the running one. ``persistent``: over one connection.
+
+        :raises rosservice.ROSServiceException: nobody offers it.
+        """
         full = self.name(name)
         return rospy.ServiceProxy(full, get_service_class_by_name(full), persistent=persistent)
 
     def parameter(self, name: str, default: str) -> str:
-        """Of the group, or of the whole system."""
+        """The parameter ``name`` of the group, or of the whole system, or ``default``."""
         return rospy.get_param(f"{self.space}/{name}", rospy.get_param(f"/{name}", default))
 
 

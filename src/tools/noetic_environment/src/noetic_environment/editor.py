@@ -76,7 +76,9 @@ def environment_of(workspace: Path, present: Mapping[str, str]) -> dict[str, str
 
 
 def sourcing(workspace: Path, environment: Mapping[str, str]) -> str:
-    """The beginning of a task's command: its own setup file, or where that is not built yet the one that it is built on."""
+    """The beginning of a task's command: the setup file of ``workspace``, or where that is not built yet the one that it is built on, by
+    ``environment``.
+    """
     below = [
         prefix
         for prefix in environment.get("CMAKE_PREFIX_PATH", "").split(":")
@@ -96,6 +98,7 @@ def uses_catkin_make(workspace: Path) -> bool:
 
 
 def tasks(workspace: Path, environment: Mapping[str, str]) -> dict[str, Any]:
+    """tasks.json of ``workspace``: build and test, in ``environment``."""
     begin = sourcing(workspace, environment)
 
     def task(label: str, command: str, **more: Any) -> dict[str, Any]:
@@ -213,6 +216,7 @@ def system_headers() -> list[str]:
 
 
 def properties(workspace: Path, environment: Mapping[str, str]) -> dict[str, Any]:
+    """c_cpp_properties.json of ``workspace``: where the headers are, in ``environment``."""
     headers = [str(Path(prefix, "include")) for prefix in environment.get("CMAKE_PREFIX_PATH", "").split(":") if prefix]
     headers += [str(place / "include") for place in packages(environment)]
     machine = {"x86_64": "x64", "aarch64": "arm64", "armv7l": "arm"}.get(platform.machine(), "x64")
@@ -256,7 +260,7 @@ def variables(environment: Mapping[str, str]) -> str:
 
 
 def files(workspace: Path, environment: Mapping[str, str]) -> dict[str, str]:
-    """Name -> text of all of them."""
+    """Name -> text of all files for ``workspace``, in ``environment``."""
     made = {
         "tasks.json": tasks(workspace, environment),
         "launch.json": launch(),
@@ -271,7 +275,8 @@ def files(workspace: Path, environment: Mapping[str, str]) -> dict[str, str]:
 
 
 def write(folder: Path, texts: Mapping[str, str], force: bool) -> list[tuple[str, str | None]]:
-    """
+    """Write ``texts`` by their names into ``folder``.
+
     :param force: write what is there anew, too; the old one is kept beside it with the ending ``.bak``
     :return: name of each file, and what happened to it; None: it is what it should be
     """

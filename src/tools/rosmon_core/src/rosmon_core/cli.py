@@ -112,7 +112,7 @@ def parse_memory(text: str) -> int:
 
 
 def parse_number(text: str, what: str) -> float:
-    """A number that is zero or more. :raises RosmonError: something else."""
+    """``text`` as a number that is zero or more; ``what`` it is, for the error. :raises RosmonError: something else."""
     try:
         value = float(text)
     except ValueError:

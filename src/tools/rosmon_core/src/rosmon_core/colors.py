@@ -24,13 +24,16 @@ def mode(environment: Mapping[str, str] = os.environ) -> str:
 
 
 def rgb(index: int, count: int) -> tuple[int, int, int]:
-    """Evenly spread hues, light enough for black text."""
+    """The colour of ``index`` of ``count``, 0 to 255: evenly spread hues, light enough for black text."""
     red, green, blue = (round(255 * c) for c in colorsys.hsv_to_rgb(index / max(1, count), 0.45, 0.9))
     return red, green, blue
 
 
 def label_escape(index: int, count: int, colour_mode: str) -> str:
-    """Escape sequence that starts the label of node ``index`` of ``count``: a colour of its own below text that can be read on it."""
+    """Escape sequence that starts the label of node ``index`` of ``count``: a colour of its own below text that can be read on it.
+
+    :param colour_mode: what the terminal can show: "truecolor", "256colors" or "ansi".
+    """
     if colour_mode == "ansi":
         return f"\x1b[{_ANSI[index % len(_ANSI)]}m"
     r, g, b = rgb(index, count)

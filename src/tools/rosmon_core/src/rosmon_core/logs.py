@@ -35,6 +35,7 @@ class Log:
             raise RosmonError(f"cannot log to {self.name}: {error.strerror}; choose another place with --log=FILE") from None
 
     def write(self, label: str, text: str, severity: str) -> None:
+        """A line of ``text`` by ``label``, of ``severity`` debug, info, warn or error."""
         text = without_escapes(text)
         if self._file:
             now = time.time()

@@ -29,7 +29,7 @@ def _ask_run_id(uri: str) -> str | None:
 
 
 async def wait(uri: str, say: Callable[[str], None]) -> str:
-    """Wait for a roscore; returns its run id. rosmon never starts one."""
+    """Wait for a roscore at ``uri``; returns its run id. rosmon never starts one. ``say`` is told what is waited for."""
     loop = asyncio.get_running_loop()
     say(f"ROS_MASTER_URI: '{uri}'")
     run_id = await loop.run_in_executor(None, _ask_run_id, uri)
@@ -61,7 +61,10 @@ def _check(results, calls: tuple[str, ...]) -> None:
 
 
 def set_parameters(uri: str, launch_file: LaunchFile) -> None:
-    """Delete what clear_params names, then set the parameters. :raises RosmonError: the master fails."""
+    """Delete what clear_params of ``launch_file`` names, then set its parameters, on the master at ``uri``.
+
+    :raises RosmonError: the master fails.
+    """
     master: Any = xmlrpc.client.ServerProxy(uri)
     try:
         names = [name.rstrip("/") or "/" for name in launch_file.clear_params]

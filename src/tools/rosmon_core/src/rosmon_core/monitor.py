@@ -56,7 +56,7 @@ class Monitor:
         return node.spec.full_name.lstrip("/")
 
     def say(self, text: str, level: str = "info") -> None:
-        """A line of rosmon itself."""
+        """``text``, a line of rosmon itself, of ``level`` debug, info, warn or error."""
         self._log.write(OWN_LABEL, text, level)
         self._show(OWN_LABEL, text, level, None)
 
@@ -84,7 +84,7 @@ class Monitor:
         return [node for node in self.nodes if pattern.fullmatch(node.spec.full_name)]
 
     def act(self, node: NodeProcess, action: str) -> None:
-        """``start``, ``stop``, ``restart``, ``mute`` or ``unmute`` a node."""
+        """Do ``action`` with ``node``: ``start``, ``stop``, ``restart``, ``mute`` or ``unmute``."""
         if action in ("mute", "unmute"):
             node.muted = action == "mute"
         else:

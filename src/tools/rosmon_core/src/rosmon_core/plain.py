@@ -20,6 +20,7 @@ class Plain:
         self._colour = colors.mode() if sys.stdout.isatty() else None
 
     def show(self, label: str, text: str, level: str, index: int | None) -> None:
+        """Print a line: ``text`` of ``level`` by ``label``, node ``index`` (None: rosmon itself)."""
         if self._colour:
             print(format_line(label, text, level, index, self._width, self._count, self._colour), flush=self._flush)
         else:
@@ -32,6 +33,8 @@ class Plain:
 def format_line(label: str, text: str, level: str, index: int | None, width: int, count: int, mode: str, columns: int = 0) -> str:
     """A line with a coloured, right-aligned label of ``width`` columns.
 
+    :param text, level: what is said, and how serious it is. :param index: of ``count`` nodes; None: rosmon itself.
+    :param mode: see :func:`colors.label_escape`.
     :param columns: of the terminal; longer lines go on in the next one behind a ``~``. 0: never.
     """
     start = "\x1b[7m" if index is None else colors.label_escape(index, count, mode)

@@ -16,7 +16,7 @@ _ESCAPES = re.compile(
 
 
 def of_line(line: str, is_stderr: bool) -> str:
-    """``debug``, ``info``, ``warn`` or ``error``; rosconsole writes warnings and errors to standard error."""
+    """``debug``, ``info``, ``warn`` or ``error`` of ``line``; rosconsole writes warnings and errors to standard error (``is_stderr``)."""
     match = _TEXT.match(line)
     if match:
         return _NAMES[match.group(1)]

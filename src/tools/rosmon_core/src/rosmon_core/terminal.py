@@ -88,6 +88,7 @@ class Terminal:
         return self._running
 
     def show(self, label: str, text: str, level: str, index: int | None) -> None:
+        """Show a line with the next ones: ``text`` of ``level`` by ``label``, node ``index`` (None: rosmon itself)."""
         self._lines.append((label, text, level, index))
 
     def flush(self) -> None:

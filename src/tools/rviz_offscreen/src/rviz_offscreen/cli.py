@@ -61,7 +61,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def output_paths(output: str, views: list[View]) -> list[str]:
-    """One path per view: ``output`` itself for one, ``stem-NAME.png`` for several."""
+    """One path for each of ``views``: ``output`` itself for one, ``stem-NAME.png`` for several."""
     output = os.path.abspath(output)
     if len(views) < 2:
         return [output]
@@ -93,7 +93,9 @@ def find_shim() -> str:
 
 @contextlib.contextmanager
 def backend(name: str, size: str) -> Iterator[dict[str, str]]:
-    """Environment variables for RViz's process, while the back-end stands."""
+    """Environment variables for RViz's process, while the back-end ``name``, "xvfb" or "osmesa", stands; ``size``: "WIDTHxHEIGHT"
+    pixels.
+    """
     if name == "xvfb":
         with private_display(f"{size}x24") as variables:
             yield {**variables, "QT_QPA_PLATFORM": "xcb"}
@@ -119,7 +121,11 @@ def take(
 ) -> dict:
     """Take the pictures.
 
-    :param views: [] for the configuration's own view.
+    :param config: RViz's file; "": its default. :param views: [] for the configuration's own view.
+    :param output: the picture's file, see :func:`output_paths`. :param size: "WIDTHxHEIGHT", each 16 to 8192 pixels.
+    :param window: the whole window. :param fixed_frame: in place of the configuration's. :param anti_aliasing: smooth edges, with xvfb.
+    :param timeout: wall s until every display is drawn. :param grace: s for which topics without publishers are waited for.
+    :param watch: as the option of ``screenshot``, s. :param backend_name: see :func:`backend`.
     :returns: ``pictures`` (paths), ``not_ok`` (display -> what it says, of those not drawn in time), ``unpublished``
         (display -> its topics, of those that nobody publishes), ``seconds`` to the first picture.
     :raises ScreenshotError: no picture.
@@ -163,7 +169,11 @@ def take(
 
 
 def run_grabber(job: dict, environment: dict[str, str], limit: float) -> dict:
-    """Run :mod:`.grab` in a process of its own, so that a crash of RViz or OpenGL is only an exit code here."""
+    """Run :mod:`.grab` with ``job`` in a process of its own, so that a crash of RViz or OpenGL is only an exit code here.
+
+    :param environment: all of it. :param limit: wall s for all of it
+    :raises ScreenshotError: it did not end well
+    """
     reading, writing = os.pipe()
 
     def prepare() -> None:
@@ -241,7 +251,7 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def missing_lines(result: dict, timeout: float) -> list[str]:
-    """What the pictures of :func:`take` lack; none if all displays drew something."""
+    """What the pictures of :func:`take`, which gave ``result``, lack after ``timeout`` s; none if all displays drew something."""
     lines = [
         f"nobody publishes {topics} of display '{name}'" if topics else f"display '{name}' has no topic set"
         for name, topics in sorted(result["unpublished"].items())

@@ -113,7 +113,7 @@ def published_topics() -> frozenset:
 
 
 def nobody_publishes(state: State, published: frozenset) -> bool:
-    """True if no topic of the display has a publisher. An image may be sent compressed only: a topic below its name.
+    """True if no topic of the display in ``state`` is among ``published``. An image may be sent compressed only: a topic below its name.
 
     What RViz itself (1.14.25, Debian 13) publishes below an image's name, the clicks on it, is no image.
     """

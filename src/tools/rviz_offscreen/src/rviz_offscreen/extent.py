@@ -93,7 +93,7 @@ def corners(manager) -> np.ndarray:
 
 
 def fitting_view(points: np.ndarray, yaw: float, pitch: float, aspect: float) -> dict[str, float]:
-    """Distance and focal point of the orbit view that has all ``points`` (N,3) in its frame.
+    """Distance and focal point of the orbit view that has all ``points`` (N,3) in its frame, seen from ``yaw`` and ``pitch``, rad.
 
     :param aspect: width / height of the picture
     """

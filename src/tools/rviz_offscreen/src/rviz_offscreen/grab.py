@@ -180,7 +180,7 @@ def window_of(panel: QWidget) -> int:
 
 
 def write_frame_buffer(window: int, path: str) -> None:
-    """Ogre::RenderTarget::writeContentsToFile."""
+    """Ogre::RenderTarget::writeContentsToFile of ``window``, the target's address, to ``path``."""
     ogre = loaded_library("libOgreMain.so")
     write = ogre._ZN4Ogre12RenderTarget19writeContentsToFileERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE
     write.restype = None

@@ -424,7 +424,7 @@ def _compiled(expression: str) -> CodeType:
 
 
 def safe_eval(expression: str, symbols: dict[str, Any], local: Any = None) -> Any:
-    """Takes the place of ``xacro.safe_eval``.
+    """Takes the place of ``xacro.safe_eval``: the value of ``expression`` with the names ``symbols``, and ``local`` before them.
 
     :raises ValueError: a name that begins with two underscores, or a result beyond all reason; and whatever Python has to say.
     """

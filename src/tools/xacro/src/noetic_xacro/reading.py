@@ -187,6 +187,7 @@ def _eval_extension(text: str) -> str:
 
 
 def shortened(text: str, most: int = 300) -> str:
+    """``text``, its middle left out where it is longer than ``most`` characters."""
     return text if len(text) <= most else f"{text[: most - most // 3]} ... {text[-(most // 3) :]}"
 
 

@@ -11,7 +11,7 @@ SHARP = np.cos(np.radians(35))  # neighbouring faces that differ by less share a
 
 
 def save_stl(path, parts, scale=1.0):
-    """Writes the solids `parts` as one binary STL, lengths times `scale`."""
+    """Writes the solids `parts` to `path` as one binary STL, lengths times `scale`."""
     mesh = trimesh.util.concatenate(parts)
     mesh.apply_scale(scale)
     mesh.export(path)
@@ -32,7 +32,7 @@ def corner_normals(mesh):
 
 
 def save_dae(path, coloured, scale=1.0):
-    """Writes a COLLADA file in metres, z up.
+    """Writes a COLLADA file in metres, z up, to `path`.
 
     :param coloured: dict of (red, green, blue) in 0..1 to a list of solids.
     :param scale: metres per unit of the drawing.

@@ -26,13 +26,16 @@ def box(low, high):
 
 
 def rod(axis, radius, start, end, centre=(0, 0, 0), sections=32):
-    """A cylinder along `axis` from coordinate `start` to `end`; `centre` (3,) gives the other two coordinates."""
+    """A cylinder of `radius` along `axis` from coordinate `start` to `end`; `centre` (3,) gives the other two coordinates.
+
+    :param sections: of the circle.
+    """
     mesh = trimesh.creation.cylinder(radius, end - start, sections=sections)
     return _along(mesh, axis, _middle(axis, start, end, centre))
 
 
 def ring(axis, inner, outer, start, end, centre=(0, 0, 0), sections=32):
-    """A hollow cylinder; the other arguments as for `rod`."""
+    """A hollow cylinder from radius `inner` to `outer`; `axis`, `start`, `end`, `centre`, `sections` as for `rod`."""
     mesh = trimesh.creation.annulus(inner, outer, end - start, sections=sections)
     return _along(mesh, axis, _middle(axis, start, end, centre))
 
@@ -42,6 +45,7 @@ def turned(axis, profile, centre=(0, 0, 0), sections=32):
 
     :param profile: (N, 2) points (coordinate along `axis`, radius), along the axis; both ends are closed.
     :param centre: (3,) origin of the profile.
+    :param sections: of the circle.
     """
     outline = [(radius, along) for along, radius in profile]
     outline = [(0, profile[0][0]), *outline, (0, profile[-1][0])]
