@@ -125,10 +125,9 @@ def take(
     :param output: the picture's file, see :func:`output_paths`. :param size: "WIDTHxHEIGHT", each 16 to 8192 pixels.
     :param window: the whole window. :param fixed_frame: in place of the configuration's. :param anti_aliasing: smooth edges, with xvfb.
     :param timeout: wall s until every display is drawn. :param grace: s for which topics without publishers are waited for.
-    :param watch: as the option of ``screenshot``, s. :param backend_name: see :func:`backend`.
-    :returns: ``pictures`` (paths), ``not_ok`` (display -> what it says, of those not drawn in time), ``unpublished``
-        (display -> its topics, of those that nobody publishes), ``seconds`` to the first picture.
-    :raises ScreenshotError: no picture.
+    :param watch: s to go on after all is drawn: trails grow. :param backend_name: see :func:`backend`.
+    :returns: ``pictures`` (paths), ``not_ok`` (display -> what it says, of those not drawn in time), ``unpublished`` (display -> its
+        topics, of those that nobody publishes), ``seconds`` to the first picture. :raises ScreenshotError: no picture.
     """
     views = views or [View("")]
     config = os.path.abspath(config) if config else os.path.join(rospkg.RosPack().get_path("rviz"), "default.rviz")
