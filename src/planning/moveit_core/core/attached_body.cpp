@@ -2,7 +2,6 @@
 
 #include <geometric_shapes/shapes.h>
 
-#include "frames.hpp"
 #include "motion/robot_state.hpp"
 #include "shapes.hpp"
 
@@ -10,6 +9,11 @@ namespace moveit
 {
 namespace core
 {
+namespace
+{
+const Eigen::Isometry3d IDENTITY = Eigen::Isometry3d::Identity();
+}
+
 AttachedBody::AttachedBody(const LinkModel* parent, const std::string& id, const Eigen::Isometry3d& pose,
                            const std::vector<shapes::ShapeConstPtr>& shapes, const EigenSTL::vector_Isometry3d& shape_poses,
                            const std::set<std::string>& touch_links, const trajectory_msgs::JointTrajectory& detach_posture,
@@ -60,7 +64,7 @@ void AttachedBody::makeCore()
   for (const shapes::ShapeConstPtr& shape : shapes_)
     core->shapes.push_back(fromShape(shape));
   core->shape_poses.assign(shape_poses_.begin(), shape_poses_.end());
-  core->shape_poses.resize(core->shapes.size(), frames::IDENTITY);
+  core->shape_poses.resize(core->shapes.size(), IDENTITY);
   core->subframes.insert(subframe_poses_.begin(), subframe_poses_.end());
   core->touch_links = touch_links_;
   core->posture = detach_posture_;
@@ -124,7 +128,7 @@ void AttachedBody::place(const Eigen::Isometry3d& link) const
 
 void AttachedBody::refresh() const
 {
-  const Eigen::Isometry3d& link = owner_ ? owner_->linkPose(parent_link_model_->getLinkIndex()) : frames::IDENTITY;
+  const Eigen::Isometry3d& link = owner_ ? owner_->linkPose(parent_link_model_->getLinkIndex()) : IDENTITY;
   if (!placed_ || (owner_ && link.matrix() != link_pose_.matrix()))
     place(link);
 }
@@ -155,7 +159,7 @@ const Eigen::Isometry3d& subframe(const FixedTransformsMap& frames, const std::s
   auto at = frames.find(name.compare(0, prefix.size(), prefix) == 0 ? name.substr(prefix.size()) : name);
   if (found)
     *found = at != frames.end();
-  return at == frames.end() ? frames::IDENTITY : at->second;
+  return at == frames.end() ? IDENTITY : at->second;
 }
 }  // namespace
 

@@ -3,11 +3,15 @@
 #include <moveit/robot_model/joint_model_group.h>
 #include <moveit/robot_model/robot_model.h>
 
-#include "frames.hpp"
-#include "log_names.hpp"
-
 namespace kinematics
 {
+namespace
+{
+constexpr char LOGNAME[] = "kinematics_base";
+
+std::string withoutSlash(const std::string& frame) { return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame; }
+}  // namespace
+
 namespace detail
 {
 namespace
@@ -55,10 +59,10 @@ void KinematicsBase::setValues(const std::string& robot_description, const std::
 {
   robot_description_ = robot_description;
   group_name_ = group_name;
-  base_frame_ = frames::withoutSlash(base_frame);
+  base_frame_ = withoutSlash(base_frame);
   tip_frames_.clear();
   for (const std::string& name : tip_frames)
-    tip_frames_.push_back(frames::withoutSlash(name));
+    tip_frames_.push_back(withoutSlash(name));
   if (tip_frames_.size() == 1)
     tip_frame_ = tip_frames_[0];
   search_discretization_ = search_discretization;
@@ -75,7 +79,7 @@ bool KinematicsBase::initialize(const moveit::core::RobotModel& /*robot_model*/,
                                 const std::string& /*base_frame*/, const std::vector<std::string>& /*tip_frames*/,
                                 double /*search_discretization*/)
 {
-  ROS_WARN_NAMED(log_names::KINEMATICS_BASE,
+  ROS_WARN_NAMED(LOGNAME,
                  "The IK plugin for group '%s' relies on deprecated API. Please implement initialize(RobotModel, ...).",
                  group_name.c_str());
   return false;
@@ -87,7 +91,7 @@ bool KinematicsBase::initialize(const std::string& robot_description, const std:
 {
   if (tip_frames.size() == 1)
     return initialize(robot_description, group_name, base_frame, tip_frames[0], search_discretization);
-  ROS_ERROR_NAMED(log_names::KINEMATICS_BASE, "This solver does not support multiple tip frames");
+  ROS_ERROR_NAMED(LOGNAME, "This solver does not support multiple tip frames");
   return false;
 }
 
@@ -101,7 +105,7 @@ bool KinematicsBase::initialize(const std::string& /*robot_description*/, const 
 const std::string& KinematicsBase::getTipFrame() const
 {
   if (tip_frames_.size() > 1)
-    ROS_ERROR_NAMED(log_names::KINEMATICS_BASE, "This kinematic solver has more than one tip frame, do not call getTipFrame()");
+    ROS_ERROR_NAMED(LOGNAME, "This kinematic solver has more than one tip frame, do not call getTipFrame()");
   return tip_frames_.at(0);
 }
 
@@ -168,7 +172,7 @@ bool KinematicsBase::getPositionIK(const std::vector<geometry_msgs::Pose>& ik_po
   }
   if (ik_poses.size() != 1)
   {
-    ROS_ERROR_NAMED(log_names::KINEMATICS_BASE, "This kinematic solver does not support getPositionIK for multiple poses");
+    ROS_ERROR_NAMED(LOGNAME, "This kinematic solver does not support getPositionIK for multiple poses");
     result.kinematic_error = ik_poses.empty() ? KinematicErrors::EMPTY_TIP_POSES : KinematicErrors::MULTIPLE_TIPS_NOT_SUPPORTED;
     return false;
   }
@@ -194,7 +198,7 @@ bool KinematicsBase::searchPositionIK(const std::vector<geometry_msgs::Pose>& ik
 {
   if (ik_poses.size() != 1)
   {
-    ROS_ERROR_NAMED(log_names::KINEMATICS_BASE, "This kinematic solver does not support searchPositionIK with multiple poses");
+    ROS_ERROR_NAMED(LOGNAME, "This kinematic solver does not support searchPositionIK with multiple poses");
     return false;
   }
   if (solution_callback)

@@ -5,8 +5,6 @@
 
 #include <moveit/robot_state/robot_state.h>
 
-#include "frames.hpp"
-#include "log_names.hpp"
 #include "motion/robot_state.hpp"
 
 namespace moveit
@@ -15,6 +13,10 @@ namespace core
 {
 namespace
 {
+constexpr char LOGNAME[] = "robot_state";
+
+std::string withoutSlash(const std::string& frame) { return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame; }
+
 Eigen::Isometry3d fromMessage(const geometry_msgs::Pose& pose)
 {
   Eigen::Isometry3d out;
@@ -42,7 +44,7 @@ bool RobotState::setFromIK(const JointModelGroup* group, const Eigen::Isometry3d
   const kinematics::KinematicsBaseConstPtr& solver = group->getSolverInstance();
   if (!solver)
   {
-    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "No kinematics solver instantiated for group '%s'. Is kinematics.yaml loaded?",
+    ROS_ERROR_NAMED(LOGNAME, "No kinematics solver instantiated for group '%s'. Is kinematics.yaml loaded?",
                     group->getName().c_str());
     return false;
   }
@@ -83,7 +85,7 @@ bool RobotState::setToIKSolverFrame(Eigen::Isometry3d& pose, const std::string& 
   const Eigen::Isometry3d base = getFrameTransform(ik_frame, &known);
   if (!known)
   {
-    ROS_ERROR_STREAM_NAMED(log_names::ROBOT_STATE, "The following IK frame does not exist: " << ik_frame);
+    ROS_ERROR_STREAM_NAMED(LOGNAME, "The following IK frame does not exist: " << ik_frame);
     return false;
   }
   pose = base.inverse() * pose;
@@ -94,12 +96,12 @@ bool RobotState::setToIKSolverFrame(Eigen::Isometry3d& pose, const std::string& 
 bool RobotState::queryFor(Eigen::Isometry3d pose, std::string tip, const kinematics::KinematicsBaseConstPtr& solver,
                           std::size_t& which, geometry_msgs::Pose& query)
 {
-  tip = frames::withoutSlash(tip);
+  tip = withoutSlash(tip);
   if (!setToIKSolverFrame(pose, solver))
     return false;
   const std::vector<std::string>& own = solver->getTipFrames();
   for (which = 0; which < own.size(); ++which)
-    if (frames::withoutSlash(own[which]) == tip)
+    if (withoutSlash(own[which]) == tip)
     {
       query = tf2::toMsg(pose);
       return true;
@@ -114,7 +116,7 @@ bool RobotState::queryFor(Eigen::Isometry3d pose, std::string tip, const kinemat
     query = tf2::toMsg(Eigen::Isometry3d(pose * in_parent.inverse() * own_in_parent));
     return true;
   }
-  ROS_ERROR_NAMED(log_names::ROBOT_STATE, "Cannot compute IK for query pose reference frame '%s': the solver of group '%s' moves '%s'",
+  ROS_ERROR_NAMED(LOGNAME, "Cannot compute IK for query pose reference frame '%s': the solver of group '%s' moves '%s'",
                   tip.c_str(), solver->getGroupName().c_str(), own.empty() ? "" : own[0].c_str());
   return false;
 }
@@ -160,7 +162,7 @@ bool RobotState::setFromIK(const JointModelGroup* group, const EigenSTL::vector_
 {
   if (poses.size() != tips.size() || poses.empty())
   {
-    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "Number of poses must be the same as number of tips");
+    ROS_ERROR_NAMED(LOGNAME, "Number of poses must be the same as number of tips");
     return false;
   }
   const JointModelGroup::KinematicsSolver& own = group->getGroupKinematics().first;
@@ -168,7 +170,7 @@ bool RobotState::setFromIK(const JointModelGroup* group, const EigenSTL::vector_
   {
     if (poses.size() > 1 || !group->getGroupKinematics().second.empty())
       return setFromIKSubgroups(group, poses, tips, consistency_limits, timeout, constraint, options);
-    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "No kinematics solver instantiated for group '%s'. Is kinematics.yaml loaded?",
+    ROS_ERROR_NAMED(LOGNAME, "No kinematics solver instantiated for group '%s'. Is kinematics.yaml loaded?",
                     group->getName().c_str());
     return false;
   }
@@ -176,7 +178,7 @@ bool RobotState::setFromIK(const JointModelGroup* group, const EigenSTL::vector_
   const std::size_t wanted = solver->getTipFrames().size();
   if (poses.size() > wanted)
   {
-    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "%zu poses for the solver of group '%s', which takes %zu", poses.size(), group->getName().c_str(),
+    ROS_ERROR_NAMED(LOGNAME, "%zu poses for the solver of group '%s', which takes %zu", poses.size(), group->getName().c_str(),
                     wanted);
     return false;
   }
@@ -217,7 +219,7 @@ bool RobotState::setFromIKSubgroups(const JointModelGroup* group, const EigenSTL
       parts.emplace_back(sub.first, &sub.second);
   if (parts.size() < poses.size() || parts.empty())
   {
-    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "%zu poses for the %zu subgroups of '%s' that have kinematics solvers", poses.size(), parts.size(),
+    ROS_ERROR_NAMED(LOGNAME, "%zu poses for the %zu subgroups of '%s' that have kinematics solvers", poses.size(), parts.size(),
                     group->getName().c_str());
     return false;
   }
@@ -267,12 +269,12 @@ bool RobotState::getJacobian(const JointModelGroup* group, const LinkModel* link
 {
   if (!group->isChain())
   {
-    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "The group '%s' is not a chain. Cannot compute Jacobian.", group->getName().c_str());
+    ROS_ERROR_NAMED(LOGNAME, "The group '%s' is not a chain. Cannot compute Jacobian.", group->getName().c_str());
     return false;
   }
   if (!group->isLinkUpdated(link->getName()))
   {
-    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "Link name '%s' does not exist in the chain '%s' or is not a child for this chain",
+    ROS_ERROR_NAMED(LOGNAME, "Link name '%s' does not exist in the chain '%s' or is not a child for this chain",
                     link->getName().c_str(), group->getName().c_str());
     return false;
   }
