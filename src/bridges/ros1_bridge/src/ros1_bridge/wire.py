@@ -7,54 +7,54 @@ zero and gives a message without fields one byte. Needs neither ROS.
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from ros1_bridge.errors import MappingError
-from ros1_bridge.types import FORMATS, RULES, SIZES, Field, Types, shared
+from ros1_bridge.types import FORMATS, SIZES, Field, Types, shared
 
 HEADER = b"\x00\x01\x00\x00"
 _LENGTH = struct.Struct("<I")
-Read = Callable[[memoryview, int], tuple[Any, int]]
-Write = Callable[[bytearray, Any], None]
 TIMES = ("time", "duration")  # two numbers of four bytes, the same in both
 
 
 class Codec:
-    """How one kind of value is read and written. A value is whatever the two sides of one codec understand."""
+    """One kind of value as one side writes it. The two codecs of a field, one for each side, understand the same values.
 
-    def read1(self, data: memoryview, at: int) -> tuple[Any, int]:
-        raise NotImplementedError
-
-    def read2(self, data: memoryview, at: int) -> tuple[Any, int]:
-        raise NotImplementedError
-
-    def write1(self, out: bytearray, value: Any) -> None:
-        raise NotImplementedError
-
-    def write2(self, out: bytearray, value: Any) -> None:
-        raise NotImplementedError
+    :param align: a value begins at a multiple of this many bytes; it is 1 in all of ROS 1
+    """
 
     zero: Any = None  # what a field has that the other side does not know
+
+    def __init__(self, align: int) -> None:
+        self.align = align
+
+    def read(self, data: memoryview, at: int) -> tuple[Any, int]:
+        """The value and where it ends."""
+        raise NotImplementedError
+
+    def write(self, out: bytearray, value: Any) -> None:
+        raise NotImplementedError
+
+    def pad(self, out: bytearray) -> None:
+        gap = (4 - len(out)) % self.align  # from the end of the header on
+        if gap:
+            out += bytes(gap)
 
 
 class Flat(Codec):
     """Numbers of one size one after the other: the same bytes in both."""
 
-    def __init__(self, width: int, size: int) -> None:
-        self.width, self.size, self.zero = width, size, bytes(size)
+    def __init__(self, align: int, size: int) -> None:
+        super().__init__(align)
+        self.size, self.zero = size, bytes(size)
 
-    def read1(self, data: memoryview, at: int) -> tuple[Any, int]:
+    def read(self, data: memoryview, at: int) -> tuple[Any, int]:
+        at += -at % self.align
         return data[at : at + self.size], at + self.size
 
-    def read2(self, data: memoryview, at: int) -> tuple[Any, int]:
-        return self.read1(data, at + -at % self.width)
-
-    def write1(self, out: bytearray, value: Any) -> None:
-        out += value
-
-    def write2(self, out: bytearray, value: Any) -> None:
-        align(out, self.width)
+    def write(self, out: bytearray, value: Any) -> None:
+        self.pad(out)
         out += value
 
 
@@ -63,159 +63,107 @@ class Converted(Codec):
 
     zero = 0
 
-    def __init__(self, one: str, two: str) -> None:
-        self._one, self._two, self._whole = struct.Struct("<" + FORMATS[one]), struct.Struct("<" + FORMATS[two]), (_whole(one), _whole(two))
+    def __init__(self, align: int, kind: str) -> None:
+        super().__init__(align)
+        self._form, self._whole = struct.Struct("<" + FORMATS[kind]), not kind.startswith("float")
 
-    def read1(self, data: memoryview, at: int) -> tuple[Any, int]:
-        return self._one.unpack_from(data, at)[0], at + self._one.size
+    def read(self, data: memoryview, at: int) -> tuple[Any, int]:
+        at += -at % self.align
+        return self._form.unpack_from(data, at)[0], at + self._form.size
 
-    def read2(self, data: memoryview, at: int) -> tuple[Any, int]:
-        at += -at % self._two.size
-        return self._two.unpack_from(data, at)[0], at + self._two.size
-
-    def write1(self, out: bytearray, value: Any) -> None:
-        out += self._one.pack(int(value) if self._whole[0] else value)
-
-    def write2(self, out: bytearray, value: Any) -> None:
-        align(out, self._two.size)
-        out += self._two.pack(int(value) if self._whole[1] else value)
+    def write(self, out: bytearray, value: Any) -> None:
+        self.pad(out)
+        out += self._form.pack(int(value) if self._whole else value)
 
 
 class Text(Codec):
+    """:param end: what stands behind the letters, and counts as one: a zero in ROS 2, where a text may have a bound, too"""
+
     zero = b""
 
-    def __init__(self, bound: int | None) -> None:
-        self._bound = bound
+    def __init__(self, align: int, end: bytes, bound: int | None) -> None:
+        super().__init__(align)
+        self._end, self._bound = end, bound
 
-    def read1(self, data: memoryview, at: int) -> tuple[Any, int]:
-        (length,) = _LENGTH.unpack_from(data, at)
-        return bytes(data[at + 4 : at + 4 + length]), at + 4 + length
+    def read(self, data: memoryview, at: int) -> tuple[Any, int]:
+        at += 4 + -at % self.align
+        (length,) = _LENGTH.unpack_from(data, at - 4)
+        return bytes(data[at : at + max(length - len(self._end), 0)]), at + length
 
-    def read2(self, data: memoryview, at: int) -> tuple[Any, int]:
-        value, at = self.read1(data, at + -at % 4)
-        return value[:-1], at
-
-    def write1(self, out: bytearray, value: Any) -> None:
-        out += _LENGTH.pack(len(value))
-        out += value
-
-    def write2(self, out: bytearray, value: Any) -> None:
-        if not value.isascii():  # ROS 1 takes any bytes; a node of ROS 2 in Python ends at what is no UTF-8
+    def write(self, out: bytearray, value: Any) -> None:
+        if self._end and not value.isascii():  # ROS 1 takes any bytes; a node of ROS 2 in Python ends at what is no UTF-8
             value = value.decode("utf-8", "replace").encode()
         if self._bound is not None and len(value) > self._bound:
             raise MappingError(f"a text of {len(value)} bytes where ROS 2 takes {self._bound}")
-        align(out, 4)
-        out += _LENGTH.pack(len(value) + 1)
+        self.pad(out)
+        out += _LENGTH.pack(len(value) + len(self._end))
         out += value
-        out.append(0)
+        out += self._end
 
 
 class Array(Codec):
-    """Sequences, and arrays of a fixed length, of one codec. A value is a list, or the bytes of flat elements."""
+    """Sequences, and arrays of a fixed length, of one codec. A value is a list, or the bytes of flat elements.
 
-    def __init__(self, element: Codec, one: int, two: int, bound: int | None) -> None:
-        self._element, self._one, self._two, self._bound = element, one, two, bound
-        self.zero = element.zero * two if isinstance(element, Flat) else [element.zero] * two
+    :param fixed: how many there are; 0: as many as a number before them says
+    """
 
-    def _read(self, data: memoryview, at: int, count: int, read: Read) -> tuple[Any, int]:
-        if isinstance(self._element, Flat):
-            if not count:
-                return b"", at
-            first, start = read(data, at)
-            at = start - self._element.size
-            end = at + count * self._element.size
+    def __init__(self, align: int, element: Codec, fixed: int, bound: int | None) -> None:
+        super().__init__(align)
+        self._element, self._fixed, self._bound = element, fixed, bound
+        self.zero = element.zero * fixed if isinstance(element, Flat) else [element.zero] * fixed
+
+    def read(self, data: memoryview, at: int) -> tuple[Any, int]:
+        count, element = self._fixed, self._element
+        if not count:
+            at += 4 + -at % self.align
+            (count,) = _LENGTH.unpack_from(data, at - 4)
+        if isinstance(element, Flat):
+            if count:  # without elements there is no gap before them
+                at += -at % element.align
+            end = at + count * element.size
             return data[at:end], end
         values = []
         for _ in range(count):
             if at > len(data):
                 raise MappingError("it ends within a list")
-            value, at = read(data, at)
+            value, at = element.read(data, at)
             values.append(value)
         return values, at
 
-    def read1(self, data: memoryview, at: int) -> tuple[Any, int]:
-        count = self._one
-        if not count:
-            (count,) = _LENGTH.unpack_from(data, at)
-            at += 4
-        return self._read(data, at, count, self._element.read1)
-
-    def read2(self, data: memoryview, at: int) -> tuple[Any, int]:
-        count = self._two
-        if not count:
-            at += -at % 4
-            (count,) = _LENGTH.unpack_from(data, at)
-            at += 4
-        return self._read(data, at, count, self._element.read2)
-
-    def _count(self, value: Any, fixed: int) -> int:
+    def write(self, out: bytearray, value: Any) -> None:
+        flat = isinstance(self._element, Flat)
         count = len(value) // self._element.size if isinstance(self._element, Flat) else len(value)
-        if fixed and count != fixed:
-            raise MappingError(f"a list of {count} where the other side takes {fixed}")
-        return count
-
-    def write1(self, out: bytearray, value: Any) -> None:
-        count = self._count(value, self._one)
-        if not self._one:
-            out += _LENGTH.pack(count)
-        if isinstance(self._element, Flat):
-            out += value
-        else:
-            for one in value:
-                self._element.write1(out, one)
-
-    def write2(self, out: bytearray, value: Any) -> None:
-        count = self._count(value, self._two)
+        if self._fixed and count != self._fixed:
+            raise MappingError(f"a list of {count} where the other side takes {self._fixed}")
         if self._bound is not None and count > self._bound:
             raise MappingError(f"a list of {count} where ROS 2 takes {self._bound}")
-        if not self._two:
-            align(out, 4)
+        if not self._fixed:
+            self.pad(out)
             out += _LENGTH.pack(count)
-        if isinstance(self._element, Flat):
-            if count:
-                self._element.write2(out, value)
-        else:
-            for one in value:
-                self._element.write2(out, one)
+        for one in ([value] if count else []) if flat else value:
+            self._element.write(out, one)
 
 
 class Struct(Codec):
-    """A message. Values are by ROS 1's name of the field; a side's own fields are passed over and written as zero."""
+    """A message. Values are by ROS 1's name of the field; a side's own fields are passed over and written as zero.
 
-    def __init__(self, one: list[tuple[str | None, Codec]], two: list[tuple[str | None, Codec]]) -> None:
-        self._one, self._two, self.zero = one, two, {}
+    :param filler: bytes of a message without fields
+    """
 
-    def read1(self, data: memoryview, at: int) -> tuple[Any, int]:
+    def __init__(self, fields: list[tuple[str, Codec]], filler: int) -> None:
+        super().__init__(1)
+        self._fields, self._filler, self.zero = fields, bytes(0 if fields else filler), {}
+
+    def read(self, data: memoryview, at: int) -> tuple[Any, int]:
         values = {}
-        for name, codec in self._one:
-            values[name], at = codec.read1(data, at)
-        return values, at
+        for name, codec in self._fields:
+            values[name], at = codec.read(data, at)
+        return values, at + len(self._filler)
 
-    def read2(self, data: memoryview, at: int) -> tuple[Any, int]:
-        values = {}
-        for name, codec in self._two:
-            values[name], at = codec.read2(data, at)
-        return values, at if self._two else at + 1
-
-    def write1(self, out: bytearray, value: Any) -> None:
-        for name, codec in self._one:
-            codec.write1(out, value[name] if name is not None and name in value else codec.zero)
-
-    def write2(self, out: bytearray, value: Any) -> None:
-        for name, codec in self._two:
-            codec.write2(out, value[name] if name is not None and name in value else codec.zero)
-        if not self._two:
-            out.append(0)
-
-
-def align(out: bytearray, width: int) -> None:
-    gap = (4 - len(out)) % width  # from the end of the header on
-    if gap:
-        out += bytes(gap)
-
-
-def _whole(kind: str) -> bool:
-    return not kind.startswith("float")
+    def write(self, out: bytearray, value: Any) -> None:
+        for name, codec in self._fields:
+            codec.write(out, value[name] if name in value else codec.zero)
+        out += self._filler
 
 
 class Pair:
@@ -227,13 +175,13 @@ class Pair:
 
     def __init__(self, type_of_ros1: str, one: Types, type_of_ros2: str, two: Types) -> None:
         self.ros1, self.ros2, self._types = type_of_ros1, type_of_ros2, (one, two)
-        self._made: dict[tuple[str, str], Codec] = {}
-        self._codec = self._message(type_of_ros1, type_of_ros2)
+        self._made: dict[tuple[str, str], tuple[Codec, Codec]] = {}
+        self._one, self._two = self._message(type_of_ros1, type_of_ros2)
 
     def to_ros2(self, data: bytes | memoryview) -> bytearray:
         """:raises MappingError: these bytes are no such message"""
         out = bytearray(HEADER)
-        self._codec.write2(out, self._read(self._codec.read1, memoryview(data), False))
+        self._two.write(out, self._read(self._one, memoryview(data), self.ros1, False))
         return out
 
     def to_ros1(self, data: bytes | memoryview) -> bytearray:
@@ -241,17 +189,17 @@ class Pair:
         if bytes(data[:2]) != HEADER[:2]:
             raise MappingError(f"{self.ros2}: bytes of encoding {bytes(data[:2]).hex()}, and only CDR of little endian (0001) is known")
         out = bytearray()
-        self._codec.write1(out, self._read(self._codec.read2, memoryview(data)[4:], True))
+        self._one.write(out, self._read(self._two, memoryview(data)[4:], self.ros2, True))
         return out
 
-    def _read(self, read: Read, data: memoryview, padded: bool) -> Any:
+    def _read(self, codec: Codec, data: memoryview, kind: str, padded: bool) -> Any:
         """``padded``: bytes may follow; ROS 2's serializer leaves room that it has reckoned with."""
         try:
-            value, end = read(data, 0)
+            value, end = codec.read(data, 0)
         except struct.error:
             end = len(data) + 1
         if end > len(data) or end < len(data) and not padded:
-            raise MappingError(f"{len(data)} bytes are no {self.ros2 if padded else self.ros1}")
+            raise MappingError(f"{len(data)} bytes are no {kind}")
         return value
 
     def _fields(self, side: int, kind: str) -> tuple[Field, ...]:
@@ -259,111 +207,82 @@ class Pair:
             raise MappingError(f"ROS {side + 1} has no {kind} here")
         return self._types[side][kind]
 
-    def _message(self, one: str, two: str) -> Codec:
-        key = (one, two)
-        if key not in self._made:
+    def _message(self, one: str, two: str) -> tuple[Codec, Codec]:
+        if (one, two) not in self._made:
+            first, second = self._leaves(0, one), self._leaves(1, two)
             if two in ("builtin_interfaces/Time", "builtin_interfaces/Duration"):
-                self._made[key] = Flat(4, 8)
+                self._made[one, two] = Flat(1, 8), Flat(4, 8)
+            elif first and first == second and len({SIZES[kind] for _, kind in first}) == 1:
+                width = SIZES[first[0][1]]
+                self._made[one, two] = Flat(1, width * len(first)), Flat(width, width * len(first))
             else:
-                flat = self._flat(one, two)
-                self._made[key] = flat or self._structure(one, two)
-        return self._made[key]
+                self._made[one, two] = self._structure(one, two)
+        return self._made[one, two]
 
-    def _flat(self, one: str, two: str) -> Flat | None:
-        first, second = self._leaves(0, one), self._leaves(1, two)
-        if first and first == second and len({width for _, width in first}) == 1:
-            return Flat(first[0][1], sum(width for _, width in first))
-        return None
-
-    def _leaves(self, side: int, kind: str) -> list[tuple[str, int]]:
-        """Numbers of which a message consists, by name and size, [] where it has others."""
-        found: list[tuple[str, int]] = []
+    def _leaves(self, side: int, kind: str) -> list[tuple[str, str]]:
+        """Numbers of which a message consists, by name and type, [] where it has others."""
+        found: list[tuple[str, str]] = []
         for field in self._fields(side, kind):
-            if field.kind in SIZES:
-                part = [(f"{field.name.lower()} {FORMATS[field.kind].replace('b', 'B')}", SIZES[field.kind])]
-            elif field.kind in TIMES or field.many == 0 or "/" not in field.kind:
-                return []
-            else:
-                part = [(f"{field.name.lower()}.{name}", width) for name, width in self._leaves(side, field.kind)]
+            part = [("", _alike(field.kind))] if field.kind in SIZES else self._leaves(side, field.kind) if "/" in field.kind else []
             if field.many == 0 or not part:
                 return []
-            found += part * (field.many or 1)
+            found += [(f"{field.name.lower()}.{name}", inner) for name, inner in part] * (field.many or 1)
         return found
 
-    def _structure(self, one: str, two: str) -> Struct:
+    def _structure(self, one: str, two: str) -> tuple[Codec, Codec]:
         first, second = self._fields(0, one), self._fields(1, two)
         names = shared(one, first, second)
         if names is None:
             raise MappingError(f"{one} of ROS 1 and {two} of ROS 2 have different fields")
+        # A rule may take a field of a field: in ROS 1's bytes, which have no gaps, the inner ones stand as if they were the outer's.
+        opened = {name.partition(".")[0] for name in names.values() if "." in name}
+        first = tuple(
+            part
+            for field in first
+            for part in (
+                [replace(f, name=f"{field.name}.{f.name}") for f in self._fields(0, field.kind)] if field.name in opened else [field]
+            )
+        )
         of_one = {field.name: field for field in first}
-        codecs = {}
-        for field in second:
-            name = names.get(field.name)
-            if name is not None and "." not in name:
-                codecs[field.name] = self._field(of_one[name], field)
-        if one in RULES and RULES[one][1]:
-            return self._ruled(first, second, codecs)
-        back = {name: codecs[two_name] for two_name, name in names.items()}
-        return Struct(
-            [(f.name, back[f.name]) if f.name in back else (None, self._alone(0, f)) for f in first],
-            [(names[f.name], codecs[f.name]) if f.name in names else (None, self._alone(1, f)) for f in second],
+        codecs = {names[field.name]: self._field(of_one[names[field.name]], field) for field in second if field.name in names}
+        return (
+            Struct([(f.name, codecs[f.name][0] if f.name in codecs else self._alone(0, f)) for f in first], 0),
+            Struct(
+                [(names[f.name], codecs[names[f.name]][1]) if f.name in names else (" " + f.name, self._alone(1, f)) for f in second], 1
+            ),
         )
 
-    def _ruled(self, first: tuple[Field, ...], second: tuple[Field, ...], codecs: dict[str, Codec]) -> Struct:
-        """rosgraph_msgs/Log: ROS 2 has the header's stamp alone."""
-        stamp = Flat(4, 8)
-        header = _Stamp(stamp, Text(None))
-        return Struct(
-            [(f.name, header if f.name == "header" else codecs.get(f.name) or self._alone(0, f)) for f in first],
-            [("header", stamp) if f.name == "stamp" else (f.name, codecs[f.name]) for f in second],
-        )
-
-    def _field(self, one: Field, two: Field) -> Codec:
+    def _field(self, one: Field, two: Field) -> tuple[Codec, Codec]:
         if (one.many is None) != (two.many is None):
             raise MappingError(f"{one.name}: a list on one side alone")
+        if "/" in one.kind and "/" in two.kind:
+            first, second = self._message(one.kind, two.kind)
+            return _listed(0, one, first), _listed(1, two, second)
         if one.kind in SIZES and two.kind in SIZES:
-            element: Codec = Flat(SIZES[one.kind], SIZES[one.kind]) if _alike(one.kind, two.kind) else Converted(one.kind, two.kind)
-        elif one.kind in TIMES and one.kind == two.kind:
-            element = Flat(4, 8)
-        elif one.kind == two.kind == "string":
-            element = Text(two.bound if two.many is None else None)
-        elif "/" in one.kind and "/" in two.kind:
-            element = self._message(one.kind, two.kind)
-        else:
+            if _alike(one.kind) != _alike(two.kind):
+                return _listed(0, one, Converted(1, one.kind)), _listed(1, two, Converted(SIZES[two.kind], two.kind))
+        elif one.kind != two.kind:
             raise MappingError(f"{one.name}: {one.kind} in ROS 1, {two.kind} in ROS 2")
-        return element if one.many is None else Array(element, one.many, two.many or 0, two.bound)
+        return self._alone(0, one), self._alone(1, two)
 
     def _alone(self, side: int, field: Field) -> Codec:
-        """A field that only this side has."""
-        if field.kind in SIZES:
-            element: Codec = Flat(SIZES[field.kind], SIZES[field.kind])
-        elif field.kind in TIMES:
-            element = Flat(4, 8)
+        """A field of this side, whatever the other has."""
+        if field.kind in SIZES or field.kind in TIMES:
+            width = SIZES.get(field.kind, 4)
+            element: Codec = Flat(width if side else 1, 8 if field.kind in TIMES else width)
         elif field.kind == "string":
-            element = Text(None)
+            element = Text(4, b"\0", field.bound if field.many is None else None) if side else Text(1, b"", None)
         elif "/" in field.kind:
-            parts: list[tuple[str | None, Codec]] = [(None, self._alone(side, inner)) for inner in self._fields(side, field.kind)]
-            element = Struct(parts, parts)
+            element = Struct([(" " + inner.name, self._alone(side, inner)) for inner in self._fields(side, field.kind)], side)
         else:
             raise MappingError(f"{field.name} is a {field.kind}, which ROS 1 has not")
-        return element if field.many is None else Array(element, field.many, field.many, None)
+        return _listed(side, field, element)
 
 
-class _Stamp(Codec):
-    """A header of ROS 1 of which only the stamp counts."""
-
-    def __init__(self, stamp: Flat, text: Text) -> None:
-        self._stamp, self._text, self.zero = stamp, text, stamp.zero
-
-    def read1(self, data: memoryview, at: int) -> tuple[Any, int]:
-        stamp, at = self._stamp.read1(data, at + 4)
-        return stamp, self._text.read1(data, at)[1]
-
-    def write1(self, out: bytearray, value: Any) -> None:
-        out += bytes(4)
-        out += value
-        out += bytes(4)
+def _listed(side: int, field: Field, element: Codec) -> Codec:
+    return element if field.many is None else Array(4 if side else 1, element, field.many, field.bound)
 
 
-def _alike(one: str, two: str) -> bool:
-    return FORMATS[one].replace("b", "B") == FORMATS[two].replace("b", "B")
+def _alike(kind: str) -> str:
+    """One name for types of like bytes."""
+    return {"byte": "uint8", "char": "uint8", "int8": "uint8"}.get(kind, kind)
