@@ -48,7 +48,7 @@ void setView(VisibilityConstraint& c, const std::string& axis)
   c.sensor_view = axis[0];
 }
 
-void bindJoint(py::module_& m)
+void bindJointConstraint(py::module_& m)
 {
   py::class_<JointConstraint>(m, "JointConstraint", "A joint within [position - below, position + above], rad or m.")
       .def(py::init([](const std::string& joint, double position, double above, double below, double weight) {
@@ -62,7 +62,7 @@ void bindJoint(py::module_& m)
       .def_readwrite("weight", &JointConstraint::weight);
 }
 
-void bindPosition(py::module_& m)
+void bindPositionConstraint(py::module_& m)
 {
   py::class_<PositionConstraint>(m, "PositionConstraint", "A point of a link inside one of the shapes of a region.")
       .def(py::init([](const std::string& link, const Region& shapes, const Vector3& offset, const std::string& frame,
@@ -84,7 +84,7 @@ void bindPosition(py::module_& m)
       .def_readwrite("weight", &PositionConstraint::weight);
 }
 
-void bindOrientation(py::module_& m)
+void bindOrientationConstraint(py::module_& m)
 {
   py::class_<OrientationConstraint>(m, "OrientationConstraint", "A link turned as wanted, within (3,) tolerances in rad.")
       .def(py::init([](const std::string& link, const Array& q, const Vector3& tolerance, const std::string& parameterization,
@@ -112,7 +112,7 @@ void bindOrientation(py::module_& m)
       .def_readwrite("weight", &OrientationConstraint::weight);
 }
 
-void bindVisibility(py::module_& m)
+void bindVisibilityConstraint(py::module_& m)
 {
   using C = VisibilityConstraint;
   py::class_<C>(m, "VisibilityConstraint", "The robot keeps out of the cone from a sensor to a disc.")
@@ -145,10 +145,10 @@ void bindVisibility(py::module_& m)
 
 void bindConstraints(py::module_& m)
 {
-  bindJoint(m);
-  bindPosition(m);
-  bindOrientation(m);
-  bindVisibility(m);
+  bindJointConstraint(m);
+  bindPositionConstraint(m);
+  bindOrientationConstraint(m);
+  bindVisibilityConstraint(m);
   py::class_<Constraints>(m, "Constraints", "All of them have to hold.")
       .def(py::init([](std::vector<JointConstraint> joint, std::vector<PositionConstraint> position,
                        std::vector<OrientationConstraint> orientation, std::vector<VisibilityConstraint> visibility,

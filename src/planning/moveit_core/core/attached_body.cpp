@@ -2,6 +2,7 @@
 
 #include <geometric_shapes/shapes.h>
 
+#include "frames.hpp"
 #include "motion/robot_state.hpp"
 #include "shapes.hpp"
 
@@ -9,11 +10,6 @@ namespace moveit
 {
 namespace core
 {
-namespace
-{
-const Eigen::Isometry3d IDENTITY = Eigen::Isometry3d::Identity();
-}
-
 AttachedBody::AttachedBody(const LinkModel* parent, const std::string& id, const Eigen::Isometry3d& pose,
                            const std::vector<shapes::ShapeConstPtr>& shapes, const EigenSTL::vector_Isometry3d& shape_poses,
                            const std::set<std::string>& touch_links, const trajectory_msgs::JointTrajectory& detach_posture,
@@ -64,7 +60,7 @@ void AttachedBody::makeCore()
   for (const shapes::ShapeConstPtr& shape : shapes_)
     core->shapes.push_back(fromShape(shape));
   core->shape_poses.assign(shape_poses_.begin(), shape_poses_.end());
-  core->shape_poses.resize(core->shapes.size(), IDENTITY);
+  core->shape_poses.resize(core->shapes.size(), frames::IDENTITY);
   core->subframes.insert(subframe_poses_.begin(), subframe_poses_.end());
   core->touch_links = touch_links_;
   core->posture = detach_posture_;
@@ -128,7 +124,7 @@ void AttachedBody::place(const Eigen::Isometry3d& link) const
 
 void AttachedBody::refresh() const
 {
-  const Eigen::Isometry3d& link = owner_ ? owner_->linkPose(parent_link_model_->getLinkIndex()) : IDENTITY;
+  const Eigen::Isometry3d& link = owner_ ? owner_->linkPose(parent_link_model_->getLinkIndex()) : frames::IDENTITY;
   if (!placed_ || (owner_ && link.matrix() != link_pose_.matrix()))
     place(link);
 }
@@ -159,7 +155,7 @@ const Eigen::Isometry3d& subframe(const FixedTransformsMap& frames, const std::s
   auto at = frames.find(name.compare(0, prefix.size(), prefix) == 0 ? name.substr(prefix.size()) : name);
   if (found)
     *found = at != frames.end();
-  return at == frames.end() ? IDENTITY : at->second;
+  return at == frames.end() ? frames::IDENTITY : at->second;
 }
 }  // namespace
 

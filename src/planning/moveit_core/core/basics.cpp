@@ -13,6 +13,8 @@
 #include <moveit/utils/moveit_error_code.h>
 #include <moveit/utils/xmlrpc_casts.h>
 
+#include "frames.hpp"
+
 namespace moveit
 {
 ConstructException::ConstructException(const std::string& what_arg) : std::runtime_error(what_arg)
@@ -170,26 +172,19 @@ std::ostream& operator<<(std::ostream& out, const MoveItErrorCode& e) { return o
 
 // ---------------------------------------------------------------- transforms
 
-namespace
-{
-const Eigen::Isometry3d IDENTITY = Eigen::Isometry3d::Identity();
-
-std::string withoutSlash(const std::string& frame) { return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame; }
-}  // namespace
-
-Transforms::Transforms(const std::string& target_frame) : target_frame_(withoutSlash(target_frame))
+Transforms::Transforms(const std::string& target_frame) : target_frame_(frames::withoutSlash(target_frame))
 {
   if (target_frame_.empty())
     ROS_ERROR_NAMED("transforms", "The target frame for MoveIt transforms cannot be empty.");
   else
-    transforms_map_[target_frame_] = IDENTITY;
+    transforms_map_[target_frame_] = frames::IDENTITY;
 }
 
 Transforms::~Transforms() = default;
 
 bool Transforms::sameFrame(const std::string& frame1, const std::string& frame2)
 {
-  return !frame1.empty() && !frame2.empty() && withoutSlash(frame1) == withoutSlash(frame2);
+  return !frame1.empty() && !frame2.empty() && frames::withoutSlash(frame1) == frames::withoutSlash(frame2);
 }
 
 void Transforms::copyTransforms(std::vector<geometry_msgs::TransformStamped>& transforms) const
@@ -209,7 +204,7 @@ void Transforms::setTransform(const Eigen::Isometry3d& t, const std::string& fro
   if (from_frame.empty())
     ROS_ERROR_NAMED("transforms", "Cannot record transform with empty name");
   else
-    transforms_map_[withoutSlash(from_frame)] = t;
+    transforms_map_[frames::withoutSlash(from_frame)] = t;
 }
 
 void Transforms::setTransform(const geometry_msgs::TransformStamped& transform)
@@ -231,7 +226,7 @@ void Transforms::setAllTransforms(const FixedTransformsMap& transforms) { transf
 
 bool Transforms::isFixedFrame(const std::string& frame) const
 {
-  return !frame.empty() && transforms_map_.count(withoutSlash(frame));
+  return !frame.empty() && transforms_map_.count(frames::withoutSlash(frame));
 }
 
 bool Transforms::canTransform(const std::string& from_frame) const { return isFixedFrame(from_frame); }
@@ -260,12 +255,12 @@ void Transforms::transformPose(const std::string& from_frame, const Eigen::Isome
 
 const Eigen::Isometry3d& Transforms::getTransform(const std::string& from_frame) const
 {
-  const auto found = transforms_map_.find(withoutSlash(from_frame));
+  const auto found = transforms_map_.find(frames::withoutSlash(from_frame));
   if (found != transforms_map_.end())
     return found->second;
   ROS_ERROR_NAMED("transforms", "Unable to transform from frame '%s' to frame '%s'. Returning identity.", from_frame.c_str(),
                   target_frame_.c_str());
-  return IDENTITY;
+  return frames::IDENTITY;
 }
 }  // namespace core
 }  // namespace moveit

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "log_names.hpp"
+
 namespace moveit
 {
 namespace core
@@ -14,7 +16,6 @@ namespace
 {
 // Below this number of steps a mean says nothing.
 constexpr std::size_t MIN_STEPS_FOR_JUMP_THRESH = 10;
-constexpr char LOGNAME[] = "cartesian_interpolator";
 
 // Beyond a limit the same pose may be had by turning a joint all the way back, which is no step along a line.
 bool turnsOver(const RobotState& before, const RobotState& after, const JointModelGroup& group)
@@ -97,7 +98,7 @@ double CartesianInterpolator::computeCartesianPath(RobotState* start_state, cons
   const Eigen::Quaterniond start_turn(start.linear()), goal_turn(goal.linear());
   if (max_step.translation <= 0.0 && max_step.rotation <= 0.0)
   {
-    ROS_ERROR_NAMED(LOGNAME,
+    ROS_ERROR_NAMED(log_names::CARTESIAN_INTERPOLATOR,
                     "Invalid MaxEEFStep passed into computeCartesianPath. Both the MaxEEFStep.rotation and "
                     "MaxEEFStep.translation components must be non-negative and at least one component must be "
                     "greater than zero");
@@ -173,7 +174,7 @@ double CartesianInterpolator::checkRelativeJointSpaceJump(const JointModelGroup*
                                                           double jump_threshold_factor)
 {
   if (traj.size() < MIN_STEPS_FOR_JUMP_THRESH)
-    ROS_WARN_NAMED(LOGNAME,
+    ROS_WARN_NAMED(log_names::CARTESIAN_INTERPOLATOR,
                    "The computed trajectory is too short to detect jumps in joint-space. Need at least %zu steps, "
                    "only got %zu. Try a lower max_step.",
                    MIN_STEPS_FOR_JUMP_THRESH, traj.size());
@@ -186,7 +187,8 @@ double CartesianInterpolator::checkRelativeJointSpaceJump(const JointModelGroup*
     if (steps[i] > limit)
     {
       const double share = static_cast<double>(i + 1) / static_cast<double>(traj.size());
-      ROS_DEBUG_NAMED(LOGNAME, "Truncating Cartesian path due to detected jump in joint-space distance");
+      ROS_DEBUG_NAMED(log_names::CARTESIAN_INTERPOLATOR,
+                      "Truncating Cartesian path due to detected jump in joint-space distance");
       traj.resize(i + 1);
       return share;
     }
@@ -205,7 +207,8 @@ double CartesianInterpolator::checkAbsoluteJointSpaceJump(const JointModelGroup*
       const double step = traj[i]->distance(*traj[i - 1], joint);
       if (limit <= 0.0 || step <= limit)
         continue;
-      ROS_DEBUG_NAMED(LOGNAME, "Truncating Cartesian path due to detected jump of %.4f > %.4f in joint %s", step, limit,
+      ROS_DEBUG_NAMED(log_names::CARTESIAN_INTERPOLATOR,
+                      "Truncating Cartesian path due to detected jump of %.4f > %.4f in joint %s", step, limit,
                       joint->getName().c_str());
       const double share = static_cast<double>(i) / static_cast<double>(traj.size());
       traj.resize(i);

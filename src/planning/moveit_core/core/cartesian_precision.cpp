@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "log_names.hpp"
+
 namespace moveit
 {
 namespace core
 {
 namespace
 {
-constexpr char LOGNAME[] = "cartesian_interpolator";
-
 Eigen::Isometry3d between(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to, double share)
 {
   Eigen::Isometry3d pose(Eigen::Quaterniond(from.linear()).slerp(share, Eigen::Quaterniond(to.linear())));
@@ -63,8 +63,8 @@ public:
     }
     if (to.share - from.share < precision_.max_resolution)
     {
-      ROS_WARN_NAMED(LOGNAME, "Failed to find linear interpolation within max_resolution: %f < %f", to.share - from.share,
-                     precision_.max_resolution);
+      ROS_WARN_NAMED(log_names::CARTESIAN_INTERPOLATOR, "Failed to find linear interpolation within max_resolution: %f < %f",
+                     to.share - from.share, precision_.max_resolution);
       return false;
     }
     return solve(middle) && add(from, middle, reached) && add(middle, to, reached);

@@ -8,6 +8,8 @@
 #include <moveit/constraint_samplers/default_constraint_samplers.h>
 #include <moveit/constraint_samplers/union_constraint_sampler.h>
 
+#include "log_names.hpp"
+
 namespace constraint_samplers
 {
 using kinematic_constraints::JointConstraint;
@@ -18,7 +20,6 @@ using planning_scene::PlanningSceneConstPtr;
 
 namespace
 {
-constexpr char LOGNAME[] = "constraint_samplers";
 constexpr double EPSILON = std::numeric_limits<double>::epsilon();
 }  // namespace
 
@@ -27,7 +28,8 @@ ConstraintSampler::ConstraintSampler(const PlanningSceneConstPtr& scene, const s
   , jmg_(scene->getRobotModel()->getJointModelGroup(group_name))
 {
   if (!jmg_)
-    ROS_ERROR_NAMED(LOGNAME, "A JointModelGroup should have been specified for the constraint sampler: there is no '%s'",
+    ROS_ERROR_NAMED(log_names::CONSTRAINT_SAMPLERS,
+                    "A JointModelGroup should have been specified for the constraint sampler: there is no '%s'",
                     group_name.c_str());
 }
 
@@ -100,7 +102,7 @@ bool JointConstraintSampler::configure(const std::vector<JointConstraint>& jc)
                                        limits.position_bounded_ ? std::min(limits.max_position_, high) : high);
     if (info.min_bound_ > info.max_bound_ + EPSILON)
     {
-      ROS_ERROR_NAMED(LOGNAME,
+      ROS_ERROR_NAMED(log_names::CONSTRAINT_SAMPLERS,
                       "The constraints for joint '%s' are such that there are no possible values for it: "
                       "min_bound: %g, max_bound: %g",
                       variable.c_str(), info.min_bound_, info.max_bound_);
@@ -110,7 +112,7 @@ bool JointConstraintSampler::configure(const std::vector<JointConstraint>& jc)
   }
   if (infos.empty())
   {
-    ROS_WARN_NAMED(LOGNAME, "No valid joint constraints for group '%s'", jmg_->getName().c_str());
+    ROS_WARN_NAMED(log_names::CONSTRAINT_SAMPLERS, "No valid joint constraints for group '%s'", jmg_->getName().c_str());
     return false;
   }
   for (const auto& info : infos)
@@ -131,7 +133,7 @@ bool JointConstraintSampler::sample(RobotState& state, const RobotState& /*refer
 {
   if (!is_valid_)
   {
-    ROS_WARN_NAMED(LOGNAME, "JointConstraintSampler not configured, won't sample");
+    ROS_WARN_NAMED(log_names::CONSTRAINT_SAMPLERS, "JointConstraintSampler not configured, won't sample");
     return false;
   }
   state.copyJointGroupPositions(jmg_, values_);
@@ -187,7 +189,7 @@ bool IKConstraintSampler::configure(const IKSamplingPose& sp)
     return false;
   if (place && turn && wanted.position_constraint_->getLinkModel() != wanted.orientation_constraint_->getLinkModel())
   {
-    ROS_ERROR_NAMED(LOGNAME,
+    ROS_ERROR_NAMED(log_names::CONSTRAINT_SAMPLERS,
                     "Position and orientation constraints need to be specified for the same link "
                     "in order to use IK-based sampling");
     return false;
@@ -198,12 +200,14 @@ bool IKConstraintSampler::configure(const IKSamplingPose& sp)
     sampling_pose_.orientation_constraint_ = wanted.orientation_constraint_;
   if (!jmg_->getSolverInstance())
   {
-    ROS_WARN_NAMED(LOGNAME, "No solver instance in setup: group '%s' has no kinematics solver", jmg_->getName().c_str());
+    ROS_WARN_NAMED(log_names::CONSTRAINT_SAMPLERS, "No solver instance in setup: group '%s' has no kinematics solver",
+                   jmg_->getName().c_str());
     return false;
   }
   if (!jmg_->canSetStateFromIK(getLinkName()))
   {
-    ROS_ERROR_NAMED(LOGNAME, "IK cannot be performed for link '%s'. The solver can report IK solutions for link '%s'.",
+    ROS_ERROR_NAMED(log_names::CONSTRAINT_SAMPLERS,
+                    "IK cannot be performed for link '%s'. The solver can report IK solutions for link '%s'.",
                     getLinkName().c_str(), jmg_->getSolverInstance()->getTipFrame().c_str());
     return false;
   }
@@ -333,7 +337,7 @@ bool IKConstraintSampler::sample(RobotState& state, const RobotState& reference_
 {
   if (!is_valid_)
   {
-    ROS_WARN_NAMED(LOGNAME, "IKConstraintSampler not configured, won't sample");
+    ROS_WARN_NAMED(log_names::CONSTRAINT_SAMPLERS, "IKConstraintSampler not configured, won't sample");
     return false;
   }
   RobotState reference(reference_state);
@@ -351,7 +355,7 @@ bool IKConstraintSampler::sample(RobotState& state, const RobotState& reference_
     if (!found.setFromIK(jmg_, pose, getLinkName(), ik_timeout_, group_state_validity_callback_) || !satisfied(found))
     {
       if (verbose_)
-        ROS_INFO_NAMED(LOGNAME, "IK failed");
+        ROS_INFO_NAMED(log_names::CONSTRAINT_SAMPLERS, "IK failed");
       continue;
     }
     std::vector<double> values;
@@ -391,7 +395,8 @@ UnionConstraintSampler::UnionConstraintSampler(const PlanningSceneConstPtr& scen
     });
     if (next == left.end())
     {
-      ROS_WARN_NAMED(LOGNAME, "Samplers of group '%s' depend on each other's frames", group_name.c_str());
+      ROS_WARN_NAMED(log_names::CONSTRAINT_SAMPLERS, "Samplers of group '%s' depend on each other's frames",
+                     group_name.c_str());
       next = left.begin();
     }
     frame_depends_.insert(frame_depends_.end(), (*next)->getFrameDependency().begin(), (*next)->getFrameDependency().end());

@@ -7,6 +7,7 @@
 
 #include <moveit/utils/lexical_casts.h>
 
+#include "log_names.hpp"
 #include "object_messages.hpp"
 
 namespace moveit
@@ -15,14 +16,12 @@ namespace core
 {
 namespace
 {
-constexpr char LOGNAME[] = "robot_state";
-
 bool readJoints(const sensor_msgs::JointState& message, RobotState& state)
 {
   if (message.name.size() != message.position.size())
   {
-    ROS_ERROR_NAMED(LOGNAME, "Different number of names and positions in JointState message: %zu, %zu", message.name.size(),
-                    message.position.size());
+    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "Different number of names and positions in JointState message: %zu, %zu",
+                    message.name.size(), message.position.size());
     return false;
   }
   state.setVariableValues(message);
@@ -34,7 +33,7 @@ bool readMultiDofJoints(const sensor_msgs::MultiDOFJointState& message, RobotSta
   const std::size_t count = message.joint_names.size();
   if (count != message.transforms.size())
   {
-    ROS_ERROR_NAMED(LOGNAME, "Different number of names, values or frames in MultiDOFJointState message.");
+    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "Different number of names, values or frames in MultiDOFJointState message.");
     return false;
   }
   bool good = true;
@@ -52,7 +51,7 @@ bool readMultiDofJoints(const sensor_msgs::MultiDOFJointState& message, RobotSta
     }
     if (!known && !message.joint_names.empty())
     {
-      ROS_WARN_NAMED(LOGNAME,
+      ROS_WARN_NAMED(log_names::ROBOT_STATE,
                      "The transform for multi-dof joints was specified in frame '%s' but it was not possible to "
                      "transform that to frame '%s'",
                      message.header.frame_id.c_str(), model_frame.c_str());
@@ -63,7 +62,7 @@ bool readMultiDofJoints(const sensor_msgs::MultiDOFJointState& message, RobotSta
   {
     if (!state.getRobotModel()->hasJointModel(message.joint_names[i]))
     {
-      ROS_WARN_NAMED(LOGNAME, "No joint matching multi-dof joint '%s'", message.joint_names[i].c_str());
+      ROS_WARN_NAMED(log_names::ROBOT_STATE, "No joint matching multi-dof joint '%s'", message.joint_names[i].c_str());
       good = false;
       continue;
     }
@@ -81,12 +80,13 @@ void readAttached(const moveit_msgs::AttachedCollisionObject& message, RobotStat
     if (object.id.empty())
       state.clearAttachedBodies();
     else if (!state.clearAttachedBody(object.id))
-      ROS_ERROR_NAMED(LOGNAME, "The attached body '%s' can not be removed because it does not exist", object.id.c_str());
+      ROS_ERROR_NAMED(log_names::ROBOT_STATE, "The attached body '%s' can not be removed because it does not exist",
+                      object.id.c_str());
     return;
   }
   if (object.operation != moveit_msgs::CollisionObject::ADD)
   {
-    ROS_ERROR_NAMED(LOGNAME, "Unknown collision object operation: %d", object.operation);
+    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "Unknown collision object operation: %d", object.operation);
     return;
   }
   const LinkModel* link = state.getLinkModel(message.link_name);
@@ -95,7 +95,7 @@ void readAttached(const moveit_msgs::AttachedCollisionObject& message, RobotStat
     return;
   if (parts.shapes.empty())
   {
-    ROS_ERROR_NAMED(LOGNAME, "The attached body for link '%s' has no geometry", message.link_name.c_str());
+    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "The attached body for link '%s' has no geometry", message.link_name.c_str());
     return;
   }
   Eigen::Isometry3d in_link = parts.pose;
@@ -109,12 +109,14 @@ void readAttached(const moveit_msgs::AttachedCollisionObject& message, RobotStat
       known = true;
     }
     if (!known)
-      ROS_ERROR_NAMED(LOGNAME, "Cannot properly transform from frame '%s'. The pose of the attached body may be incorrect",
+      ROS_ERROR_NAMED(log_names::ROBOT_STATE,
+                      "Cannot properly transform from frame '%s'. The pose of the attached body may be incorrect",
                       object.header.frame_id.c_str());
     in_link = state.getGlobalLinkTransform(link).inverse() * frame * parts.pose;
   }
   if (state.clearAttachedBody(object.id))
-    ROS_DEBUG_NAMED(LOGNAME, "The robot state already had an object named '%s' attached to link '%s'. The object was replaced.",
+    ROS_DEBUG_NAMED(log_names::ROBOT_STATE,
+                    "The robot state already had an object named '%s' attached to link '%s'. The object was replaced.",
                     object.id.c_str(), message.link_name.c_str());
   state.attachBody(object.id, in_link, parts.shapes, parts.shape_poses, message.touch_links, message.link_name,
                    message.detach_posture, parts.subframes);
@@ -124,7 +126,7 @@ bool read(const Transforms* tf, const moveit_msgs::RobotState& message, RobotSta
 {
   if (!message.is_diff && message.joint_state.name.empty() && message.multi_dof_joint_state.joint_names.empty())
   {
-    ROS_DEBUG_NAMED(LOGNAME, "Found empty JointState message");
+    ROS_DEBUG_NAMED(log_names::ROBOT_STATE, "Found empty JointState message");
     return false;
   }
   const bool joints = readJoints(message.joint_state, state);
@@ -219,12 +221,12 @@ bool jointTrajPointToRobotState(const trajectory_msgs::JointTrajectory& trajecto
 {
   if (trajectory.points.empty() || point_id > trajectory.points.size() - 1)
   {
-    ROS_ERROR_NAMED(LOGNAME, "Invalid point_id");
+    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "Invalid point_id");
     return false;
   }
   if (trajectory.joint_names.empty())
   {
-    ROS_ERROR_NAMED(LOGNAME, "No joint names specified");
+    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "No joint names specified");
     return false;
   }
   const trajectory_msgs::JointTrajectoryPoint& point = trajectory.points[point_id];
@@ -278,7 +280,7 @@ void streamToRobotState(RobotState& state, const std::string& line, const std::s
   for (std::size_t i = 0; i < state.getVariableCount(); ++i)
   {
     if (!std::getline(stream, cell, separator[0]))
-      ROS_ERROR_STREAM_NAMED(LOGNAME, "Missing variable " << state.getVariableNames()[i]);
+      ROS_ERROR_STREAM_NAMED(log_names::ROBOT_STATE, "Missing variable " << state.getVariableNames()[i]);
     else
       state.setVariablePosition(static_cast<int>(i), toDouble(cell));
   }

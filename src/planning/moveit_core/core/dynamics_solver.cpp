@@ -11,12 +11,12 @@
 #include <moveit/robot_model/joint_model_group.h>
 #include <moveit/robot_model/robot_model.h>
 
+#include "log_names.hpp"
+
 namespace dynamics_solver
 {
 namespace
 {
-constexpr char LOGNAME[] = "dynamics_solver";
-
 KDL::JntArray array(const std::vector<double>& values)
 {
   KDL::JntArray out(values.size());
@@ -60,7 +60,8 @@ DynamicsSolver::DynamicsSolver(const moveit::core::RobotModelConstPtr& robot_mod
 
 bool DynamicsSolver::refuse(const std::string& reason)
 {
-  ROS_ERROR_NAMED(LOGNAME, "Group '%s' %s. Will not initialize dynamics solver", group_->getName().c_str(), reason.c_str());
+  ROS_ERROR_NAMED(log_names::DYNAMICS_SOLVER, "Group '%s' %s. Will not initialize dynamics solver", group_->getName().c_str(),
+                  reason.c_str());
   group_ = nullptr;
   return false;
 }
@@ -70,8 +71,8 @@ bool DynamicsSolver::fits(const std::vector<double>& values, const char* what) c
   if (!group_)
     return false;
   if (values.size() != chain_.getNrOfJoints())
-    ROS_ERROR_NAMED(LOGNAME, "%s: %zu values for the %u joints of group '%s'", what, values.size(), chain_.getNrOfJoints(),
-                    group_->getName().c_str());
+    ROS_ERROR_NAMED(log_names::DYNAMICS_SOLVER, "%s: %zu values for the %u joints of group '%s'", what, values.size(),
+                    chain_.getNrOfJoints(), group_->getName().c_str());
   return values.size() == chain_.getNrOfJoints();
 }
 
@@ -84,8 +85,8 @@ bool DynamicsSolver::getTorques(const std::vector<double>& joint_angles, const s
     return false;
   if (wrenches.size() != chain_.getNrOfSegments())
   {
-    ROS_ERROR_NAMED(LOGNAME, "%zu wrenches for the %u segments of group '%s'", wrenches.size(), chain_.getNrOfSegments(),
-                    group_->getName().c_str());
+    ROS_ERROR_NAMED(log_names::DYNAMICS_SOLVER, "%zu wrenches for the %u segments of group '%s'", wrenches.size(),
+                    chain_.getNrOfSegments(), group_->getName().c_str());
     return false;
   }
   KDL::Wrenches forces;

@@ -6,6 +6,7 @@
 #include <moveit/robot_model/revolute_joint_model.h>
 #include <moveit/robot_model/robot_model.h>
 
+#include "log_names.hpp"
 #include "motion/robot_model.hpp"
 
 namespace moveit
@@ -14,8 +15,6 @@ namespace core
 {
 namespace
 {
-constexpr char LOGNAME[] = "robot_model.jmg";
-
 void addCoreJoint(const motion::RobotModel& robot, int index, motion::JointModelGroup& group)
 {
   const motion::JointModel& joint = robot.joints[index];
@@ -186,7 +185,7 @@ const JointModel* JointModelGroup::getJointModel(const std::string& joint) const
 {
   if (hasJointModel(joint))
     return parent_model_->getJointModel(joint);
-  ROS_ERROR_NAMED(LOGNAME, "Joint '%s' not found in group '%s'", joint.c_str(), name_.c_str());
+  ROS_ERROR_NAMED(log_names::JOINT_MODEL_GROUP, "Joint '%s' not found in group '%s'", joint.c_str(), name_.c_str());
   return nullptr;
 }
 
@@ -194,7 +193,7 @@ const LinkModel* JointModelGroup::getLinkModel(const std::string& link) const
 {
   if (hasLinkModel(link))
     return parent_model_->getLinkModel(link);
-  ROS_ERROR_NAMED(LOGNAME, "Link '%s' not found in group '%s'", link.c_str(), name_.c_str());
+  ROS_ERROR_NAMED(log_names::JOINT_MODEL_GROUP, "Link '%s' not found in group '%s'", link.c_str(), name_.c_str());
   return nullptr;
 }
 
@@ -203,7 +202,7 @@ int JointModelGroup::getVariableGroupIndex(const std::string& variable) const
   const auto found = joint_variables_index_map_.find(variable);
   if (found != joint_variables_index_map_.end())
     return found->second;
-  ROS_ERROR_NAMED(LOGNAME, "Variable '%s' is not part of group '%s'", variable.c_str(), name_.c_str());
+  ROS_ERROR_NAMED(log_names::JOINT_MODEL_GROUP, "Variable '%s' is not part of group '%s'", variable.c_str(), name_.c_str());
   return -1;
 }
 
@@ -235,13 +234,13 @@ bool JointModelGroup::getEndEffectorTips(std::vector<const LinkModel*>& tips) co
     const JointModelGroup* effector = parent_model_->getEndEffector(name);
     if (!effector)
     {
-      ROS_ERROR_NAMED(LOGNAME, "Unable to find joint model group for eef");
+      ROS_ERROR_NAMED(log_names::JOINT_MODEL_GROUP, "Unable to find joint model group for eef");
       return false;
     }
     const LinkModel* link = parent_model_->getLinkModel(effector->getEndEffectorParentGroup().second);
     if (!link)
     {
-      ROS_ERROR_NAMED(LOGNAME, "Unable to find end effector link for eef");
+      ROS_ERROR_NAMED(log_names::JOINT_MODEL_GROUP, "Unable to find end effector link for eef");
       return false;
     }
     if (std::find(tips.begin(), tips.end(), link) == tips.end())
@@ -257,10 +256,11 @@ const LinkModel* JointModelGroup::getOnlyOneEndEffectorTip() const
   if (tips.size() == 1)
     return tips.front();
   if (tips.size() > 1)
-    ROS_ERROR_NAMED(LOGNAME, "More than one end effector tip found for joint model group '%s', so cannot return only one",
+    ROS_ERROR_NAMED(log_names::JOINT_MODEL_GROUP,
+                    "More than one end effector tip found for joint model group '%s', so cannot return only one",
                     name_.c_str());
   else
-    ROS_ERROR_NAMED(LOGNAME, "No end effector tips found in joint model group '%s'", name_.c_str());
+    ROS_ERROR_NAMED(log_names::JOINT_MODEL_GROUP, "No end effector tips found in joint model group '%s'", name_.c_str());
   return nullptr;
 }
 
@@ -291,7 +291,8 @@ bool JointModelGroup::computeIKIndexBijection(const std::vector<std::string>& ik
       // Solvers name fixed joints too.
       if (hasJointModel(name) && getJointModel(name)->getType() == JointModel::FIXED)
         continue;
-      ROS_ERROR_NAMED(LOGNAME, "IK solver computes joint values for joint '%s' but group '%s' does not contain such a joint.",
+      ROS_ERROR_NAMED(log_names::JOINT_MODEL_GROUP,
+                      "IK solver computes joint values for joint '%s' but group '%s' does not contain such a joint.",
                       name.c_str(), name_.c_str());
       return false;
     }

@@ -7,17 +7,13 @@
 #include <moveit/robot_model/revolute_joint_model.h>
 #include <moveit/robot_model/robot_model.h>
 
+#include "log_names.hpp"
 #include "motion/robot_model.hpp"
 
 namespace moveit
 {
 namespace core
 {
-namespace
-{
-constexpr char LOGNAME[] = "robot_model.jmg";
-}
-
 // ---------------------------------------------------------------- named and random values
 
 void JointModelGroup::addDefaultState(const std::string& name, const std::map<std::string, double>& default_state)
@@ -105,7 +101,7 @@ void JointModelGroup::getVariableRandomPositionsNearBy(random_numbers::RandomNum
   {
     const auto found = distance_map.find(joint->getType());
     if (found == distance_map.end())
-      ROS_WARN_NAMED(LOGNAME, "Did not pass in distance for '%s'", joint->getName().c_str());
+      ROS_WARN_NAMED(log_names::JOINT_MODEL_GROUP, "Did not pass in distance for '%s'", joint->getName().c_str());
     distances.push_back(found == distance_map.end() ? 0.0 : found->second);
   }
   getVariableRandomPositionsNearBy(rng, values, active_joint_bounds, seed, distances);
@@ -205,7 +201,7 @@ bool JointModelGroup::isValidVelocityMove(const std::vector<double>& from_joint_
 {
   if (from_joint_pose.size() != to_joint_pose.size())
   {
-    ROS_ERROR_NAMED(LOGNAME, "To and from joint poses are of different sizes.");
+    ROS_ERROR_NAMED(log_names::JOINT_MODEL_GROUP, "To and from joint poses are of different sizes.");
     return false;
   }
   return isValidVelocityMove(from_joint_pose.data(), to_joint_pose.data(), from_joint_pose.size(), dt);

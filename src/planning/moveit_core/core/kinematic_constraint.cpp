@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "frames.hpp"
+#include "log_names.hpp"
 #include "motion/constraints.hpp"
 #include "object_messages.hpp"
 #include "shapes.hpp"
@@ -14,10 +16,6 @@ namespace kinematic_constraints
 {
 namespace
 {
-constexpr char LOGNAME[] = "kinematic_constraints";
-
-std::string withoutSlash(const std::string& frame) { return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame; }
-
 void addFrame(motion::PlanningScene& scene, const moveit::core::Transforms* tf, const std::string& frame)
 {
   if (tf && !frame.empty() && frame != scene.frame() && !scene.model()->findLink(frame) && tf->canTransform(frame))
@@ -48,7 +46,7 @@ bool KinematicConstraint::make(const motion::Constraints& constraints, const mov
   }
   catch (const motion::Error& error)
   {
-    ROS_ERROR_NAMED(LOGNAME, "%s", error.what());
+    ROS_ERROR_NAMED(log_names::KINEMATIC_CONSTRAINTS, "%s", error.what());
     return false;
   }
 }
@@ -64,7 +62,8 @@ ConstraintEvaluationResult KinematicConstraint::decide(const moveit::core::Robot
     all.satisfied = all.satisfied && result.satisfied;
     all.distance += constraint_weight_ * result.distance;
     if (verbose)
-      ROS_INFO_NAMED(LOGNAME, "Constraint %s: %s", result.satisfied ? "satisfied" : "violated", result.description.c_str());
+      ROS_INFO_NAMED(log_names::KINEMATIC_CONSTRAINTS, "Constraint %s: %s", result.satisfied ? "satisfied" : "violated",
+                     result.description.c_str());
   }
   return all;
 }
@@ -78,7 +77,8 @@ bool JointConstraint::configure(const moveit_msgs::JointConstraint& jc)
   if (!(jc.tolerance_above >= 0.0) || !(jc.tolerance_below >= 0.0) || !std::isfinite(jc.position))
   {
     clear();
-    ROS_WARN_NAMED(LOGNAME, "JointConstraint of '%s': tolerance values must be positive and the position finite.",
+    ROS_WARN_NAMED(log_names::KINEMATIC_CONSTRAINTS,
+                   "JointConstraint of '%s': tolerance values must be positive and the position finite.",
                    jc.joint_name.c_str());
     return false;
   }
@@ -126,11 +126,11 @@ bool OrientationConstraint::configure(const moveit_msgs::OrientationConstraint& 
   constraint_weight_ = oc.weight > std::numeric_limits<double>::epsilon() ? oc.weight : 1.0;
   motion::OrientationConstraint c;
   c.link = oc.link_name;
-  c.frame = withoutSlash(oc.header.frame_id);
+  c.frame = frames::withoutSlash(oc.header.frame_id);
   c.orientation = quaternion(oc.orientation);
   if (std::abs(c.orientation.norm() - 1.0) > 1e-3)
   {
-    ROS_WARN_NAMED(LOGNAME,
+    ROS_WARN_NAMED(log_names::KINEMATIC_CONSTRAINTS,
                    "Orientation constraint for link '%s' is probably incorrect: %f, %f, %f, %f. Assuming identity instead.",
                    oc.link_name.c_str(), oc.orientation.x, oc.orientation.y, oc.orientation.z, oc.orientation.w);
     c.orientation.setIdentity();
@@ -187,7 +187,7 @@ bool PositionConstraint::configure(const moveit_msgs::PositionConstraint& pc, co
   constraint_weight_ = pc.weight > std::numeric_limits<double>::epsilon() ? pc.weight : 1.0;
   motion::PositionConstraint c;
   c.link = pc.link_name;
-  c.frame = withoutSlash(pc.header.frame_id);
+  c.frame = frames::withoutSlash(pc.header.frame_id);
   c.offset = motion::Vector3(pc.target_point_offset.x, pc.target_point_offset.y, pc.target_point_offset.z);
   c.weight = constraint_weight_;
   moveit_msgs::CollisionObject region;
@@ -201,7 +201,7 @@ bool PositionConstraint::configure(const moveit_msgs::PositionConstraint& pc, co
   if (!moveit::core::readObject(region, parts) || parts.shapes.empty())
   {
     clear();
-    ROS_ERROR_NAMED(LOGNAME, "Position constraint for link '%s' has no region", pc.link_name.c_str());
+    ROS_ERROR_NAMED(log_names::KINEMATIC_CONSTRAINTS, "Position constraint for link '%s' has no region", pc.link_name.c_str());
     return false;
   }
   try
@@ -212,7 +212,8 @@ bool PositionConstraint::configure(const moveit_msgs::PositionConstraint& pc, co
   catch (const motion::Error& error)
   {
     clear();
-    ROS_ERROR_NAMED(LOGNAME, "Position constraint for link '%s': %s", pc.link_name.c_str(), error.what());
+    ROS_ERROR_NAMED(log_names::KINEMATIC_CONSTRAINTS, "Position constraint for link '%s': %s", pc.link_name.c_str(),
+                    error.what());
     return false;
   }
   c.poses.assign(parts.shape_poses.begin(), parts.shape_poses.end());
@@ -276,8 +277,8 @@ bool VisibilityConstraint::configure(const moveit_msgs::VisibilityConstraint& vc
   c.target_radius = vc.target_radius;
   c.target_pose = moveit::core::poseFromMessage(vc.target_pose.pose);
   c.sensor_pose = moveit::core::poseFromMessage(vc.sensor_pose.pose);
-  c.target_frame = withoutSlash(vc.target_pose.header.frame_id);
-  c.sensor_frame = withoutSlash(vc.sensor_pose.header.frame_id);
+  c.target_frame = frames::withoutSlash(vc.target_pose.header.frame_id);
+  c.sensor_frame = frames::withoutSlash(vc.sensor_pose.header.frame_id);
   c.cone_sides = vc.cone_sides;
   c.max_view_angle = vc.max_view_angle;
   c.max_range_angle = vc.max_range_angle;

@@ -3,15 +3,11 @@
 #include <moveit/robot_model/joint_model_group.h>
 #include <moveit/robot_model/robot_model.h>
 
+#include "frames.hpp"
+#include "log_names.hpp"
+
 namespace kinematics
 {
-namespace
-{
-constexpr char LOGNAME[] = "kinematics_base";
-
-std::string withoutSlash(const std::string& frame) { return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame; }
-}  // namespace
-
 namespace detail
 {
 namespace
@@ -59,10 +55,10 @@ void KinematicsBase::setValues(const std::string& robot_description, const std::
 {
   robot_description_ = robot_description;
   group_name_ = group_name;
-  base_frame_ = withoutSlash(base_frame);
+  base_frame_ = frames::withoutSlash(base_frame);
   tip_frames_.clear();
   for (const std::string& name : tip_frames)
-    tip_frames_.push_back(withoutSlash(name));
+    tip_frames_.push_back(frames::withoutSlash(name));
   if (tip_frames_.size() == 1)
     tip_frame_ = tip_frames_[0];
   search_discretization_ = search_discretization;
@@ -79,7 +75,7 @@ bool KinematicsBase::initialize(const moveit::core::RobotModel& /*robot_model*/,
                                 const std::string& /*base_frame*/, const std::vector<std::string>& /*tip_frames*/,
                                 double /*search_discretization*/)
 {
-  ROS_WARN_NAMED(LOGNAME,
+  ROS_WARN_NAMED(log_names::KINEMATICS_BASE,
                  "The IK plugin for group '%s' relies on deprecated API. Please implement initialize(RobotModel, ...).",
                  group_name.c_str());
   return false;
@@ -91,7 +87,7 @@ bool KinematicsBase::initialize(const std::string& robot_description, const std:
 {
   if (tip_frames.size() == 1)
     return initialize(robot_description, group_name, base_frame, tip_frames[0], search_discretization);
-  ROS_ERROR_NAMED(LOGNAME, "This solver does not support multiple tip frames");
+  ROS_ERROR_NAMED(log_names::KINEMATICS_BASE, "This solver does not support multiple tip frames");
   return false;
 }
 
@@ -105,7 +101,7 @@ bool KinematicsBase::initialize(const std::string& /*robot_description*/, const 
 const std::string& KinematicsBase::getTipFrame() const
 {
   if (tip_frames_.size() > 1)
-    ROS_ERROR_NAMED(LOGNAME, "This kinematic solver has more than one tip frame, do not call getTipFrame()");
+    ROS_ERROR_NAMED(log_names::KINEMATICS_BASE, "This kinematic solver has more than one tip frame, do not call getTipFrame()");
   return tip_frames_.at(0);
 }
 
@@ -172,7 +168,7 @@ bool KinematicsBase::getPositionIK(const std::vector<geometry_msgs::Pose>& ik_po
   }
   if (ik_poses.size() != 1)
   {
-    ROS_ERROR_NAMED(LOGNAME, "This kinematic solver does not support getPositionIK for multiple poses");
+    ROS_ERROR_NAMED(log_names::KINEMATICS_BASE, "This kinematic solver does not support getPositionIK for multiple poses");
     result.kinematic_error = ik_poses.empty() ? KinematicErrors::EMPTY_TIP_POSES : KinematicErrors::MULTIPLE_TIPS_NOT_SUPPORTED;
     return false;
   }
@@ -198,7 +194,7 @@ bool KinematicsBase::searchPositionIK(const std::vector<geometry_msgs::Pose>& ik
 {
   if (ik_poses.size() != 1)
   {
-    ROS_ERROR_NAMED(LOGNAME, "This kinematic solver does not support searchPositionIK with multiple poses");
+    ROS_ERROR_NAMED(log_names::KINEMATICS_BASE, "This kinematic solver does not support searchPositionIK with multiple poses");
     return false;
   }
   if (solution_callback)

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 
+#include "log_names.hpp"
+
 namespace trajectory_processing
 {
-namespace
-{
-constexpr char LOGNAME[] = "trajectory_processing";
-}
-
 bool limitMaxCartesianLinkSpeed(robot_trajectory::RobotTrajectory& trajectory, const double speed, const std::string& link_name)
 {
   if (!link_name.empty())
@@ -17,13 +14,15 @@ bool limitMaxCartesianLinkSpeed(robot_trajectory::RobotTrajectory& trajectory, c
     const moveit::core::LinkModel* link = trajectory.getRobotModel()->getLinkModel(link_name, &found);
     if (found)
       return limitMaxCartesianLinkSpeed(trajectory, speed, link);
-    ROS_ERROR_NAMED(LOGNAME, "The speed of link '%s' cannot be limited: the robot has no such link", link_name.c_str());
+    ROS_ERROR_NAMED(log_names::TRAJECTORY_PROCESSING, "The speed of link '%s' cannot be limited: the robot has no such link",
+                    link_name.c_str());
     return false;
   }
   std::vector<const moveit::core::LinkModel*> tips;
   if (!trajectory.getGroup() || !trajectory.getGroup()->getEndEffectorTips(tips) || tips.empty())
   {
-    ROS_ERROR_NAMED(LOGNAME, "No link to limit the speed of: the group '%s' has no end effector; name the link",
+    ROS_ERROR_NAMED(log_names::TRAJECTORY_PROCESSING,
+                    "No link to limit the speed of: the group '%s' has no end effector; name the link",
                     trajectory.getGroupName().c_str());
     return false;
   }
@@ -39,7 +38,8 @@ bool limitMaxCartesianLinkSpeed(robot_trajectory::RobotTrajectory& trajectory, c
   const std::size_t count = trajectory.getWayPointCount();
   if (!link_model || !(speed > 0.0) || !trajectory.getGroup())
   {
-    ROS_ERROR_NAMED(LOGNAME, "The speed of a link is limited to a number above 0 m/s, in a trajectory of a group");
+    ROS_ERROR_NAMED(log_names::TRAJECTORY_PROCESSING,
+                    "The speed of a link is limited to a number above 0 m/s, in a trajectory of a group");
     return false;
   }
   if (count < 2)

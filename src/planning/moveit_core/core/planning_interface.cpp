@@ -6,12 +6,12 @@
 #include <mutex>
 #include <set>
 
+#include "log_names.hpp"
+
 namespace planning_interface
 {
 namespace
 {
-constexpr char LOGNAME[] = "planning_interface";
-
 // All contexts of the process: terminate() is to reach those that solve.
 struct Contexts
 {
@@ -43,12 +43,14 @@ void PlanningContext::setMotionPlanRequest(const MotionPlanRequest& request)
   request_ = request;
   if (!(request_.allowed_planning_time > 0.0))
   {
-    ROS_INFO_NAMED(LOGNAME, "The timeout for planning must be positive (%lf specified). Assuming one second instead.",
+    ROS_INFO_NAMED(log_names::PLANNING_INTERFACE,
+                   "The timeout for planning must be positive (%lf specified). Assuming one second instead.",
                    request_.allowed_planning_time);
     request_.allowed_planning_time = 1.0;
   }
   if (request_.num_planning_attempts < 0)
-    ROS_ERROR_NAMED(LOGNAME, "The number of desired planning attempts should be positive. Assuming one attempt.");
+    ROS_ERROR_NAMED(log_names::PLANNING_INTERFACE,
+                    "The number of desired planning attempts should be positive. Assuming one attempt.");
   request_.num_planning_attempts = std::max(1, request_.num_planning_attempts);
 }
 
@@ -104,8 +106,6 @@ using planning_scene::PlanningSceneConstPtr;
 
 namespace
 {
-constexpr char LOGNAME[] = "planning_request_adapter";
-
 bool callPlanner(const PlannerManagerPtr& planner, const PlanningSceneConstPtr& scene, const MotionPlanRequest& req,
                  MotionPlanResponse& res)
 {
@@ -124,7 +124,7 @@ bool callAdapter(const PlanningRequestAdapter& adapter, const PlanningRequestAda
   }
   catch (const std::exception& error)
   {
-    ROS_ERROR_NAMED(LOGNAME, "Exception caught executing adapter '%s': %s Running planner instead.",
+    ROS_ERROR_NAMED(log_names::PLANNING_REQUEST_ADAPTER, "Exception caught executing adapter '%s': %s Running planner instead.",
                     adapter.getDescription().c_str(), error.what());
     added_path_index.clear();
     return planner(scene, req, res);

@@ -6,6 +6,8 @@
 #include <moveit/robot_state/conversions.h>
 
 #include "costs.hpp"
+#include "frames.hpp"
+#include "log_names.hpp"
 #include "shapes.hpp"
 
 namespace planning_scene
@@ -19,11 +21,6 @@ using moveit::core::RobotState;
 
 namespace
 {
-constexpr char LOGNAME[] = "planning_scene";
-const Eigen::Isometry3d IDENTITY = Eigen::Isometry3d::Identity();
-
-std::string withoutSlash(const std::string& frame) { return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame; }
-
 collision_detection::BodyType typeOf(motion::BodyType type)
 {
   return type == motion::BodyType::RobotLink  ? collision_detection::BodyTypes::ROBOT_LINK
@@ -43,7 +40,7 @@ public:
   bool canTransform(const std::string& from_frame) const override { return scene_.knowsFrameTransform(from_frame); }
   bool isFixedFrame(const std::string& frame) const override
   {
-    return Transforms::isFixedFrame(frame) || scene_.world_->knowsTransform(withoutSlash(frame));
+    return Transforms::isFixedFrame(frame) || scene_.world_->knowsTransform(frames::withoutSlash(frame));
   }
   const Eigen::Isometry3d& getTransform(const std::string& from_frame) const override
   {
@@ -173,7 +170,8 @@ const motion::PlanningScene& PlanningScene::core() const
     }
     catch (const motion::Error& error)
     {
-      ROS_ERROR_NAMED(LOGNAME, "object '%s' is left out of collision checks: %s", item.first.c_str(), error.what());
+      ROS_ERROR_NAMED(log_names::PLANNING_SCENE, "object '%s' is left out of collision checks: %s", item.first.c_str(),
+                      error.what());
       core_->removeObject(item.first);
     }
   }
@@ -198,7 +196,7 @@ void PlanningScene::setCurrentState(const RobotState& state) { *robot_state_ = s
 
 const Eigen::Isometry3d& PlanningScene::getFrameTransform(const RobotState& state, const std::string& id) const
 {
-  const std::string name = withoutSlash(id);
+  const std::string name = frames::withoutSlash(id);
   bool found;
   const Eigen::Isometry3d& of_robot = state.getFrameTransform(name, &found);
   if (found)
@@ -211,7 +209,7 @@ const Eigen::Isometry3d& PlanningScene::getFrameTransform(const RobotState& stat
 
 bool PlanningScene::knowsFrameTransform(const RobotState& state, const std::string& id) const
 {
-  const std::string name = withoutSlash(id);
+  const std::string name = frames::withoutSlash(id);
   bool found;
   state.getFrameTransform(name, &found);
   return found || world_->knowsTransform(name) || transforms_->getAllTransforms().count(name);
@@ -241,14 +239,16 @@ bool PlanningScene::setActiveCollisionDetector(const std::string& collision_dete
 {
   const bool known = collision_detector_name == getActiveCollisionDetectorName();
   if (!known)
-    ROS_WARN_NAMED(LOGNAME, "There is no collision detector '%s' here: FCL goes on checking", collision_detector_name.c_str());
+    ROS_WARN_NAMED(log_names::PLANNING_SCENE, "There is no collision detector '%s' here: FCL goes on checking",
+                   collision_detector_name.c_str());
   return known;
 }
 
 void PlanningScene::addCollisionDetector(const collision_detection::CollisionDetectorAllocatorPtr& allocator)
 {
   if (allocator && allocator->getName() != getActiveCollisionDetectorName())
-    ROS_WARN_NAMED(LOGNAME, "There is no collision detector '%s' here: FCL goes on checking", allocator->getName().c_str());
+    ROS_WARN_NAMED(log_names::PLANNING_SCENE, "There is no collision detector '%s' here: FCL goes on checking",
+                   allocator->getName().c_str());
 }
 
 void PlanningScene::check(int parts, bool padded, const CollisionRequest& req, CollisionResult& res, const RobotState& state,
@@ -258,8 +258,8 @@ void PlanningScene::check(int parts, bool padded, const CollisionRequest& req, C
   motion::CollisionRequest request;
   request.group = robot_model_->hasJointModelGroup(req.group_name) ? req.group_name : "";
   if (request.group.empty() && !req.group_name.empty())
-    ROS_ERROR_NAMED(LOGNAME, "Group '%s' not found in model '%s': the whole robot is checked", req.group_name.c_str(),
-                    robot_model_->getName().c_str());
+    ROS_ERROR_NAMED(log_names::PLANNING_SCENE, "Group '%s' not found in model '%s': the whole robot is checked",
+                    req.group_name.c_str(), robot_model_->getName().c_str());
   request.padded = padded;
   request.self = parts & SELF;
   request.world = parts & WORLD;
@@ -296,7 +296,7 @@ void PlanningScene::check(int parts, bool padded, const CollisionRequest& req, C
     list.push_back(contact);
     ++res.contact_count;
     if (req.verbose)
-      ROS_INFO_NAMED(LOGNAME, "Found a contact between '%s' and '%s'", c.body_1.c_str(), c.body_2.c_str());
+      ROS_INFO_NAMED(log_names::PLANNING_SCENE, "Found a contact between '%s' and '%s'", c.body_1.c_str(), c.body_2.c_str());
   }
   res.collision = res.collision || collision;
   if (req.distance)

@@ -6,6 +6,7 @@
 #include <moveit/robot_state/conversions.h>
 #include <moveit/utils/message_checks.h>
 
+#include "log_names.hpp"
 #include "motion/planning_scene.hpp"
 #include "object_messages.hpp"
 
@@ -17,7 +18,13 @@ using Components = moveit_msgs::PlanningSceneComponents;
 
 namespace
 {
-constexpr char LOGNAME[] = "planning_scene";
+bool isReserved(const std::string& id)
+{
+  if (id != PlanningScene::OCTOMAP_NS)
+    return false;
+  ROS_ERROR_NAMED(log_names::PLANNING_SCENE, "The ID '%s' cannot be used for collision objects (name reserved)", id.c_str());
+  return true;
+}
 
 // What was carried is put down where it is.
 void putDown(const moveit::core::AttachedBody& body, World& world)
@@ -25,7 +32,7 @@ void putDown(const moveit::core::AttachedBody& body, World& world)
   const std::string& name = body.getName();
   if (world.hasObject(name))
   {
-    ROS_WARN_NAMED(LOGNAME,
+    ROS_WARN_NAMED(log_names::PLANNING_SCENE,
                    "The collision world already has an object with the same name as the body about to be detached: '%s'",
                    name.c_str());
     return;
@@ -41,7 +48,7 @@ bool bodiesToDetach(const moveit_msgs::AttachedCollisionObject& object, const mo
   const std::string &id = object.object.id, &link = object.link_name;
   if (!link.empty() && !state.getRobotModel()->hasLinkModel(link))
   {
-    ROS_ERROR_NAMED(LOGNAME, "The robot has no link '%s' to detach '%s' from", link.c_str(), id.c_str());
+    ROS_ERROR_NAMED(log_names::PLANNING_SCENE, "The robot has no link '%s' to detach '%s' from", link.c_str(), id.c_str());
     return false;
   }
   if (id.empty() && link.empty())
@@ -52,14 +59,15 @@ bool bodiesToDetach(const moveit_msgs::AttachedCollisionObject& object, const mo
     return true;
   if (!state.hasAttachedBody(id))
   {
-    ROS_WARN_NAMED(LOGNAME, "Cannot remove attached body '%s': there is none", id.c_str());
+    ROS_WARN_NAMED(log_names::PLANNING_SCENE, "Cannot remove attached body '%s': there is none", id.c_str());
     return false;
   }
   bodies.push_back(state.getAttachedBody(id));
   const std::string& held_by = bodies[0]->getAttachedLinkName();
   if (link.empty() || link == held_by)
     return true;
-  ROS_ERROR_NAMED(LOGNAME, "'%s' is attached to link '%s', not to '%s'", id.c_str(), held_by.c_str(), link.c_str());
+  ROS_ERROR_NAMED(log_names::PLANNING_SCENE, "'%s' is attached to link '%s', not to '%s'", id.c_str(), held_by.c_str(),
+                  link.c_str());
   return false;
 }
 
@@ -102,11 +110,8 @@ bool PlanningScene::shapesAndPosesFromCollisionObjectMessage(const CollisionObje
 
 bool PlanningScene::processCollisionObjectMsg(const CollisionObject& object)
 {
-  if (object.id == OCTOMAP_NS)
-  {
-    ROS_ERROR_NAMED(LOGNAME, "The ID '%s' cannot be used for collision objects (name reserved)", OCTOMAP_NS.c_str());
+  if (isReserved(object.id))
     return false;
-  }
   switch (object.operation)
   {
     case CollisionObject::ADD:
@@ -125,10 +130,11 @@ bool PlanningScene::processCollisionObjectMsg(const CollisionObject& object)
         forget(object.id);
         return true;
       }
-      ROS_WARN_NAMED(LOGNAME, "Tried to remove world object '%s', but it does not exist in this scene.", object.id.c_str());
+      ROS_WARN_NAMED(log_names::PLANNING_SCENE, "Tried to remove world object '%s', but it does not exist in this scene.",
+                     object.id.c_str());
       return false;
     default:
-      ROS_ERROR_NAMED(LOGNAME, "Unknown collision object operation: %d", object.operation);
+      ROS_ERROR_NAMED(log_names::PLANNING_SCENE, "Unknown collision object operation: %d", object.operation);
       return false;
   }
 }
@@ -137,14 +143,15 @@ bool PlanningScene::addObject(const CollisionObject& object)
 {
   if (!knowsFrameTransform(object.header.frame_id))
   {
-    ROS_ERROR_NAMED(LOGNAME, "Unknown frame: %s", object.header.frame_id.c_str());
+    ROS_ERROR_NAMED(log_names::PLANNING_SCENE, "Unknown frame: %s", object.header.frame_id.c_str());
     return false;
   }
   moveit::core::ObjectParts parts;
   if (object.id.empty() || (object.primitives.empty() && object.meshes.empty() && object.planes.empty()) ||
       !moveit::core::readObject(object, parts) || parts.shapes.empty())
   {
-    ROS_ERROR_NAMED(LOGNAME, "There are no shapes specified in the collision object message of '%s'", object.id.c_str());
+    ROS_ERROR_NAMED(log_names::PLANNING_SCENE, "There are no shapes specified in the collision object message of '%s'",
+                    object.id.c_str());
     return false;
   }
   if (object.operation == CollisionObject::ADD)
@@ -162,12 +169,13 @@ bool PlanningScene::moveObject(const CollisionObject& object)
   const World::ObjectConstPtr known = world_->getObject(object.id);
   if (!known || !knowsFrameTransform(object.header.frame_id))
   {
-    ROS_ERROR_NAMED(LOGNAME, "World object '%s' does not exist, or the frame '%s' does not. Cannot move.", object.id.c_str(),
-                    object.header.frame_id.c_str());
+    ROS_ERROR_NAMED(log_names::PLANNING_SCENE, "World object '%s' does not exist, or the frame '%s' does not. Cannot move.",
+                    object.id.c_str(), object.header.frame_id.c_str());
     return false;
   }
   if (!object.primitives.empty() || !object.meshes.empty() || !object.planes.empty())
-    ROS_WARN_NAMED(LOGNAME, "Move operation for object '%s' ignores the geometry specified in the message.", object.id.c_str());
+    ROS_WARN_NAMED(log_names::PLANNING_SCENE, "Move operation for object '%s' ignores the geometry specified in the message.",
+                   object.id.c_str());
   EigenSTL::vector_Isometry3d poses;
   for (const auto* list : { &object.primitive_poses, &object.mesh_poses, &object.plane_poses })
     for (const geometry_msgs::Pose& pose : *list)
@@ -177,7 +185,7 @@ bool PlanningScene::moveObject(const CollisionObject& object)
     std::swap(pose, poses[0]);
   if (!poses.empty() && !world_->moveShapesInObject(object.id, poses))
   {
-    ROS_ERROR_NAMED(LOGNAME,
+    ROS_ERROR_NAMED(log_names::PLANNING_SCENE,
                     "Number of supplied poses (%zu) for object '%s' does not match number of shapes (%zu). Not moving.",
                     poses.size(), object.id.c_str(), known->shapes_.size());
     return false;
@@ -215,15 +223,13 @@ bool PlanningScene::processAttachedCollisionObjectMsg(const moveit_msgs::Attache
     }
     return true;
   }
-  if (id == OCTOMAP_NS)
-  {
-    ROS_ERROR_NAMED(LOGNAME, "The ID '%s' cannot be used for collision objects (name reserved)", OCTOMAP_NS.c_str());
+  if (isReserved(id))
     return false;
-  }
   moveit_msgs::AttachedCollisionObject whole = object;
   if (!robot_model_->hasLinkModel(object.link_name))
   {
-    ROS_ERROR_NAMED(LOGNAME, "Robot state is not compatible with robot model: there is no link '%s' to attach '%s' to.",
+    ROS_ERROR_NAMED(log_names::PLANNING_SCENE,
+                    "Robot state is not compatible with robot model: there is no link '%s' to attach '%s' to.",
                     object.link_name.c_str(), id.c_str());
     return false;
   }
@@ -232,7 +238,7 @@ bool PlanningScene::processAttachedCollisionObjectMsg(const moveit_msgs::Attache
   {
     if (!from_world)
     {
-      ROS_ERROR_NAMED(LOGNAME,
+      ROS_ERROR_NAMED(log_names::PLANNING_SCENE,
                       "Attempting to attach object '%s' to link '%s' but no geometry specified and such an object does "
                       "not exist in the collision world",
                       id.c_str(), object.link_name.c_str());
@@ -313,7 +319,7 @@ void PlanningScene::processOctomapMsg(const octomap_msgs::OctomapWithPose& map)
   }
   catch (const motion::Error& error)
   {
-    ROS_ERROR_NAMED(LOGNAME, "the octomap is left out: %s", error.what());
+    ROS_ERROR_NAMED(log_names::PLANNING_SCENE, "the octomap is left out: %s", error.what());
   }
 }
 
@@ -374,8 +380,8 @@ bool PlanningScene::usePlanningSceneMsg(const moveit_msgs::PlanningScene& scene)
 bool PlanningScene::setPlanningSceneMsg(const moveit_msgs::PlanningScene& scene)
 {
   if (!scene.robot_model_name.empty() && scene.robot_model_name != robot_model_->getName())
-    ROS_WARN_NAMED(LOGNAME, "Setting the scene for model '%s' but model '%s' is loaded.", scene.robot_model_name.c_str(),
-                   robot_model_->getName().c_str());
+    ROS_WARN_NAMED(log_names::PLANNING_SCENE, "Setting the scene for model '%s' but model '%s' is loaded.",
+                   scene.robot_model_name.c_str(), robot_model_->getName().c_str());
   decoupleParent();
   name_ = scene.name;
   removeAllCollisionObjects();

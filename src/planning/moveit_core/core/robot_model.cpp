@@ -4,6 +4,7 @@
 
 #include <ros/package.h>
 
+#include "log_names.hpp"
 #include "motion/robot_model.hpp"
 
 namespace moveit
@@ -12,8 +13,6 @@ namespace core
 {
 namespace
 {
-constexpr char LOGNAME[] = "robot_model";
-
 std::string findFile(const std::string& uri)
 {
   const std::string package = "package://", file = "file://";
@@ -37,9 +36,9 @@ std::shared_ptr<motion::RobotModel> load(const urdf::ModelInterfaceSharedPtr& ur
     const std::string mark = "error: ";
     for (const std::string& warning : core->warnings)
       if (warning.compare(0, mark.size(), mark) == 0)
-        ROS_ERROR_NAMED(LOGNAME, "%s", warning.c_str() + mark.size());
+        ROS_ERROR_NAMED(log_names::ROBOT_MODEL, "%s", warning.c_str() + mark.size());
       else
-        ROS_WARN_NAMED(LOGNAME, "%s", warning.c_str());
+        ROS_WARN_NAMED(log_names::ROBOT_MODEL, "%s", warning.c_str());
     return core;
   }
   catch (const motion::Error& error)
@@ -264,7 +263,7 @@ const JointModel* RobotModel::getJointModel(int index) const
 {
   if (index >= 0 && index < static_cast<int>(joint_model_vector_.size()))
     return joint_model_vector_[index];
-  ROS_ERROR_NAMED(LOGNAME, "Joint index '%i' out of bounds of joints in model '%s'", index, model_name_.c_str());
+  ROS_ERROR_NAMED(log_names::ROBOT_MODEL, "Joint index '%i' out of bounds of joints in model '%s'", index, model_name_.c_str());
   return nullptr;
 }
 
@@ -272,7 +271,7 @@ JointModel* RobotModel::getJointModel(const std::string& joint)
 {
   if (const motion::JointModel* found = core_->findJoint(joint))
     return joint_model_vector_[found->index];
-  ROS_ERROR_NAMED(LOGNAME, "Joint '%s' not found in model '%s'", joint.c_str(), model_name_.c_str());
+  ROS_ERROR_NAMED(log_names::ROBOT_MODEL, "Joint '%s' not found in model '%s'", joint.c_str(), model_name_.c_str());
   return nullptr;
 }
 
@@ -297,7 +296,7 @@ const LinkModel* RobotModel::getLinkModel(int index) const
 {
   if (index >= 0 && index < static_cast<int>(link_model_vector_.size()))
     return link_model_vector_[index];
-  ROS_ERROR_NAMED(LOGNAME, "Link index '%i' out of bounds of links in model '%s'", index, model_name_.c_str());
+  ROS_ERROR_NAMED(log_names::ROBOT_MODEL, "Link index '%i' out of bounds of links in model '%s'", index, model_name_.c_str());
   return nullptr;
 }
 
@@ -309,7 +308,7 @@ LinkModel* RobotModel::getLinkModel(const std::string& link, bool* has_link)
   if (found)
     return link_model_vector_[found->index];
   if (!has_link)
-    ROS_ERROR_NAMED(LOGNAME, "Link '%s' not found in model '%s'", link.c_str(), model_name_.c_str());
+    ROS_ERROR_NAMED(log_names::ROBOT_MODEL, "Link '%s' not found in model '%s'", link.c_str(), model_name_.c_str());
   return nullptr;
 }
 
@@ -366,7 +365,7 @@ JointModelGroup* RobotModel::getJointModelGroup(const std::string& name)
   for (JointModelGroup* group : joint_model_groups_)
     if (group->getName() == name)
       return group;
-  ROS_ERROR_NAMED(LOGNAME, "Group '%s' not found in model '%s'", name.c_str(), model_name_.c_str());
+  ROS_ERROR_NAMED(log_names::ROBOT_MODEL, "Group '%s' not found in model '%s'", name.c_str(), model_name_.c_str());
   return nullptr;
 }
 
@@ -385,7 +384,7 @@ JointModelGroup* RobotModel::getEndEffector(const std::string& name)
   for (JointModelGroup* group : joint_model_groups_)
     if (group->getName() == name && group->isEndEffector())
       return group;
-  ROS_ERROR_NAMED(LOGNAME, "End-effector '%s' not found in model '%s'", name.c_str(), model_name_.c_str());
+  ROS_ERROR_NAMED(log_names::ROBOT_MODEL, "End-effector '%s' not found in model '%s'", name.c_str(), model_name_.c_str());
   return nullptr;
 }
 }  // namespace core

@@ -5,6 +5,8 @@
 
 #include <moveit/robot_state/robot_state.h>
 
+#include "frames.hpp"
+#include "log_names.hpp"
 #include "motion/robot_state.hpp"
 
 namespace moveit
@@ -13,10 +15,6 @@ namespace core
 {
 namespace
 {
-constexpr char LOGNAME[] = "robot_state";
-
-std::string withoutSlash(const std::string& frame) { return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame; }
-
 Eigen::Isometry3d fromMessage(const geometry_msgs::Pose& pose)
 {
   Eigen::Isometry3d out;
@@ -44,7 +42,7 @@ bool RobotState::setFromIK(const JointModelGroup* group, const Eigen::Isometry3d
   const kinematics::KinematicsBaseConstPtr& solver = group->getSolverInstance();
   if (!solver)
   {
-    ROS_ERROR_NAMED(LOGNAME, "No kinematics solver instantiated for group '%s'. Is kinematics.yaml loaded?",
+    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "No kinematics solver instantiated for group '%s'. Is kinematics.yaml loaded?",
                     group->getName().c_str());
     return false;
   }
@@ -85,7 +83,7 @@ bool RobotState::setToIKSolverFrame(Eigen::Isometry3d& pose, const std::string& 
   const Eigen::Isometry3d base = getFrameTransform(ik_frame, &known);
   if (!known)
   {
-    ROS_ERROR_STREAM_NAMED(LOGNAME, "The following IK frame does not exist: " << ik_frame);
+    ROS_ERROR_STREAM_NAMED(log_names::ROBOT_STATE, "The following IK frame does not exist: " << ik_frame);
     return false;
   }
   pose = base.inverse() * pose;
@@ -96,12 +94,12 @@ bool RobotState::setToIKSolverFrame(Eigen::Isometry3d& pose, const std::string& 
 bool RobotState::queryFor(Eigen::Isometry3d pose, std::string tip, const kinematics::KinematicsBaseConstPtr& solver,
                           std::size_t& which, geometry_msgs::Pose& query)
 {
-  tip = withoutSlash(tip);
+  tip = frames::withoutSlash(tip);
   if (!setToIKSolverFrame(pose, solver))
     return false;
   const std::vector<std::string>& own = solver->getTipFrames();
   for (which = 0; which < own.size(); ++which)
-    if (withoutSlash(own[which]) == tip)
+    if (frames::withoutSlash(own[which]) == tip)
     {
       query = tf2::toMsg(pose);
       return true;
@@ -116,8 +114,9 @@ bool RobotState::queryFor(Eigen::Isometry3d pose, std::string tip, const kinemat
     query = tf2::toMsg(Eigen::Isometry3d(pose * in_parent.inverse() * own_in_parent));
     return true;
   }
-  ROS_ERROR_NAMED(LOGNAME, "Cannot compute IK for query pose reference frame '%s': the solver of group '%s' moves '%s'",
-                  tip.c_str(), solver->getGroupName().c_str(), own.empty() ? "" : own[0].c_str());
+  ROS_ERROR_NAMED(log_names::ROBOT_STATE,
+                  "Cannot compute IK for query pose reference frame '%s': the solver of group '%s' moves '%s'", tip.c_str(),
+                  solver->getGroupName().c_str(), own.empty() ? "" : own[0].c_str());
   return false;
 }
 
@@ -162,7 +161,7 @@ bool RobotState::setFromIK(const JointModelGroup* group, const EigenSTL::vector_
 {
   if (poses.size() != tips.size() || poses.empty())
   {
-    ROS_ERROR_NAMED(LOGNAME, "Number of poses must be the same as number of tips");
+    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "Number of poses must be the same as number of tips");
     return false;
   }
   const JointModelGroup::KinematicsSolver& own = group->getGroupKinematics().first;
@@ -170,7 +169,7 @@ bool RobotState::setFromIK(const JointModelGroup* group, const EigenSTL::vector_
   {
     if (poses.size() > 1 || !group->getGroupKinematics().second.empty())
       return setFromIKSubgroups(group, poses, tips, consistency_limits, timeout, constraint, options);
-    ROS_ERROR_NAMED(LOGNAME, "No kinematics solver instantiated for group '%s'. Is kinematics.yaml loaded?",
+    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "No kinematics solver instantiated for group '%s'. Is kinematics.yaml loaded?",
                     group->getName().c_str());
     return false;
   }
@@ -178,8 +177,8 @@ bool RobotState::setFromIK(const JointModelGroup* group, const EigenSTL::vector_
   const std::size_t wanted = solver->getTipFrames().size();
   if (poses.size() > wanted)
   {
-    ROS_ERROR_NAMED(LOGNAME, "%zu poses for the solver of group '%s', which takes %zu", poses.size(), group->getName().c_str(),
-                    wanted);
+    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "%zu poses for the solver of group '%s', which takes %zu", poses.size(),
+                    group->getName().c_str(), wanted);
     return false;
   }
   // Tips that nothing is said of stay where they are.
@@ -219,8 +218,8 @@ bool RobotState::setFromIKSubgroups(const JointModelGroup* group, const EigenSTL
       parts.emplace_back(sub.first, &sub.second);
   if (parts.size() < poses.size() || parts.empty())
   {
-    ROS_ERROR_NAMED(LOGNAME, "%zu poses for the %zu subgroups of '%s' that have kinematics solvers", poses.size(), parts.size(),
-                    group->getName().c_str());
+    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "%zu poses for the %zu subgroups of '%s' that have kinematics solvers",
+                    poses.size(), parts.size(), group->getName().c_str());
     return false;
   }
   const RobotState before(*this);
@@ -269,12 +268,13 @@ bool RobotState::getJacobian(const JointModelGroup* group, const LinkModel* link
 {
   if (!group->isChain())
   {
-    ROS_ERROR_NAMED(LOGNAME, "The group '%s' is not a chain. Cannot compute Jacobian.", group->getName().c_str());
+    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "The group '%s' is not a chain. Cannot compute Jacobian.",
+                    group->getName().c_str());
     return false;
   }
   if (!group->isLinkUpdated(link->getName()))
   {
-    ROS_ERROR_NAMED(LOGNAME, "Link name '%s' does not exist in the chain '%s' or is not a child for this chain",
+    ROS_ERROR_NAMED(log_names::ROBOT_STATE, "Link name '%s' does not exist in the chain '%s' or is not a child for this chain",
                     link->getName().c_str(), group->getName().c_str());
     return false;
   }

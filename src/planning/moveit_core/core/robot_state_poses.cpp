@@ -1,18 +1,14 @@
 // States: poses, frames, and what the robot carries.
 #include <moveit/robot_state/robot_state.h>
 
+#include "frames.hpp"
+#include "log_names.hpp"
 #include "motion/robot_state.hpp"
 
 namespace moveit
 {
 namespace core
 {
-namespace
-{
-constexpr char LOGNAME[] = "robot_state";
-const Eigen::Isometry3d IDENTITY = Eigen::Isometry3d::Identity();
-}  // namespace
-
 // ---------------------------------------------------------------- poses
 
 void RobotState::update(bool force)
@@ -50,15 +46,10 @@ void RobotState::updateStateWithLinkAt(const LinkModel* link, const Eigen::Isome
   core_->placeLink(link->getLinkIndex(), transform, backward);
 }
 
-namespace
-{
-std::string withoutSlash(const std::string& frame) { return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame; }
-}  // namespace
-
 const Eigen::Isometry3d& RobotState::getFrameInfo(const std::string& frame_id, const LinkModel*& robot_link,
                                                   bool& frame_found) const
 {
-  const std::string name = withoutSlash(frame_id);
+  const std::string name = frames::withoutSlash(frame_id);
   frame_found = true;
   robot_link = nullptr;
   if (name == robot_model_->getModelFrame())
@@ -67,7 +58,7 @@ const Eigen::Isometry3d& RobotState::getFrameInfo(const std::string& frame_id, c
     robot_link = robot_model_->getLinkModel(name, &is_link);
     if (!is_link)
       robot_link = robot_model_->getRootLink();
-    return IDENTITY;
+    return frames::IDENTITY;
   }
   bool is_link = false;
   robot_link = robot_model_->getLinkModel(name, &is_link);
@@ -87,7 +78,7 @@ const Eigen::Isometry3d& RobotState::getFrameInfo(const std::string& frame_id, c
   }
   robot_link = nullptr;
   frame_found = false;
-  return IDENTITY;
+  return frames::IDENTITY;
 }
 
 const Eigen::Isometry3d& RobotState::getFrameTransform(const std::string& frame_id, bool* frame_found) const
@@ -98,21 +89,21 @@ const Eigen::Isometry3d& RobotState::getFrameTransform(const std::string& frame_
   if (frame_found)
     *frame_found = found;
   else if (!found)
-    ROS_WARN_NAMED(LOGNAME, "getFrameTransform() did not find a frame with name %s.", frame_id.c_str());
+    ROS_WARN_NAMED(log_names::ROBOT_STATE, "getFrameTransform() did not find a frame with name %s.", frame_id.c_str());
   return pose;
 }
 
 bool RobotState::knowsFrameTransform(const std::string& frame_id) const
 {
   motion::Transform unused;
-  return core_->frameLink(withoutSlash(frame_id), unused) >= 0;
+  return core_->frameLink(frames::withoutSlash(frame_id), unused) >= 0;
 }
 
 const LinkModel* RobotState::getRigidlyConnectedParentLinkModel(const std::string& frame, Eigen::Isometry3d* transform,
                                                                 const JointModelGroup* jmg) const
 {
   motion::Transform in_link;
-  const int carrier = core_->frameLink(withoutSlash(frame), in_link);
+  const int carrier = core_->frameLink(frames::withoutSlash(frame), in_link);
   if (carrier < 0)
     return nullptr;
   Eigen::Isometry3d of_link;
@@ -208,7 +199,7 @@ const AttachedBody* RobotState::getAttachedBody(const std::string& name) const
   const auto found = bodies_.find(name);
   if (found != bodies_.end())
     return found->second.get();
-  ROS_ERROR_NAMED(LOGNAME, "Attached body '%s' not found", name.c_str());
+  ROS_ERROR_NAMED(log_names::ROBOT_STATE, "Attached body '%s' not found", name.c_str());
   return nullptr;
 }
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "frames.hpp"
+
 namespace collision_detection
 {
 namespace
 {
-const Eigen::Isometry3d IDENTITY = Eigen::Isometry3d::Identity();
-
 void place(World::Object& object)
 {
   object.global_shape_poses_.clear();
@@ -68,7 +68,7 @@ const Eigen::Isometry3d& World::getTransform(const std::string& name, bool& fram
         return frame->second;
     }
   frame_found = false;
-  return IDENTITY;
+  return frames::IDENTITY;
 }
 
 bool World::knowsTransform(const std::string& name) const
@@ -97,7 +97,7 @@ const EigenSTL::vector_Isometry3d& World::getGlobalShapeTransforms(const std::st
 const Eigen::Isometry3d& World::getGlobalShapeTransform(const std::string& object_id, int shape_index) const
 {
   const EigenSTL::vector_Isometry3d& poses = getGlobalShapeTransforms(object_id);
-  return shape_index >= 0 && shape_index < static_cast<int>(poses.size()) ? poses[shape_index] : IDENTITY;
+  return shape_index >= 0 && shape_index < static_cast<int>(poses.size()) ? poses[shape_index] : frames::IDENTITY;
 }
 
 // ---------------------------------------------------------------- changes

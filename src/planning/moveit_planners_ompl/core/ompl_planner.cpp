@@ -9,7 +9,6 @@ namespace ompl_interface
 {
 namespace
 {
-constexpr char LOGNAME[] = "ompl_interface";
 using moveit_msgs::MoveItErrorCodes;
 }  // namespace
 

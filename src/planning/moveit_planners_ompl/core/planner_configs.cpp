@@ -10,7 +10,6 @@ namespace ompl_interface
 {
 namespace
 {
-constexpr char LOGNAME[] = "ompl_interface";
 constexpr char DEFAULT[] = "geometric::RRTConnect";
 // Settings of a group that every planner of it inherits.
 const char* const GROUP_KEYS[] = { "projection_evaluator", "longest_valid_segment_fraction", "enforce_joint_model_state_space",

@@ -11,6 +11,8 @@
 
 namespace ompl_interface
 {
+constexpr char LOGNAME[] = "ompl_interface";
+
 // The table name -> settings; names are `group` (its default) and `group[config]`.
 planning_interface::PlannerConfigurationMap readPlannerConfigs(const moveit::core::RobotModel& model,
                                                                const ros::NodeHandle& nh);

@@ -5,12 +5,12 @@
 #include <ros/console.h>
 
 #include "motion/planning_scene.hpp"
+#include "planner_configs.hpp"
 
 namespace ompl_interface
 {
 namespace
 {
-constexpr char LOGNAME[] = "ompl_interface";
 using moveit_msgs::MoveItErrorCodes;
 
 // The codes that upstream's interface to OMPL gives.

@@ -9,12 +9,12 @@
 #include <mutex>
 
 #include "built_in_controllers.hpp"
+#include "log_names.hpp"
 
 namespace trajectory_execution_manager
 {
 namespace
 {
-constexpr char LOGNAME[] = "controller_manager";
 constexpr double CONNECT = 2.0;  // s of wall time for a server that comes late
 constexpr double GONE = 1.0;     // s of wall time after which a server that is not there is taken for dead
 using moveit_controller_manager::ExecutionStatus;
@@ -64,7 +64,7 @@ public:
         return true;
       sent = goals_;
     }
-    ROS_INFO_NAMED(LOGNAME, "Cancelling execution for %s", name_.c_str());
+    ROS_INFO_NAMED(log_names::CONTROLLER_MANAGER, "Cancelling execution for %s", name_.c_str());
     client_->cancelGoal();
     end(sent, ExecutionStatus::PREEMPTED);
     return true;
@@ -85,7 +85,7 @@ public:
         there = ros::WallTime::now();
       else if ((ros::WallTime::now() - there).toSec() > GONE)
       {
-        ROS_ERROR_NAMED(LOGNAME,
+        ROS_ERROR_NAMED(log_names::CONTROLLER_MANAGER,
                         "The action server %s has gone away during the motion; the controller '%s' was stopped, or its "
                         "node has ended",
                         topic_.c_str(), name_.c_str());
@@ -119,7 +119,8 @@ private:
     {
       if (ros::WallTime::now() > until || !ros::ok())
       {
-        ROS_ERROR_NAMED(LOGNAME, "Action client not connected to action server: %s. Start the controller '%s'", topic_.c_str(),
+        ROS_ERROR_NAMED(log_names::CONTROLLER_MANAGER,
+                        "Action client not connected to action server: %s. Start the controller '%s'", topic_.c_str(),
                         name_.c_str());
         return false;
       }
@@ -142,7 +143,7 @@ private:
     using State = actionlib::SimpleClientGoalState;
     if (state == State::SUCCEEDED || (state == State::ABORTED && entry_.flag("allow_failure")))
       return ExecutionStatus::SUCCEEDED;
-    ROS_WARN_NAMED(LOGNAME, "Controller '%s' ended with %s: %s", name_.c_str(), state.toString().c_str(),
+    ROS_WARN_NAMED(log_names::CONTROLLER_MANAGER, "Controller '%s' ended with %s: %s", name_.c_str(), state.toString().c_str(),
                    state.getText().c_str());
     return state == State::ABORTED     ? ExecutionStatus::ABORTED
            : state == State::PREEMPTED ? ExecutionStatus::PREEMPTED
@@ -173,10 +174,10 @@ protected:
   bool makeGoal(const moveit_msgs::RobotTrajectory& trajectory, control_msgs::FollowJointTrajectoryGoal& goal) override
   {
     if (!trajectory.multi_dof_joint_trajectory.points.empty())
-      ROS_WARN_NAMED(LOGNAME, "%s cannot execute multi-dof trajectories.", name_.c_str());
+      ROS_WARN_NAMED(log_names::CONTROLLER_MANAGER, "%s cannot execute multi-dof trajectories.", name_.c_str());
     if (trajectory.joint_trajectory.points.empty())
     {
-      ROS_ERROR_NAMED(LOGNAME, "The trajectory for '%s' has no points", name_.c_str());
+      ROS_ERROR_NAMED(log_names::CONTROLLER_MANAGER, "The trajectory for '%s' has no points", name_.c_str());
       return false;
     }
     goal.trajectory = trajectory.joint_trajectory;
@@ -189,8 +190,8 @@ protected:
   void explain(const control_msgs::FollowJointTrajectoryResult& result) override
   {
     if (result.error_code != control_msgs::FollowJointTrajectoryResult::SUCCESSFUL)
-      ROS_WARN_NAMED(LOGNAME, "Controller '%s' failed with error code %d: %s", name_.c_str(), result.error_code,
-                     result.error_string.c_str());
+      ROS_WARN_NAMED(log_names::CONTROLLER_MANAGER, "Controller '%s' failed with error code %d: %s", name_.c_str(),
+                     result.error_code, result.error_string.c_str());
   }
 
 private:
@@ -228,7 +229,8 @@ protected:
     const auto& names = trajectory.joint_trajectory.joint_names;
     if (trajectory.joint_trajectory.points.empty())
     {
-      ROS_ERROR_NAMED(LOGNAME, "%s requires at least one joint trajectory point, but none is given", name_.c_str());
+      ROS_ERROR_NAMED(log_names::CONTROLLER_MANAGER, "%s requires at least one joint trajectory point, but none is given",
+                      name_.c_str());
       return false;
     }
     std::vector<std::string> commanded = entry_.joints;
@@ -249,7 +251,7 @@ protected:
       any = true;
     }
     if (!any)
-      ROS_ERROR_NAMED(LOGNAME, "%s found no joint of its own in the trajectory", name_.c_str());
+      ROS_ERROR_NAMED(log_names::CONTROLLER_MANAGER, "%s found no joint of its own in the trajectory", name_.c_str());
     return any;
   }
 };
@@ -268,7 +270,7 @@ Handles makeActionHandles(const std::vector<ControllerEntry>& entries)
     else if (entry.type == "GripperCommand")
       handles[entry.name] = std::make_shared<GripperCommandHandle>(entry, topic);
     else
-      ROS_ERROR_NAMED(LOGNAME,
+      ROS_ERROR_NAMED(log_names::CONTROLLER_MANAGER,
                       "Unknown controller type: %s of controller '%s'; there are: FollowJointTrajectory, GripperCommand",
                       entry.type.c_str(), entry.name.c_str());
   }

@@ -1,4 +1,5 @@
 #include "built_in_controllers.hpp"
+#include "log_names.hpp"
 
 #include <ros/console.h>
 
@@ -6,7 +7,6 @@ namespace trajectory_execution_manager
 {
 namespace
 {
-constexpr char LOGNAME[] = "controller_manager";
 using moveit_controller_manager::MoveItControllerHandlePtr;
 using Value = XmlRpc::XmlRpcValue;
 
@@ -18,7 +18,7 @@ public:
     for (const ControllerEntry& entry : entries)
       if (handles_.count(entry.name))
         entries_[entry.name] = entry;
-    ROS_INFO_NAMED(LOGNAME, "Returned %zu controllers in list", handles_.size());
+    ROS_INFO_NAMED(log_names::CONTROLLER_MANAGER, "Returned %zu controllers in list", handles_.size());
   }
   MoveItControllerHandlePtr getControllerHandle(const std::string& name) override
   {
@@ -87,12 +87,13 @@ std::vector<ControllerEntry> readControllerList(const ros::NodeHandle& nh, bool 
   Value list;
   if (!nh.getParam("controller_list", list))
   {
-    ROS_ERROR_NAMED(LOGNAME, "No controller_list specified: parameter %s is not set", parameter.c_str());
+    ROS_ERROR_NAMED(log_names::CONTROLLER_MANAGER, "No controller_list specified: parameter %s is not set", parameter.c_str());
     return usable;
   }
   if (list.getType() != Value::TypeArray)
   {
-    ROS_ERROR_NAMED(LOGNAME, "Parameter controller_list should be specified as an array: %s", parameter.c_str());
+    ROS_ERROR_NAMED(log_names::CONTROLLER_MANAGER, "Parameter controller_list should be specified as an array: %s",
+                    parameter.c_str());
     return usable;
   }
   for (int i = 0; i < list.size(); ++i)
@@ -105,8 +106,8 @@ std::vector<ControllerEntry> readControllerList(const ros::NodeHandle& nh, bool 
     if (!has(list[i], "name", Value::TypeString) || !has(list[i], "joints", Value::TypeArray) ||
         (actions && entry.type.empty()))
     {
-      ROS_ERROR_NAMED(LOGNAME, "Entry %d of %s needs a name, a list of joints%s: left out", i, parameter.c_str(),
-                      actions ? ", action_ns and type" : "");
+      ROS_ERROR_NAMED(log_names::CONTROLLER_MANAGER, "Entry %d of %s needs a name, a list of joints%s: left out", i,
+                      parameter.c_str(), actions ? ", action_ns and type" : "");
       continue;
     }
     Value& joints = list[i]["joints"];

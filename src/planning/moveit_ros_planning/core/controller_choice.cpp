@@ -5,12 +5,12 @@
 #include <cmath>
 #include <tuple>
 
+#include "log_names.hpp"
+
 namespace trajectory_execution_manager
 {
 namespace
 {
-constexpr char LOGNAME[] = "trajectory_execution_manager";
-
 std::string listed(const std::set<std::string>& names)
 {
   std::string text;
@@ -172,14 +172,15 @@ bool TrajectoryExecutionManager::configure(TrajectoryExecutionContext& context, 
     return true;
   if (!isWhole(trajectory.joint_trajectory))
   {
-    ROS_ERROR_NAMED(LOGNAME, "Wrong trajectory: each point needs a position for each joint, later than the one before");
+    ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER,
+                    "Wrong trajectory: each point needs a position for each joint, later than the one before");
     return false;
   }
   if (!points.empty() && (trajectory.joint_trajectory.header.stamp + points.back().time_from_start).isZero())
     return true;  // takes no time
   if (!controller_manager_)
   {
-    ROS_ERROR_NAMED(LOGNAME, "No controller manager is loaded: nothing can be executed");
+    ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "No controller manager is loaded: nothing can be executed");
     return false;
   }
   std::vector<std::string> names = trajectory.joint_trajectory.joint_names;
@@ -188,7 +189,7 @@ bool TrajectoryExecutionManager::configure(TrajectoryExecutionContext& context, 
   const Joints wanted = actuated(names);
   if (wanted.empty())
   {
-    ROS_ERROR_NAMED(LOGNAME, "The trajectory to execute specifies no joints");
+    ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "The trajectory to execute specifies no joints");
     return false;
   }
   std::vector<std::string> known;
@@ -196,7 +197,7 @@ bool TrajectoryExecutionManager::configure(TrajectoryExecutionContext& context, 
   for (const std::string& name : controllers)
     if (std::find(known.begin(), known.end(), name) == known.end())
     {
-      ROS_ERROR_NAMED(LOGNAME, "Controller '%s' is not known", name.c_str());
+      ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "Controller '%s' is not known", name.c_str());
       return false;
     }
   context.controllers_ = select(wanted, controllers.empty() ? known : controllers);
@@ -205,7 +206,7 @@ bool TrajectoryExecutionManager::configure(TrajectoryExecutionContext& context, 
     std::string text;
     for (const std::string& name : known)
       text += name + " (" + listed(jointsOf(name)) + ") ";
-    ROS_ERROR_NAMED(LOGNAME,
+    ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER,
                     "Unable to identify any set of controllers that can actuate the specified joints: [ %s]. Known "
                     "controllers and their joints: %s",
                     listed(wanted).c_str(), known.empty() ? "none" : text.c_str());
@@ -222,7 +223,8 @@ bool TrajectoryExecutionManager::startsHere(const TrajectoryExecutionContext& co
   if (!(allowed_start_tolerance_ > 0.0) || !csm_ || context.trajectory_parts_.empty())
     return true;
   if (!csm_->waitForCurrentState(ros::Time::now(), 1.0))
-    ROS_WARN_NAMED(LOGNAME, "Failed to validate trajectory: couldn't receive full current joint state within 1s");
+    ROS_WARN_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER,
+                   "Failed to validate trajectory: couldn't receive full current joint state within 1s");
   const moveit::core::RobotStatePtr state = csm_->getCurrentState();
   std::map<std::string, double> own;
   ros::param::get(node_handle_.resolveName("trajectory_execution/joints_allowed_start_tolerance"), own);
@@ -242,7 +244,7 @@ bool TrajectoryExecutionManager::startsHere(const TrajectoryExecutionContext& co
       joint->enforcePositionBounds(&current);
       if (allowed > 0.0 && !(joint->distance(&expected, &current) <= allowed))
       {
-        ROS_ERROR_NAMED(LOGNAME,
+        ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER,
                         "Invalid Trajectory: start point deviates from current robot state more than %g: joint '%s': "
                         "expected: %g, current: %g. Plan again from where the robot is now",
                         allowed, names[i].c_str(), expected, current);
@@ -282,7 +284,7 @@ bool TrajectoryExecutionManager::ensureActiveControllers(const std::vector<std::
     return true;
   if (!controller_manager_ || !manage_controllers_)
   {
-    ROS_WARN_NAMED(LOGNAME,
+    ROS_WARN_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER,
                    "Controllers are not active, and this node does not manage controllers (~moveit_manage_controllers)");
     return false;
   }

@@ -5,12 +5,12 @@
 
 #include <tf2_eigen/tf2_eigen.h>
 
+#include "log_names.hpp"
+
 namespace planning_scene_monitor
 {
 namespace
 {
-
-const char LOGNAME[] = "current_state_monitor";
 const double CHANGE = 1e-5;  // of a joint of several degrees of freedom, that callbacks are told of
 
 std::string listed(const std::vector<std::string>& names)
@@ -65,7 +65,7 @@ void CurrentStateMonitor::startStateMonitor(const std::string& joint_states_topi
     joint_time_.clear();
   }
   if (joint_states_topic.empty())
-    ROS_ERROR_NAMED(LOGNAME, "The joint states topic cannot be an empty string");
+    ROS_ERROR_NAMED(log_names::CURRENT_STATE_MONITOR, "The joint states topic cannot be an empty string");
   else
     joint_state_subscriber_ = nh_.subscribe(joint_states_topic, 25, &CurrentStateMonitor::take, this);
   if (tf_buffer_ && !robot_model_->getMultiDOFJointModels().empty())
@@ -111,7 +111,8 @@ const CurrentStateMonitor::Joints& CurrentStateMonitor::activeJoints(const std::
     return robot_model_->getActiveJointModels();
   if (robot_model_->hasJointModelGroup(group))
     return robot_model_->getJointModelGroup(group)->getActiveJointModels();
-  ROS_ERROR_STREAM_NAMED(LOGNAME, "There is no group with the name \"" << group << "\": all joints of the robot count");
+  ROS_ERROR_STREAM_NAMED(log_names::CURRENT_STATE_MONITOR,
+                         "There is no group with the name \"" << group << "\": all joints of the robot count");
   return robot_model_->getActiveJointModels();
 }
 
@@ -201,14 +202,16 @@ bool CurrentStateMonitor::waitForCurrentState(const ros::Time t, double wait_tim
     for (const moveit::core::JointModel* joint : activeJoints(""))
       if (joint_time_.count(joint) == 0)
         unheard.push_back(joint->getName());
-    ROS_WARN_STREAM_NAMED(LOGNAME, "Nobody publishes the joints " << listed(unheard) << " on '" << getMonitoredTopic()
-                                                                  << "': they are taken to be at their default values");
+    ROS_WARN_STREAM_NAMED(log_names::CURRENT_STATE_MONITOR, "Nobody publishes the joints "
+                                                                << listed(unheard) << " on '" << getMonitoredTopic()
+                                                                << "': they are taken to be at their default values");
     told_of_unheard_ = true;
     return true;
   }
-  ROS_INFO_STREAM_NAMED(LOGNAME, "Didn't receive robot state (joint angles) with recent timestamp within "
-                                     << wait_time << " seconds. Check clock synchronization if your are running ROS "
-                                     << "across multiple machines! " << whatIsWrong(t));
+  ROS_INFO_STREAM_NAMED(log_names::CURRENT_STATE_MONITOR,
+                        "Didn't receive robot state (joint angles) with recent timestamp within "
+                            << wait_time << " seconds. Check clock synchronization if your are running ROS "
+                            << "across multiple machines! " << whatIsWrong(t));
   return false;
 }
 
@@ -250,7 +253,7 @@ bool CurrentStateMonitor::waitForCompleteState(const std::string& group, double 
   if (haveCompleteState(missing, group))
     return true;
   if (!group.empty())
-    ROS_ERROR_STREAM_NAMED(LOGNAME, "\"" << group << "\" has missing joints: " << listed(missing));
+    ROS_ERROR_STREAM_NAMED(log_names::CURRENT_STATE_MONITOR, "\"" << group << "\" has missing joints: " << listed(missing));
   return false;
 }
 
@@ -281,9 +284,10 @@ bool CurrentStateMonitor::takeJoint(const sensor_msgs::JointState& joint_state, 
     // Time ran backwards: a simulation was reset, a bag began again. A stamp that comes twice is nothing.
     if (heard->second > joint_state.header.stamp)
     {
-      ROS_WARN_STREAM_NAMED(LOGNAME, "New joint state for joint '" << joint->getName()
-                                                                   << "' is not newer than the "
-                                                                      "previous state. Assuming your rosbag looped.");
+      ROS_WARN_STREAM_NAMED(log_names::CURRENT_STATE_MONITOR, "New joint state for joint '"
+                                                                  << joint->getName()
+                                                                  << "' is not newer than the "
+                                                                     "previous state. Assuming your rosbag looped.");
       // A static transform, which has no time, is not sent again.
       for (auto entry = joint_time_.begin(); entry != joint_time_.end();)
         entry = entry->second.isZero() ? std::next(entry) : joint_time_.erase(entry);
@@ -319,7 +323,7 @@ void CurrentStateMonitor::take(const sensor_msgs::JointStateConstPtr& joint_stat
 {
   if (joint_state->name.size() != joint_state->position.size())
   {
-    ROS_ERROR_THROTTLE_NAMED(1, LOGNAME,
+    ROS_ERROR_THROTTLE_NAMED(1, log_names::CURRENT_STATE_MONITOR,
                              "State monitor received invalid joint state (number of joint names does not "
                              "match number of positions)");
     return;
@@ -353,8 +357,9 @@ void CurrentStateMonitor::takeTransforms()
       }
       catch (const tf2::TransformException& error)
       {
-        ROS_WARN_STREAM_ONCE_NAMED(LOGNAME, "Unable to update multi-DOF joint '"
-                                                << joint->getName() << "': TF does not tell where it is: " << error.what());
+        ROS_WARN_STREAM_ONCE_NAMED(
+            log_names::CURRENT_STATE_MONITOR,
+            "Unable to update multi-DOF joint '" << joint->getName() << "': TF does not tell where it is: " << error.what());
         continue;
       }
       const auto heard = joint_time_.find(joint);

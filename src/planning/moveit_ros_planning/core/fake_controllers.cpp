@@ -9,12 +9,12 @@
 #include <thread>
 
 #include "built_in_controllers.hpp"
+#include "log_names.hpp"
 
 namespace trajectory_execution_manager
 {
 namespace
 {
-constexpr char LOGNAME[] = "fake_controller_manager";
 using moveit_controller_manager::ExecutionStatus;
 using trajectory_msgs::JointTrajectory;
 
@@ -33,7 +33,7 @@ public:
   bool sendTrajectory(const moveit_msgs::RobotTrajectory& trajectory) override
   {
     cancelExecution();
-    ROS_INFO_NAMED(LOGNAME, "Fake execution of trajectory");
+    ROS_INFO_NAMED(log_names::FAKE_CONTROLLER_MANAGER, "Fake execution of trajectory");
     stop_ = false;
     status_ = ExecutionStatus::RUNNING;
     thread_ = std::thread([this, points = trajectory.joint_trajectory]() {
@@ -162,7 +162,8 @@ void publishInitial(const ros::NodeHandle& nh, const moveit::core::RobotModel& m
     const std::string group = entry.text("group"), pose = entry.text("pose");
     std::map<std::string, double> own;
     if (!model.hasJointModelGroup(group) || !model.getJointModelGroup(group)->getVariableDefaultPositions(pose, own))
-      ROS_WARN_NAMED(LOGNAME, "initial: the robot has no pose '%s' of a group '%s'", pose.c_str(), group.c_str());
+      ROS_WARN_NAMED(log_names::FAKE_CONTROLLER_MANAGER, "initial: the robot has no pose '%s' of a group '%s'", pose.c_str(),
+                     group.c_str());
     values.insert(own.begin(), own.end());
   }
   sensor_msgs::JointState message;

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <sstream>
 
+#include "log_names.hpp"
 #include "plugin_solver.hpp"
 #include "solver_plugins.hpp"
 
@@ -13,7 +14,6 @@ namespace kinematics_plugin_loader
 {
 namespace
 {
-constexpr char LOGNAME[] = "kinematics_plugin_loader";
 constexpr char OWN[] = "moveit_kinematics";  // exports the motion library's under the names of MoveIt's: no detour for those
 constexpr char LIBRARY[] = "kdl_kinematics_plugin/KDLKinematicsPlugin";  // the motion library's own, by its best known name
 
@@ -61,7 +61,8 @@ public:
     const auto settings = groups.find(group->getName());
     if (settings == groups.end())
     {
-      ROS_DEBUG_NAMED(LOGNAME, "No kinematics solver is configured for group '%s'", group->getName().c_str());
+      ROS_DEBUG_NAMED(log_names::KINEMATICS_PLUGIN_LOADER, "No kinematics solver is configured for group '%s'",
+                      group->getName().c_str());
       return nullptr;
     }
     SolverRequest request;
@@ -85,14 +86,15 @@ public:
     try
     {
       const kinematics::KinematicsBasePtr solver = makeSolver(request, *group);
-      ROS_WARN_NAMED(LOGNAME, "Kinematics solver '%s' of group '%s' is not there; the motion library's takes its place (%s)",
+      ROS_WARN_NAMED(log_names::KINEMATICS_PLUGIN_LOADER,
+                     "Kinematics solver '%s' of group '%s' is not there; the motion library's takes its place (%s)",
                      settings->second.solvers[0].c_str(), group->getName().c_str(), why.c_str());
       return solver;
     }
     catch (const std::exception& error)
     {
-      ROS_ERROR_NAMED(LOGNAME, "Kinematics solver could not be instantiated for joint group %s: %s", group->getName().c_str(),
-                      error.what());
+      ROS_ERROR_NAMED(log_names::KINEMATICS_PLUGIN_LOADER, "Kinematics solver could not be instantiated for joint group %s: %s",
+                      group->getName().c_str(), error.what());
     }
     return nullptr;
   }
@@ -160,7 +162,7 @@ moveit::core::SolverAllocatorFn KinematicsPluginLoader::getLoaderFunction(const 
       loader_->groups[group.name_] = settings;
     }
     if (groups_.empty() && srdf_model && !srdf_model->getGroups().empty())
-      ROS_WARN_NAMED(LOGNAME, "No kinematics plugins defined. Fill and load kinematics.yaml!");
+      ROS_WARN_NAMED(log_names::KINEMATICS_PLUGIN_LOADER, "No kinematics plugins defined. Fill and load kinematics.yaml!");
   }
   return getLoaderFunction();
 }
@@ -190,11 +192,11 @@ void KinematicsPluginLoader::solveFor(const moveit::core::RobotModel& model) con
 void KinematicsPluginLoader::status() const
 {
   if (!loader_)
-    ROS_INFO_NAMED(LOGNAME, "Loader function was never required");
+    ROS_INFO_NAMED(log_names::KINEMATICS_PLUGIN_LOADER, "Loader function was never required");
   else
     for (const auto& group : loader_->groups)
       for (const std::string& solver : group.second.solvers)
-        ROS_INFO_NAMED(LOGNAME, "Solver for group '%s': '%s' (search resolution = %lf)", group.first.c_str(), solver.c_str(),
-                       group.second.resolution);
+        ROS_INFO_NAMED(log_names::KINEMATICS_PLUGIN_LOADER, "Solver for group '%s': '%s' (search resolution = %lf)",
+                       group.first.c_str(), solver.c_str(), group.second.resolution);
 }
 }  // namespace kinematics_plugin_loader

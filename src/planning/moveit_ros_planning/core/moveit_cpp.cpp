@@ -2,16 +2,17 @@
 
 #include <stdexcept>
 
+#include "log_names.hpp"
+
 namespace moveit_cpp
 {
 namespace
 {
-constexpr char LOGNAME[] = "moveit_cpp";
 using planning_scene_monitor::PlanningSceneMonitor;
 
 [[noreturn]] void refuse(const std::string& error)
 {
-  ROS_FATAL_NAMED(LOGNAME, "%s", error.c_str());
+  ROS_FATAL_NAMED(log_names::MOVEIT_CPP, "%s", error.c_str());
   throw std::runtime_error(error);
 }
 }  // namespace
@@ -63,7 +64,7 @@ void MoveItCpp::loadPlanningSceneMonitor(const PlanningSceneMonitorOptions& opti
   if (!planning_scene_monitor_->getPlanningScene())
     refuse("Unable to construct robot model from parameter '" + options.robot_description +
            "'. Please make sure all needed information is on the parameter server.");
-  ROS_INFO_NAMED(LOGNAME, "Listening to '%s' for joint states", options.joint_state_topic.c_str());
+  ROS_INFO_NAMED(log_names::MOVEIT_CPP, "Listening to '%s' for joint states", options.joint_state_topic.c_str());
   planning_scene_monitor_->startStateMonitor(options.joint_state_topic, options.attached_collision_object_topic);
   planning_scene_monitor_->startPublishingPlanningScene(PlanningSceneMonitor::UPDATE_SCENE,
                                                         options.monitored_planning_scene_topic);
@@ -81,15 +82,15 @@ void MoveItCpp::loadPlanningPipelines(const PlanningPipelineOptions& options)
   {
     if (planning_pipelines_.count(name))
     {
-      ROS_WARN_NAMED(LOGNAME, "Skipping duplicate entry for planning pipeline '%s'.", name.c_str());
+      ROS_WARN_NAMED(log_names::MOVEIT_CPP, "Skipping duplicate entry for planning pipeline '%s'.", name.c_str());
       continue;
     }
-    ROS_INFO_NAMED(LOGNAME, "Loading planning pipeline '%s'", name.c_str());
+    ROS_INFO_NAMED(log_names::MOVEIT_CPP, "Loading planning pipeline '%s'", name.c_str());
     const auto pipeline = std::make_shared<planning_pipeline::PlanningPipeline>(getRobotModel(), ros::NodeHandle(parent, name));
     if (pipeline->getPlannerManager())
       planning_pipelines_[name] = pipeline;
     else
-      ROS_ERROR_NAMED(LOGNAME, "Failed to initialize planning pipeline '%s'.", name.c_str());
+      ROS_ERROR_NAMED(log_names::MOVEIT_CPP, "Failed to initialize planning pipeline '%s'.", name.c_str());
   }
   if (planning_pipelines_.empty())
     refuse("Failed to load any planning pipelines: " + node_handle_.resolveName("planning_pipelines/pipeline_names") +
@@ -100,7 +101,7 @@ bool MoveItCpp::getCurrentState(moveit::core::RobotStatePtr& current_state, doub
 {
   if (wait_seconds > 0.0 && !planning_scene_monitor_->getStateMonitor()->waitForCurrentState(ros::Time::now(), wait_seconds))
   {
-    ROS_ERROR_NAMED(LOGNAME, "Did not receive robot state");
+    ROS_ERROR_NAMED(log_names::MOVEIT_CPP, "Did not receive robot state");
     return false;
   }
   planning_scene_monitor_->updateSceneWithCurrentState();
@@ -121,12 +122,13 @@ bool MoveItCpp::execute(const std::string& group_name, const robot_trajectory::R
 {
   if (!robot_trajectory)
   {
-    ROS_ERROR_NAMED(LOGNAME, "Robot trajectory is undefined");
+    ROS_ERROR_NAMED(log_names::MOVEIT_CPP, "Robot trajectory is undefined");
     return false;
   }
   if (!trajectory_execution_manager_->ensureActiveControllersForGroup(group_name))
   {
-    ROS_ERROR_NAMED(LOGNAME, "Execution failed! No active controllers configured for group '%s'", group_name.c_str());
+    ROS_ERROR_NAMED(log_names::MOVEIT_CPP, "Execution failed! No active controllers configured for group '%s'",
+                    group_name.c_str());
     return false;
   }
   moveit_msgs::RobotTrajectory message;
@@ -142,7 +144,8 @@ bool MoveItCpp::terminatePlanningPipeline(std::string const& pipeline_name)
   const auto found = planning_pipelines_.find(pipeline_name);
   if (found == planning_pipelines_.end())
   {
-    ROS_ERROR_NAMED(LOGNAME, "Cannot terminate pipeline '%s' because no pipeline with that name exists", pipeline_name.c_str());
+    ROS_ERROR_NAMED(log_names::MOVEIT_CPP, "Cannot terminate pipeline '%s' because no pipeline with that name exists",
+                    pipeline_name.c_str());
     return false;
   }
   if (found->second->isActive())

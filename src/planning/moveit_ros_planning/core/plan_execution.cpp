@@ -5,11 +5,12 @@
 
 #include <moveit/utils/message_checks.h>
 
+#include "log_names.hpp"
+
 namespace plan_execution
 {
 namespace
 {
-constexpr char LOGNAME[] = "plan_execution";
 using Codes = moveit_msgs::MoveItErrorCodes;
 using planning_scene_monitor::LockedPlanningSceneRO;
 using planning_scene_monitor::PlanningSceneMonitor;
@@ -71,7 +72,7 @@ void PlanExecution::replan(ExecutableMotionPlan& plan, const Options& opt)
   bool solved = false, again = true;
   for (unsigned int i = 1; i <= most && again; ++i)
   {
-    ROS_INFO_NAMED(LOGNAME, "Planning attempt %u of at most %u", i, most);
+    ROS_INFO_NAMED(log_names::PLAN_EXECUTION, "Planning attempt %u of at most %u", i, most);
     again = attempt(plan, opt, solved && opt.repair_plan_callback_, solved);
   }
   if (preempt_.exchange(false))
@@ -129,7 +130,7 @@ moveit_msgs::MoveItErrorCodes PlanExecution::executeAndMonitor(ExecutableMotionP
     return result;
   if (!push(plan))
   {
-    ROS_ERROR_NAMED(LOGNAME, "Apparently trajectory initialization failed");
+    ROS_ERROR_NAMED(log_names::PLAN_EXECUTION, "Apparently trajectory initialization failed");
     execution_->clear();
     result.val = Codes::CONTROL_FAILED;
     return result;
@@ -197,14 +198,14 @@ void PlanExecution::watch(const ExecutableMotionPlan& plan, bool& preempted)
       const std::pair<int, int> place = execution_->getCurrentExpectedTrajectoryIndex();
       if (!isRemainingPathValid(plan, place))
       {
-        ROS_WARN_NAMED(LOGNAME, "Trajectory component '%s' is invalid after scene update",
+        ROS_WARN_NAMED(log_names::PLAN_EXECUTION, "Trajectory component '%s' is invalid after scene update",
                        plan.plan_components_[place.first].description_.c_str());
         invalid_ = true;
       }
     }
     if (preempt_.exchange(false))
     {
-      ROS_INFO_NAMED(LOGNAME, "Stopping execution due to preempt request");
+      ROS_INFO_NAMED(log_names::PLAN_EXECUTION, "Stopping execution due to preempt request");
       preempted = true;
       return;
     }
@@ -238,17 +239,17 @@ void PlanExecution::succeeded(const ExecutableMotionPlan& plan, std::size_t inde
   if (index >= plan.plan_components_.size())
     return;
   const ExecutableTrajectory& part = plan.plan_components_[index];
-  ROS_DEBUG_NAMED(LOGNAME, "Completed '%s'", part.description_.c_str());
+  ROS_DEBUG_NAMED(log_names::PLAN_EXECUTION, "Completed '%s'", part.description_.c_str());
   if (part.effect_on_success_ && !part.effect_on_success_(&plan))
   {
-    ROS_ERROR_NAMED(LOGNAME, "Execution of path-completion side-effect failed. Preempting.");
+    ROS_ERROR_NAMED(log_names::PLAN_EXECUTION, "Execution of path-completion side-effect failed. Preempting.");
     preempt_ = true;
     return;
   }
   const std::pair<int, int> next(static_cast<int>(index) + 1, 0);
   if (!isRemainingPathValid(plan, next))
   {
-    ROS_INFO_NAMED(LOGNAME, "Upcoming trajectory component '%s' is invalid",
+    ROS_INFO_NAMED(log_names::PLAN_EXECUTION, "Upcoming trajectory component '%s' is invalid",
                    plan.plan_components_[next.first].description_.c_str());
     invalid_ = true;
   }

@@ -7,11 +7,12 @@
 #include <moveit/kinematic_constraints/utils.h>
 #include <moveit/robot_state/conversions.h>
 
+#include "log_names.hpp"
+
 namespace moveit_cpp
 {
 namespace
 {
-constexpr char LOGNAME[] = "planning_component";
 using planning_interface::MotionPlanResponse;
 using moveit::core::MoveItErrorCode;
 }  // namespace
@@ -46,7 +47,7 @@ PlanningComponent::PlanningComponent(const std::string& group_name, const MoveIt
   if (!joint_model_group_)
   {
     const std::string error = "Could not find joint model group '" + group_name + "'.";
-    ROS_FATAL_NAMED(LOGNAME, "%s", error.c_str());
+    ROS_FATAL_NAMED(log_names::PLANNING_COMPONENT, "%s", error.c_str());
     throw std::runtime_error(error);
   }
   plan_request_parameters_.load(nh_);
@@ -99,7 +100,7 @@ bool PlanningComponent::setStartState(const std::string& named_state)
     state = *moveit_cpp_->getCurrentState();
   if (!state.setToDefaultValues(joint_model_group_, named_state))
   {
-    ROS_ERROR_NAMED(LOGNAME, "No predefined joint state found for target name '%s'", named_state.c_str());
+    ROS_ERROR_NAMED(log_names::PLANNING_COMPONENT, "No predefined joint state found for target name '%s'", named_state.c_str());
     return false;
   }
   return setStartState(state);
@@ -128,7 +129,8 @@ bool PlanningComponent::setGoal(const std::string& named_target)
   moveit::core::RobotState state(moveit_cpp_->getRobotModel());
   if (!state.setToDefaultValues(joint_model_group_, named_target))
   {
-    ROS_ERROR_NAMED(LOGNAME, "No predefined joint state found for target name '%s'", named_target.c_str());
+    ROS_ERROR_NAMED(log_names::PLANNING_COMPONENT, "No predefined joint state found for target name '%s'",
+                    named_target.c_str());
     return false;
   }
   return setGoal(state);
@@ -161,14 +163,15 @@ MotionPlanResponse PlanningComponent::planOnce(const PlanRequestParameters& para
   MotionPlanResponse solution;
   if (current_goal_constraints_.empty())
   {
-    ROS_ERROR_NAMED(LOGNAME, "No goal constraints set for planning request");
+    ROS_ERROR_NAMED(log_names::PLANNING_COMPONENT, "No goal constraints set for planning request");
     solution.error_code_ = MoveItErrorCode(MoveItErrorCode::INVALID_GOAL_CONSTRAINTS);
     return solution;
   }
   const auto pipeline = moveit_cpp_->getPlanningPipelines().find(parameters.planning_pipeline);
   if (pipeline == moveit_cpp_->getPlanningPipelines().end())
   {
-    ROS_ERROR_NAMED(LOGNAME, "No planning pipeline available for name '%s'", parameters.planning_pipeline.c_str());
+    ROS_ERROR_NAMED(log_names::PLANNING_COMPONENT, "No planning pipeline available for name '%s'",
+                    parameters.planning_pipeline.c_str());
     solution.error_code_ = MoveItErrorCode(MoveItErrorCode::FAILURE);
     return solution;
   }
@@ -196,7 +199,7 @@ MotionPlanResponse PlanningComponent::planOnce(const PlanRequestParameters& para
   request.trajectory_constraints = current_trajectory_constraints_;
   if (!pipeline->second->generatePlan(scene, request, solution))
   {
-    ROS_ERROR_NAMED(LOGNAME, "Could not compute plan successfully");
+    ROS_ERROR_NAMED(log_names::PLANNING_COMPONENT, "Could not compute plan successfully");
     if (solution.error_code_.val == MoveItErrorCode::SUCCESS || solution.error_code_.val == 0)
       solution.error_code_ = MoveItErrorCode(MoveItErrorCode::FAILURE);
     solution.trajectory_.reset();
@@ -222,7 +225,8 @@ MotionPlanResponse PlanningComponent::plan(const MultiPipelinePlanRequestParamet
       }
       catch (const std::exception& error)
       {
-        ROS_ERROR_NAMED(LOGNAME, "Planning pipeline '%s' threw exception '%s'", own.planning_pipeline.c_str(), error.what());
+        ROS_ERROR_NAMED(log_names::PLANNING_COMPONENT, "Planning pipeline '%s' threw exception '%s'",
+                        own.planning_pipeline.c_str(), error.what());
         solution.error_code_ = MoveItErrorCode(MoveItErrorCode::FAILURE);
       }
       std::lock_guard<std::mutex> lock(one_at_a_time);
@@ -243,7 +247,7 @@ bool PlanningComponent::execute(bool blocking)
 {
   if (!last_plan_solution_)
   {
-    ROS_ERROR_NAMED(LOGNAME, "There is no successful plan to execute");
+    ROS_ERROR_NAMED(log_names::PLANNING_COMPONENT, "There is no successful plan to execute");
     return false;
   }
   return moveit_cpp_->execute(group_name_, last_plan_solution_.trajectory_, blocking);

@@ -2,11 +2,12 @@
 
 #include <tf2_eigen/tf2_eigen.h>
 
+#include "log_names.hpp"
+
 namespace planning_scene_monitor
 {
 namespace
 {
-constexpr char LOGNAME[] = "planning_scene_monitor";
 using Lock = boost::unique_lock<boost::shared_mutex>;
 }  // namespace
 
@@ -65,7 +66,7 @@ void PlanningSceneMonitor::initialize(const planning_scene::PlanningScenePtr& sc
   if (scene_ || !robot_model_)
   {
     if (!scene_)
-      ROS_ERROR_NAMED(LOGNAME, "Robot model not loaded: there is no planning scene");
+      ROS_ERROR_NAMED(log_names::PLANNING_SCENE_MONITOR, "Robot model not loaded: there is no planning scene");
     return;
   }
   scene_ = std::make_shared<planning_scene::PlanningScene>(robot_model_);
@@ -100,7 +101,7 @@ void PlanningSceneMonitor::startStateMonitor(const std::string& joint_states_top
   stopStateMonitor();
   if (!scene_)
   {
-    ROS_ERROR_NAMED(LOGNAME, "Cannot monitor robot state because planning scene is not configured");
+    ROS_ERROR_NAMED(log_names::PLANNING_SCENE_MONITOR, "Cannot monitor robot state because planning scene is not configured");
     return;
   }
   if (!states_)
@@ -135,7 +136,8 @@ void PlanningSceneMonitor::updateSceneWithCurrentState()
 {
   if (!states_ || !scene_)
   {
-    ROS_ERROR_THROTTLE_NAMED(1, LOGNAME, "State monitor is not active. Unable to set the planning scene state");
+    ROS_ERROR_THROTTLE_NAMED(1, log_names::PLANNING_SCENE_MONITOR,
+                             "State monitor is not active. Unable to set the planning scene state");
     return;
   }
   {
@@ -154,7 +156,7 @@ bool PlanningSceneMonitor::waitForCurrentRobotState(const ros::Time& t, double w
   const bool heard = states_->waitForCurrentState(t, wait_time);
   updateSceneWithCurrentState();
   if (!heard)
-    ROS_WARN_NAMED(LOGNAME, "Failed to fetch current robot state.");
+    ROS_WARN_NAMED(log_names::PLANNING_SCENE_MONITOR, "Failed to fetch current robot state.");
   return heard;
 }
 
@@ -212,7 +214,7 @@ bool PlanningSceneMonitor::requestPlanningSceneState(const std::string& service_
       Components::ALLOWED_COLLISION_MATRIX | Components::LINK_PADDING_AND_SCALING | Components::OBJECT_COLORS;
   if (!client.waitForExistence(ros::Duration(5.0)) || !client.call(call))
   {
-    ROS_INFO_NAMED(LOGNAME,
+    ROS_INFO_NAMED(log_names::PLANNING_SCENE_MONITOR,
                    "Failed to call service %s, have you launched move_group or called psm.providePlanningSceneService()?",
                    service_name.c_str());
     return false;
@@ -298,7 +300,8 @@ void PlanningSceneMonitor::startPublishingPlanningScene(SceneUpdateType event, c
 {
   published_events_ = event;
   publisher_ = nh_.advertise<moveit_msgs::PlanningScene>(planning_scene_topic, 100, true);
-  ROS_INFO_NAMED(LOGNAME, "Publishing maintained planning scene on '%s'", planning_scene_topic.c_str());
+  ROS_INFO_NAMED(log_names::PLANNING_SCENE_MONITOR, "Publishing maintained planning scene on '%s'",
+                 planning_scene_topic.c_str());
   if (scene_)
     triggerSceneUpdateEvent(UPDATE_SCENE);
 }

@@ -7,24 +7,22 @@
 #include <fstream>
 #include <sstream>
 
+#include "log_names.hpp"
+
 namespace rdf_loader
 {
-namespace
-{
-constexpr char LOGNAME[] = "rdf_loader";
-}
-
 RDFLoader::RDFLoader(const std::string& robot_description)
 {
   const ros::NodeHandle nh("~");
   std::string urdf, srdf;
   if (!nh.searchParam(robot_description, robot_description_) || !nh.getParam(robot_description_, urdf))
   {
-    ROS_ERROR_NAMED(LOGNAME, "Robot model parameter not found! Did you remap '%s'?", robot_description.c_str());
+    ROS_ERROR_NAMED(log_names::RDF_LOADER, "Robot model parameter not found! Did you remap '%s'?", robot_description.c_str());
     return;
   }
   if (!nh.getParam(robot_description_ + "_semantic", srdf))
-    ROS_ERROR_NAMED(LOGNAME, "Robot semantic description not found. Did you forget to define or remap '%s_semantic'?",
+    ROS_ERROR_NAMED(log_names::RDF_LOADER,
+                    "Robot semantic description not found. Did you forget to define or remap '%s_semantic'?",
                     robot_description_.c_str());
   parse(urdf, srdf);
 }
@@ -36,7 +34,7 @@ void RDFLoader::parse(const std::string& urdf, const std::string& srdf)
   const auto model = std::make_shared<urdf::Model>();
   if (!model->initString(urdf))
   {
-    ROS_ERROR_NAMED(LOGNAME, "Unable to parse URDF%s%s", robot_description_.empty() ? "" : " from parameter ",
+    ROS_ERROR_NAMED(log_names::RDF_LOADER, "Unable to parse URDF%s%s", robot_description_.empty() ? "" : " from parameter ",
                     robot_description_.c_str());
     return;
   }
@@ -44,7 +42,7 @@ void RDFLoader::parse(const std::string& urdf, const std::string& srdf)
   srdf_ = std::make_shared<srdf::Model>();
   if (!srdf.empty() && !srdf_->initString(*urdf_, srdf))
   {
-    ROS_ERROR_NAMED(LOGNAME, "Unable to parse SRDF%s%s%s", robot_description_.empty() ? "" : " from parameter ",
+    ROS_ERROR_NAMED(log_names::RDF_LOADER, "Unable to parse SRDF%s%s%s", robot_description_.empty() ? "" : " from parameter ",
                     robot_description_.c_str(), robot_description_.empty() ? "" : "_semantic");
     srdf_.reset();
   }
@@ -63,7 +61,7 @@ bool RDFLoader::loadFileToString(std::string& buffer, const std::string& path)
   std::ifstream file(path);
   if (path.empty() || !file)
   {
-    ROS_ERROR_NAMED(LOGNAME, "Unable to load path: '%s'", path.c_str());
+    ROS_ERROR_NAMED(log_names::RDF_LOADER, "Unable to load path: '%s'", path.c_str());
     return false;
   }
   std::ostringstream text;
@@ -77,7 +75,7 @@ bool RDFLoader::loadXacroFileToString(std::string& buffer, const std::string& pa
   buffer.clear();
   if (path.empty() || !std::ifstream(path))
   {
-    ROS_ERROR_NAMED(LOGNAME, "File does not exist: '%s'", path.c_str());
+    ROS_ERROR_NAMED(log_names::RDF_LOADER, "File does not exist: '%s'", path.c_str());
     return false;
   }
   std::string command = "rosrun xacro xacro '" + path + "'";
@@ -86,7 +84,7 @@ bool RDFLoader::loadXacroFileToString(std::string& buffer, const std::string& pa
   FILE* pipe = popen(command.c_str(), "r");
   if (!pipe)
   {
-    ROS_ERROR_NAMED(LOGNAME, "Unable to run xacro on '%s'", path.c_str());
+    ROS_ERROR_NAMED(log_names::RDF_LOADER, "Unable to run xacro on '%s'", path.c_str());
     return false;
   }
   char part[4096];
@@ -106,7 +104,7 @@ bool RDFLoader::loadPkgFileToString(std::string& buffer, const std::string& pack
   const std::string folder = ros::package::getPath(package_name);
   if (folder.empty())
   {
-    ROS_ERROR_NAMED(LOGNAME, "There is no package '%s'", package_name.c_str());
+    ROS_ERROR_NAMED(log_names::RDF_LOADER, "There is no package '%s'", package_name.c_str());
     return false;
   }
   return loadXmlFileToString(buffer, folder + "/" + relative_path, xacro_args);

@@ -4,13 +4,10 @@
 
 #include <algorithm>
 
+#include "log_names.hpp"
+
 namespace robot_model_loader
 {
-namespace
-{
-constexpr char LOGNAME[] = "robot_model_loader";
-}
-
 RobotModelLoader::RobotModelLoader(const std::string& robot_description, bool load_kinematics_solvers)
 {
   Options options(robot_description);
@@ -43,7 +40,8 @@ void RobotModelLoader::configure(const Options& opt)
     readLimits();
   if (opt.load_kinematics_solvers_)
     loadKinematicsSolvers();
-  ROS_DEBUG_STREAM_NAMED(LOGNAME, "Loaded kinematic model in " << (ros::WallTime::now() - start).toSec() << " seconds");
+  ROS_DEBUG_STREAM_NAMED(log_names::ROBOT_MODEL_LOADER,
+                         "Loaded kinematic model in " << (ros::WallTime::now() - start).toSec() << " seconds");
 }
 
 namespace
@@ -88,8 +86,8 @@ void readLimit(XmlRpc::XmlRpcValue& table, const std::string& what, const std::s
   if (!static_cast<bool>(table[flag]))
     has = false;
   else if (!has)
-    ROS_WARN_NAMED(LOGNAME, "joint_limits: joint '%s' has %s: true, but no %s: it counts as not limited", joint.c_str(),
-                   flag.c_str(), key.c_str());
+    ROS_WARN_NAMED(log_names::ROBOT_MODEL_LOADER, "joint_limits: joint '%s' has %s: true, but no %s: it counts as not limited",
+                   joint.c_str(), flag.c_str(), key.c_str());
 }
 
 bool isAngle(const moveit::core::JointModel& joint, std::size_t variable)
@@ -122,7 +120,8 @@ void RobotModelLoader::readLimits()
       const bool high = readNumber(*given, "max_position", limit.max_position);
       if ((low || high) && isAngle(*joint, i))
       {
-        ROS_WARN_NAMED(LOGNAME, "joint_limits: position limits of joint '%s' are left out: it turns without end",
+        ROS_WARN_NAMED(log_names::ROBOT_MODEL_LOADER,
+                       "joint_limits: position limits of joint '%s' are left out: it turns without end",
                        limit.joint_name.c_str());
         limit.min_position = all[i].min_position;
         limit.max_position = all[i].max_position;
@@ -133,7 +132,8 @@ void RobotModelLoader::readLimits()
       readLimit(*given, "acceleration", limit.joint_name, limit.max_acceleration, limit.has_acceleration_limits);
       if (limit.min_position > limit.max_position)
       {
-        ROS_ERROR_NAMED(LOGNAME, "joint_limits of '%s': min_position %g is above max_position %g; the limits of the URDF stay",
+        ROS_ERROR_NAMED(log_names::ROBOT_MODEL_LOADER,
+                        "joint_limits of '%s': min_position %g is above max_position %g; the limits of the URDF stay",
                         limit.joint_name.c_str(), limit.min_position, limit.max_position);
         continue;
       }

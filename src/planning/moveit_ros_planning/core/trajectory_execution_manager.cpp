@@ -5,13 +5,12 @@
 #include <cmath>
 
 #include "built_in_controllers.hpp"
+#include "log_names.hpp"
 
 namespace trajectory_execution_manager
 {
 namespace
 {
-constexpr char LOGNAME[] = "trajectory_execution_manager";
-
 double durationOf(const moveit_msgs::RobotTrajectory& part)
 {
   const ros::Time now = ros::Time::now();
@@ -65,10 +64,11 @@ void TrajectoryExecutionManager::initialize()
   loadControllers();
   event_topic_subscriber_ =
       root_node_handle_.subscribe<std_msgs::String>(EXECUTION_EVENT_TOPIC, 100, [this](const std_msgs::StringConstPtr& event) {
-        ROS_INFO_NAMED(LOGNAME, "Received event '%s'", event->data.c_str());
+        ROS_INFO_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "Received event '%s'", event->data.c_str());
         processEvent(event->data);
       });
-  ROS_INFO_NAMED(LOGNAME, "Trajectory execution is %smanaging controllers", manage_controllers_ ? "" : "not ");
+  ROS_INFO_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "Trajectory execution is %smanaging controllers",
+                 manage_controllers_ ? "" : "not ");
 }
 
 void TrajectoryExecutionManager::loadControllers()
@@ -76,7 +76,7 @@ void TrajectoryExecutionManager::loadControllers()
   std::string name;
   if (!node_handle_.getParam("moveit_controller_manager", name) || name.empty())
   {
-    ROS_ERROR_NAMED(LOGNAME,
+    ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER,
                     "Parameter '%s' not specified. It names what executes trajectories "
                     "(moveit_simple_controller_manager/MoveItSimpleControllerManager); no paths can be executed.",
                     node_handle_.resolveName("moveit_controller_manager").c_str());
@@ -93,7 +93,8 @@ void TrajectoryExecutionManager::loadControllers()
   }
   catch (const pluginlib::PluginlibException& error)
   {
-    ROS_ERROR_NAMED(LOGNAME, "Exception while loading controller manager '%s': %s", name.c_str(), error.what());
+    ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "Exception while loading controller manager '%s': %s",
+                    name.c_str(), error.what());
   }
 }
 
@@ -102,7 +103,7 @@ void TrajectoryExecutionManager::processEvent(const std::string& event)
   if (event == "stop")
     stopExecution(true);
   else
-    ROS_WARN_NAMED(LOGNAME, "Unknown event type: '%s'", event.c_str());
+    ROS_WARN_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "Unknown event type: '%s'", event.c_str());
 }
 
 // ---------------------------------------------------------------- pushing
@@ -133,7 +134,7 @@ bool TrajectoryExecutionManager::push(const moveit_msgs::RobotTrajectory& trajec
   std::lock_guard<std::mutex> lock(mutex_);
   if (running_)
   {
-    ROS_ERROR_NAMED(LOGNAME, "Cannot push a new trajectory while another is being executed");
+    ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "Cannot push a new trajectory while another is being executed");
     return false;
   }
   if (!usable)
@@ -151,7 +152,7 @@ void TrajectoryExecutionManager::clear()
   std::lock_guard<std::mutex> lock(mutex_);
   if (running_)
   {
-    ROS_ERROR_NAMED(LOGNAME, "Trajectories are not cleared while one is being executed");
+    ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "Trajectories are not cleared while one is being executed");
     return;
   }
   pushed_.clear();
@@ -198,7 +199,8 @@ void TrajectoryExecutionManager::run(const ExecutionCompleteCallback& callback,
   }
   if (status == Status::SUCCEEDED && i > 0)
     waitForRest(*trajectories_[i - 1]);
-  ROS_INFO_NAMED(LOGNAME, "Completed trajectory execution with status %s ...", status.asString().c_str());
+  ROS_INFO_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "Completed trajectory execution with status %s ...",
+                 status.asString().c_str());
   {
     std::lock_guard<std::mutex> lock(mutex_);
     last_execution_status_ = status;
@@ -250,7 +252,8 @@ bool TrajectoryExecutionManager::send(const TrajectoryExecutionContext& context)
     {
       const auto handle = controller_manager_->getControllerHandle(name);
       if (!handle)
-        ROS_ERROR_NAMED(LOGNAME, "No controller handle for controller '%s'. Aborting.", name.c_str());
+        ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "No controller handle for controller '%s'. Aborting.",
+                        name.c_str());
       else if (handle->sendTrajectory(context.trajectory_parts_[i]))
       {
         active_handles_.push_back(handle);
@@ -259,10 +262,10 @@ bool TrajectoryExecutionManager::send(const TrajectoryExecutionContext& context)
     }
     catch (const std::exception& error)
     {
-      ROS_ERROR_NAMED(LOGNAME, "Controller '%s': %s", name.c_str(), error.what());
+      ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "Controller '%s': %s", name.c_str(), error.what());
     }
-    ROS_ERROR_NAMED(LOGNAME, "Failed to send trajectory part %zu of %zu to controller %s", i + 1, context.controllers_.size(),
-                    name.c_str());
+    ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "Failed to send trajectory part %zu of %zu to controller %s",
+                    i + 1, context.controllers_.size(), name.c_str());
     return false;
   }
   return true;
@@ -288,7 +291,7 @@ TrajectoryExecutionManager::Status TrajectoryExecutionManager::watch(const Traje
         return Status::PREEMPTED;
       if (execution_duration_monitoring_ && (ros::Time::now() - started).toSec() > allowed)
       {
-        ROS_ERROR_NAMED(LOGNAME,
+        ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER,
                         "Controller is taking too long to execute trajectory (the expected upper bound for the "
                         "trajectory execution was %f seconds). Stopping trajectory.",
                         allowed);
@@ -302,7 +305,8 @@ TrajectoryExecutionManager::Status TrajectoryExecutionManager::watch(const Traje
     const Status status = handle->getLastExecutionStatus();
     if (status != Status::SUCCEEDED)
     {
-      ROS_WARN_NAMED(LOGNAME, "Controller handle %s reports status %s", handle->getName().c_str(), status.asString().c_str());
+      ROS_WARN_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "Controller handle %s reports status %s",
+                     handle->getName().c_str(), status.asString().c_str());
       std::lock_guard<std::mutex> lock(mutex_);
       cancelHandles();
       return status;
@@ -365,7 +369,7 @@ void TrajectoryExecutionManager::stopExecution(bool auto_clear)
     if (running_)
     {
       cancelHandles();
-      ROS_INFO_NAMED(LOGNAME, "Stopped trajectory execution.");
+      ROS_INFO_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "Stopped trajectory execution.");
     }
   }
   join();
@@ -394,7 +398,7 @@ void TrajectoryExecutionManager::cancelHandles()
     }
     catch (const std::exception& error)
     {
-      ROS_ERROR_NAMED(LOGNAME, "Caught %s when canceling execution.", error.what());
+      ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "Caught %s when canceling execution.", error.what());
     }
 }
 

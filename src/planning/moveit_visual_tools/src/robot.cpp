@@ -8,10 +8,11 @@
 #include <moveit/robot_state/conversions.h>
 #include <moveit/robot_trajectory/robot_trajectory.h>
 
+#include "log_name.hpp"
+
 namespace moveit_visual_tools {
 namespace {
 
-const char LOGNAME[] = "visual_tools";
 const char VIRTUAL_JOINT[] = "virtual_joint";
 const double LINE_RADIUS = 0.005;   // m
 const double UNTIMED_PERIOD = 2.0;  // s between way points that carry no times

@@ -6,10 +6,10 @@
 #include <geometric_shapes/shape_operations.h>
 #include <geometric_shapes/shapes.h>
 
+#include "log_name.hpp"
+
 namespace moveit_visual_tools {
 namespace {
-
-const char LOGNAME[] = "visual_tools";
 
 using moveit_msgs::CollisionObject;
 using rviz_visual_tools::colors;

@@ -3,10 +3,10 @@
 
 #include <set>
 
+#include "log_name.hpp"
+
 namespace rviz_visual_tools {
 namespace {
-
-const char LOGNAME[] = "visual_tools";
 
 Eigen::Vector3d position(const Eigen::Isometry3d& pose) { return pose.translation(); }
 Eigen::Vector3d position(const geometry_msgs::Point& point) { return RvizVisualTools::convertPoint(point); }

@@ -1,10 +1,11 @@
 // Colours and sizes.
 #include <rviz_visual_tools/rviz_visual_tools.h>
 
+#include "log_name.hpp"
+
 namespace rviz_visual_tools {
 namespace {
 
-const char LOGNAME[] = "visual_tools";
 const double OPAQUE = -1;  // as setAlpha() says
 
 struct Paint {

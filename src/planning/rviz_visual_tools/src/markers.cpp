@@ -1,10 +1,11 @@
 // The collected markers and their way to RViz.
 #include <rviz_visual_tools/rviz_visual_tools.h>
 
+#include "log_name.hpp"
+
 namespace rviz_visual_tools {
 namespace {
 
-const char LOGNAME[] = "visual_tools";
 const double POLL = 0.005;  // s
 
 void normalize(geometry_msgs::Quaternion& q) {
