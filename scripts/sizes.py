@@ -1,12 +1,16 @@
-"""Names files of more than 500 lines and functions of more than 60; scripts/lint calls it. Exit code: 0 none, 1 some."""
+"""Names files of more than 500 lines, functions of more than 60 and folders of more than 25 modules of Python; scripts/lint calls it.
+
+Exit code: 0 none, 1 some.
+"""
 
 import ast
 import re
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
 
-LONGEST_FILE, LONGEST_FUNCTION = 500, 60
+LONGEST_FILE, LONGEST_FUNCTION, FULLEST_FOLDER = 500, 60, 25
 _CPP = {".cpp", ".hpp", ".h", ".hh", ".cc"}
 _NO_FUNCTION = re.compile(r"namespace|class|struct|enum|union|using|typedef|template|extern|[}#/]")
 
@@ -63,8 +67,16 @@ def complaints(path):
             yield f"{path}:{line}: {name}() has {length} lines; split it, the most is {LONGEST_FUNCTION}"
 
 
+def full_folders(paths):
+    """One line for each folder that holds too many of `paths`, as far as they are modules of Python."""
+    for folder, modules in sorted(Counter(path.parent for path in paths if path.suffix == ".py").items()):
+        if modules > FULLEST_FOLDER:
+            yield f"{folder}: {modules} modules; sort them into folders, the most is {FULLEST_FOLDER}"
+
+
 def main():
-    found = [line for path in tracked() for line in complaints(path)]
+    paths = list(tracked())
+    found = [*full_folders(paths), *(line for path in paths for line in complaints(path))]
     print(*found, sep="\n", end="\n" if found else "")
     return 1 if found else 0
 

@@ -1,5 +1,7 @@
 """scripts/sizes.py: what is too long is named, by file and line."""
 
+from pathlib import Path
+
 import sizes
 
 CPP = """namespace
@@ -44,3 +46,9 @@ def test_complaints_name_file_line_and_what_to_do(tmp_path):
     script = tmp_path / "node"
     script.write_text("#!/usr/bin/env python3\ndef long():\n" + "    pass\n" * 61)
     assert list(sizes.complaints(script)) == [f"{script}:2: long() has 62 lines; split it, the most is 60"]
+
+
+def test_folders_of_too_many_modules_are_named():
+    full = [Path("src/full") / f"m{i}.py" for i in range(26)]
+    others = [Path("src/fair") / f"m{i}.py" for i in range(25)] + [Path("src/fair") / f"m{i}.cpp" for i in range(9)]
+    assert list(sizes.full_folders(full + others)) == ["src/full: 26 modules; sort them into folders, the most is 25"]

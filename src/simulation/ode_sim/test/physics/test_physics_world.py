@@ -15,7 +15,7 @@ from ode_sim.math3 import quat_from_rpy
 from physics_determinism import busy_world, digest
 from physics_models import arm, box, diff_drive, ground, pendulum, sphere
 
-HERE = os.path.dirname(os.path.abspath(__file__))
+HERE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 # ---------------------------------------------------------------------------------------------- determinism

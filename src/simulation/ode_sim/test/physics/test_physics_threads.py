@@ -239,7 +239,7 @@ def test_a_model_that_is_moved_keeps_its_zero():
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_a_lead_screw_is_wheel_gears_thread_and_rail(solver):
-    text = (pathlib.Path(__file__).parents[1] / "examples/lead_screw.sdf").read_text()
+    text = (pathlib.Path(__file__).parents[2] / "examples/lead_screw.sdf").read_text()
     model, problems = read_sdf_model(text)
     assert not problems
     world, handle = world_of(model, solver)

@@ -1,0 +1,1 @@
+"""Makes the helpers of this folder (physics_models and others) importable from the tests in the folders below it."""
