@@ -263,11 +263,11 @@ def test_parameters_reach_the_planner(scene, model):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("condition, ends", (("Iteration[40]", True), ("", False)))
-def test_a_planner_ends_when_its_condition_says(scene, model, condition, ends):
-    """RRTstar uses all its time but for this."""
-    result = motion.plan(scene, request(model, planner="RRTstar", planning_time=3.0, planner_params={"termination_condition": condition}))
-    assert (result.planning_time < 2.0) is ends, (result.status, result.planning_time)
+@pytest.mark.parametrize("condition, time, ends", (("Iteration[40]", 60.0, True), ("", 3.0, False)))
+def test_a_planner_ends_when_its_condition_says(scene, model, condition, time, ends):
+    """RRTstar uses all its time (s), which is enough on a busy machine, but for this."""
+    result = motion.plan(scene, request(model, planner="RRTstar", planning_time=time, planner_params={"termination_condition": condition}))
+    assert (result.planning_time < 0.6 * time) is ends, (result.status, result.planning_time)
 
 
 def test_cancel_ends_a_long_search_at_once(scene, model):
