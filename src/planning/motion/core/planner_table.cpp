@@ -143,8 +143,11 @@ ob::PlannerTerminationCondition makeTermination(const std::string& text, const o
   const std::size_t open = text.find('[');
   const std::string kind = text.substr(0, open);
   if (kind == "Iteration" && open != std::string::npos)
-    return ob::plannerOrTerminationCondition(
-        clock, ob::IterationTerminationCondition(std::max(1, std::atoi(text.c_str() + open + 1))));
+  {
+    // The condition that OMPL makes of it points to this very object, whoever holds the condition.
+    const auto counter = std::make_shared<ob::IterationTerminationCondition>(std::max(1, std::atoi(text.c_str() + open + 1)));
+    return ob::PlannerTerminationCondition([stopped, counter]() { return stopped() || counter->eval(); });
+  }
   if (kind == "CostConvergence")
   {
     int window = 10;
