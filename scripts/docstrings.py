@@ -24,6 +24,7 @@ LIBRARIES = (
     "simulation/*",
     "teaching/*",
     "tools/*",
+    "windows/*",
 )
 
 

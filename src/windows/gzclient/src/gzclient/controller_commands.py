@@ -59,7 +59,13 @@ Known = dict[str, tuple[d.Joint, float]]
 
 
 def joints_of(world: WorldRecord, frame: Frame | None, names: Sequence[str], manager: str) -> Known:
-    """Of the model that has all of these joints; of several the one whose name or ``robotNamespace`` is the manager's namespace."""
+    """Of the model that has all of these joints; of several the one whose name or ``robotNamespace`` is the manager's namespace.
+
+    :param frame: where the joints are now
+    :param names: of the joints
+    :param manager: namespace of the controller manager
+    :return: nothing without such a model, or when ``frame`` is not of this revision of ``world``
+    """
     able = [model for model in world.models if all(name in model.joints for name in names)]
     model = next((model for model in able if _belongs(model, manager)), able[0] if able else None)
     if model is None or frame is None or frame.revision != world.revision:
@@ -80,7 +86,9 @@ def _belongs(model: ModelRecord, manager: str) -> bool:
 def command_of(kind: str, names: Sequence[str], known: Known) -> Command | None:
     """None for a controller that takes no numbers.
 
-    :param kind: its type, as the controller manager lists it. :param names: of its joints, in its own order
+    :param kind: its type, as the controller manager lists it
+    :param names: of its joints, in its own order
+    :param known: of :func:`joints_of`
     """
     if kind in _DRIVES:
         return Command(

@@ -23,7 +23,7 @@ def available() -> bool:
 
 
 def command(address: str, profile: str) -> list[str] | None:
-    """What to run; None where there is no browser.
+    """What to run to show the page at ``address``, a URL; None where there is no browser.
 
     :param profile: folder of its own, so that the window is a process of its own
     """

@@ -56,6 +56,7 @@ class Markers:
     def take(self, marker: Any, now: float) -> None:
         """Add, change or delete.
 
+        :param marker: a visualization_msgs/Marker
         :param now: s of sim time, for its lifetime
         :raises Unfit: it cannot be drawn; what was drawn of that name before has gone
         """
@@ -91,6 +92,7 @@ class Markers:
         """Put every frame where it is and drop what has outlived itself; the frames that are not known.
 
         :param places: frame -> X_WF
+        :param now: s of sim time
         """
         for key in [key for key, kept in self._kept.items() if kept.until <= now]:
             self._drop(key)

@@ -19,7 +19,7 @@ _FLOATS = {7: "f4", 8: "f8"}  # datatypes of sensor_msgs/PointField
 def find_frame(world: WorldRecord, frame_id: str) -> tuple[str, str, Pose] | None:
     """(model, link, X_LF) of a message's ``frame_id``: of the sensor whose plugin names it, or of the link so named.
 
-    Links that a fixed joint merged into their parent are known by their sensors only.
+    Links that a fixed joint merged into their parent are known by their sensors only. None: ``world`` has neither.
     """
     wanted = frame_id.strip("/").rpartition("/")[2]
     if not wanted:
@@ -43,7 +43,9 @@ def find_frame(world: WorldRecord, frame_id: str) -> tuple[str, str, Pose] | Non
 
 
 def is_camera(world: WorldRecord, model: str, link: str, frame_id: str) -> bool:
-    """Whether it is a camera whose plugin names ``frame_id``: its data are in optical axes, z forward."""
+    """Whether a camera on this ``link`` of a ``model`` of ``world`` has a plugin that names ``frame_id``: its data are in
+    optical axes, z forward.
+    """
     wanted = frame_id.strip("/").rpartition("/")[2]
     record = world.model(model)
     for candidate in record.description.links if record is not None else ():
@@ -100,7 +102,7 @@ def scan_points(message: Any) -> np.ndarray:
 
 
 def range_cone(message: Any, beams: int = 9) -> np.ndarray:
-    """(beams, 3) float32 m: the rim of the cone of a sensor_msgs/Range, x forward."""
+    """(``beams``, 3) float32 m: the rim of the cone of ``message``, a sensor_msgs/Range, x forward."""
     distance = message.range if math.isfinite(message.range) else message.max_range
     half = message.field_of_view / 2
     turn = np.linspace(0.0, 2 * math.pi, beams)
@@ -114,7 +116,9 @@ def optical(x_ls: Pose) -> Pose:
 
 
 def field_of_view(world: WorldRecord, model: str, link: str, frame_id: str) -> float:
-    """Horizontal, rad, of the camera whose plugin names ``frame_id``; 1.047 where it is not said, as in SDF."""
+    """Horizontal, rad, of the camera on this ``link`` of a ``model`` of ``world`` whose plugin names ``frame_id``; 1.047 where it
+    is not said, as in SDF.
+    """
     wanted = frame_id.strip("/").rpartition("/")[2]
     record = world.model(model)
     for candidate in record.description.links if record is not None else ():

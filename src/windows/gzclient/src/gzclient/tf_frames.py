@@ -22,6 +22,7 @@ def name_of(frame: str) -> str:
 def place_frames(transforms: Transforms, links: dict[str, Pose]) -> dict[str, Pose]:
     """X_WF of every frame: each tree hangs on the first of its frames that is a link of the world, else on the origin.
 
+    :param transforms: child frame -> (parent frame, X_PC)
     :param links: name -> X_WL
     """
     in_tree: dict[str, dict[str, Pose]] = {}  # root -> frame -> X_RF
@@ -42,7 +43,7 @@ def place_frames(transforms: Transforms, links: dict[str, Pose]) -> dict[str, Po
 
 
 def links_of(world: WorldRecord, frame: Frame) -> dict[str, Pose]:
-    """Link name -> X_WL; the first model that has it."""
+    """Link name -> X_WL in ``frame``, a state of ``world``; of the first model that has it."""
     found: dict[str, Pose] = {}
     for model in world.models:
         for name, row in model.links.items():
@@ -83,7 +84,7 @@ class TfFrames:
                     self._transforms[child] = (parent, Pose(numbers[:3], numbers[3:]))
 
     def placed(self, world: WorldRecord, frame: Frame) -> dict[str, Pose]:
-        """X_WF of each of them."""
+        """X_WF of each of them, by the places of the links of ``world`` in ``frame``."""
         with self._lock:
             transforms = dict(self._transforms)
         return place_frames(transforms, links_of(world, frame))

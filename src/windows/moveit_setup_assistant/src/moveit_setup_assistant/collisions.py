@@ -13,7 +13,7 @@ ROUND = 200  # states in each round of the search for pairs that always collide
 
 
 def pair(one: str, other: str) -> Pair:
-    """The two names in alphabetical order, as the matrix keeps them."""
+    """The two names, ``one`` and ``other``, in alphabetical order, as the matrix keeps them."""
     return (one, other) if one < other else (other, one)
 
 
@@ -78,6 +78,7 @@ def compute_disabled(
     :param trials: random states that a pair must survive without contact to be "Never".
     :param always_fraction: of the states, those that must collide for "Always".
     :param seed: of the random states; the same seed gives the same result.
+    :param find_never: whether to look for pairs that are "Never" in contact.
     :param progress: called with 0 to 1 now and then; a false return value other than None ends the search (``{}``).
     """
     geometry = [name for name in sorted(model.links) if model.link(name).has_geometry]
@@ -127,6 +128,6 @@ def _seen_in(sampler: Sampler, trials: int, progress) -> set[Pair] | None:
 
 
 def collision_table(model: motion.RobotModel, reasons: dict[Pair, str]) -> list[tuple[str, str, str]]:
-    """All pairs of links with geometry as (link 1, link 2, reason); "" for those that are checked."""
+    """All pairs of links of ``model`` with geometry as (link 1, link 2, reason); "" for those that ``reasons`` does not have."""
     names = [name for name in sorted(model.links) if model.link(name).has_geometry]
     return [(one, other, reasons.get((one, other), "")) for one, other in combinations(names, 2)]

@@ -32,13 +32,16 @@ _Dumper.add_representer(
 
 
 def text(values: Any, comment: str = "") -> str:
-    """YAML text with a comment above it."""
+    """``values`` as YAML text, with ``comment``, of one line or several, above it."""
     head = "".join(f"# {line}\n" for line in comment.splitlines())
     return head + yaml.dump(values, Dumper=_Dumper, sort_keys=False, default_flow_style=False, width=120)
 
 
 def marker(config: Configuration, timestamp: int) -> str:
-    """The hidden file by which an assistant knows its packages. ``timestamp``: seconds since 1970, when they were written."""
+    """The hidden file by which an assistant knows its packages, for the package of ``config``.
+
+    :param timestamp: seconds since 1970, when the files were written
+    """
     source = config.source
     return text(
         {

@@ -98,6 +98,7 @@ class _Reader:
 def configuration(source: RobotSource, path: Path, progress: Callable[[float], bool] | None = None) -> Configuration:
     """The configuration that the file ``path`` describes for the robot of ``source``; collisions are computed.
 
+    :param progress: as :func:`collisions.compute_disabled` takes it
     :raises AssistantError: the robot or the file cannot be used; one line that names the place.
     """
     path, reader = Path(path), _Reader(Path(path))
@@ -142,7 +143,7 @@ class _AnyKey(tuple):
 
 
 def set_collisions(config: Configuration, reasons: dict[collisions.Pair, str]) -> None:
-    """Replace the disabled collisions of the SRDF."""
+    """Replace the disabled collisions of the SRDF of ``config`` by the pairs of ``reasons``."""
     config.semantics.disable_collisionss = [srdf.DisableCollisions(one, other, reason) for (one, other), reason in sorted(reasons.items())]
 
 

@@ -100,7 +100,7 @@ def templates_folder() -> Path:
 
 @files_told()
 def plan(config: Configuration, package: Path) -> list[PlannedFile]:
-    """All files of the package, compared with those that ``package`` holds now.
+    """All files of the package that ``config`` makes, compared with those that the folder ``package`` holds now.
 
     Files that somebody changed by hand are not marked to be written: set ``write`` to overwrite them.
 
@@ -115,9 +115,10 @@ def plan(config: Configuration, package: Path) -> list[PlannedFile]:
 def write(
     config: Configuration, package: Path, files: list[PlannedFile] | None = None, progress: Callable[[str], None] | None = None
 ) -> list[str]:
-    """Write the package; the paths that were written.
+    """Write the package of ``config`` into the folder ``package``; the paths that were written, below it.
 
     :param files: of :func:`plan`, with ``write`` as wanted; by default all that nobody changed by hand.
+    :param progress: called with the path of each file before it is written
     :raises AssistantError: nothing was written, and why.
     """
     package = Path(package)

@@ -29,6 +29,7 @@ class RobotSource:
     def from_file(cls, path, xacro_args: str = "") -> RobotSource:
         """The source that names ``path`` by the package around it, so that it is found on other machines too.
 
+        :param xacro_args: ``name:=value name:=value``
         :raises AssistantError: there is no such file.
         """
         path = Path(path).expanduser().resolve()
@@ -94,7 +95,7 @@ def _package_name(manifest: Path) -> str:
 
 
 def expanded(path: Path, arguments: str) -> str:
-    """What xacro makes of a file.
+    """What xacro makes of the file ``path``.
 
     :param arguments: ``name:=value name:=value``
     :raises AssistantError: an argument or the file cannot be used.
@@ -156,7 +157,10 @@ class Robot:
 
     @classmethod
     def from_text(cls, urdf: str, origin: str) -> Robot:
-        """:raises AssistantError: the text is no robot; ``origin`` names it in the message."""
+        """The robot that the text ``urdf`` describes.
+
+        :raises AssistantError: the text is no robot; ``origin`` names it in the message.
+        """
         try:
             model = motion.load_model(urdf)
         except motion.MotionError as error:

@@ -72,7 +72,7 @@ class RobotView(QWidget):
         self._timer.start(0)
 
     def set_drawn(self, visual: bool, collision: bool) -> None:
-        """Which of the links' shapes are drawn."""
+        """Which of the links' shapes are drawn: ``visual``, ``collision``, both or none."""
         self._drawn = visual, collision
         if self._scene is not None and self._robot is not None:
             self._scene = RobotScene(self._robot, visual, collision)

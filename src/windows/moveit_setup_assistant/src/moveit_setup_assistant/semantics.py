@@ -52,7 +52,11 @@ class Semantics(Robot):
 
     @classmethod
     def load(cls, path: Path, xacro_args: str = "") -> Semantics:
-        """:raises AssistantError: the file is missing, no XML, or lacks an attribute."""
+        """The SRDF in the file ``path``.
+
+        :param xacro_args: ``name:=value name:=value``, for a file that ends with .xacro
+        :raises AssistantError: the file is missing, no XML, or lacks an attribute.
+        """
         try:
             return cls.from_xml_string(expanded(path, xacro_args) if path.suffix == ".xacro" else path.read_bytes())
         except OSError as error:

@@ -17,10 +17,10 @@ _INTERFACES = {
 
 
 def simulated_urdf(urdf: str, controllers: Iterable[Controller]) -> str:
-    """The URDF with what a simulator needs and it lacks; "" if it lacks nothing.
+    """The text ``urdf`` with what a simulator needs and it lacks; "" if it lacks nothing.
 
     Links with a shape to collide and no inertia get 0.1 kg and 0.03 kg m2 about each axis, which is MoveIt's choice; joints
-    without a transmission get one, of the interface that their controller commands (effort if none does).
+    without a transmission get one, of the interface that their controller among ``controllers`` commands (effort if none does).
     """
     root = lenient_xml.fromstring(urdf)
     interfaces = _interfaces_of(controllers)

@@ -50,7 +50,7 @@ class Session:
         self._kept: tuple | None = None
 
     def open(self, config: Configuration, package: Path | None) -> None:
-        """Edit this configuration from now on. ``package``: the folder it came from."""
+        """Edit this configuration, ``config``, from now on. ``package``: the folder it came from."""
         self.config, self.package = config, package
         self.kept()
         self.model_changed()
@@ -79,7 +79,7 @@ class Session:
         return self._window.may_forget(action)
 
     def say(self, text: str, bad: bool = False) -> None:
-        """One line for the user."""
+        """``text`` for the user, below the screen; ``bad``: it is bad news."""
         self._window.say(text, bad)
 
     def model_changed(self) -> None:
@@ -236,7 +236,7 @@ class Window(QMainWindow):
         return made
 
     def say(self, text: str, bad: bool = False) -> None:
-        """One line below the screen, on the terminal too if it is bad news."""
+        """``text`` below the screen, on the terminal too if it is ``bad`` news."""
         self._said.setText(text)
         self._said.setStyleSheet("color: #a00000" if bad else "")
         if bad:

@@ -2,5 +2,5 @@
 
 
 def counted(number: int, thing: str) -> str:
-    """``thing`` is its singular."""
+    """``number`` and the word for it; ``thing`` is its singular."""
     return f"{number} {thing}" if number == 1 else f"{number} {thing}s"

@@ -7,7 +7,10 @@ from typing import Any
 
 
 def load(package: str, uifile: str, baseinstance: Any, custom_widgets: dict[str, type]) -> Any:
-    """See :func:`python_qt_binding.loadUi`. ``package``: ``PySide2`` or ``PySide6``."""
+    """The widget of ``uifile``; see :func:`python_qt_binding.loadUi` for ``baseinstance`` and ``custom_widgets``.
+
+    :param package: ``PySide2`` or ``PySide6``
+    """
     tools: Any = importlib.import_module(f"{package}.QtUiTools")
     core = importlib.import_module(f"{package}.QtCore")
 

@@ -13,7 +13,7 @@ LABEL_HEIGHT = 30  # of a cluster: the strip of it that listens to the mouse, th
 
 
 def get_unquoted(item, name):
-    """The value of an attribute of a pydot object without its quotes, None when it has none."""
+    """The value of the attribute ``name`` of ``item``, a pydot object, without its quotes; None when it has none."""
     value = item.get(name)
     return value.strip('"\n') if isinstance(value, str) else value
 
@@ -24,6 +24,8 @@ class DotToQtGenerator:
     def dotcode_to_qt_items(self, dotcode, highlight_level, same_label_siblings=False, scene=None):
         """Lay out DOT text and make items.
 
+        :param dotcode: None gives no items
+        :param highlight_level: what the mouse lights up, 1 to 3, as of :class:`qt_dotgraph.graph_item.GraphItem`
         :param same_label_siblings: edges with the same label are highlighted together
         :param scene: put them there; without one, add nodes by ``scene.addItem`` and edges by ``edge.add_to_scene``
         :return: name -> NodeItem, and name of an edge -> list of EdgeItem
@@ -34,7 +36,10 @@ class DotToQtGenerator:
         return self.layout_to_qt_items(layout(dotcode), highlight_level, same_label_siblings, scene)
 
     def layout_to_qt_items(self, graph: Layout, highlight_level, same_label_siblings=False, scene=None):
-        """As :meth:`dotcode_to_qt_items`, of a graph that is laid out."""
+        """As :meth:`dotcode_to_qt_items`, of a ``graph`` that is laid out.
+
+        ``highlight_level``, ``same_label_siblings`` and ``scene`` are the same there.
+        """
         nodes = {cluster.name: self._cluster_item(cluster, highlight_level) for cluster in graph.clusters}
         nodes.update((node.name, self._node_item(node, highlight_level)) for node in graph.nodes)
         edges: dict[str, list[Any]] = {}

@@ -79,7 +79,7 @@ def layout(dot: str) -> Layout:
 
 
 def render(dot: str, form: str) -> bytes:
-    """The picture of DOT text as ``svg``, ``png``, ``pdf`` or ``dot`` (the text, with positions).
+    """The picture of the DOT text ``dot`` as ``form`` says: ``svg``, ``png``, ``pdf`` or ``dot`` (the text, with positions).
 
     :raises LayoutError: as above.
     """

@@ -43,7 +43,11 @@ class NodeItem(GraphItem):
             self.setToolTip(tooltip)
 
     def parse_shape(self, shape, bounding_box):
-        """The outline as a graphics item."""
+        """The outline as a graphics item.
+
+        :param shape: its name in DOT; one that is not known is a box
+        :param bounding_box: ``QRectF`` in the scene
+        """
         if shape in ("ellipse", "circle", "oval", "point"):
             return QGraphicsEllipseItem(bounding_box)
         if shape == "diamond":

@@ -19,14 +19,23 @@ class PydotFactory:
         return self.escape_label(quote(name.strip()).replace("/", "__").replace("%", "_").replace("-", "_"))
 
     def get_graph(self, graph_type="digraph", rank="same", simplify=True, rankdir="TB", ranksep=0.2, compound=True):
+        """An empty graph.
+
+        :param graph_type: ``digraph`` or ``graph``
+        :param rank, rankdir, ranksep, compound: attributes of DOT
+        :param simplify: of several edges between two nodes one is written
+        """
         graph = pydot.Dot("graphname", graph_type=graph_type, rank=rank, rankdir=rankdir, simplify=simplify)
         graph.set_ranksep(ranksep)
         graph.set_compound(compound)
         return graph
 
     def add_node_to_graph(self, graph, nodename, nodelabel=None, shape="box", color=None, url=None, tooltip=None):
-        """A node whose tool tip is ``tooltip``, or else ``url``.
+        """A node of ``graph`` whose tool tip is ``tooltip``, or else ``url``.
 
+        :param nodename: how edges name it
+        :param nodelabel: the text in it; None: its name
+        :param shape, color: attributes of DOT
         :raises ValueError: no name.
         """
         if not nodename:
@@ -54,8 +63,12 @@ class PydotFactory:
         style="bold",
         subgraphlabel=None,
     ):
-        """A cluster, which is returned; give it to the other methods in the place of the graph.
+        """A cluster in ``graph``, which is returned; give it to the other methods in the place of the graph.
 
+        :param subgraphlabel: the text above it; None: ``subgraphname``
+        :param rank, rankdir, ranksep, compound, color, style: attributes of DOT
+        :param simplify: as of :meth:`get_graph`, for its edges
+        :param shape: not used: a cluster is a box
         :raises ValueError: no name.
         """
         if not subgraphname:
@@ -72,7 +85,12 @@ class PydotFactory:
         return cluster
 
     def add_edge_to_graph(self, graph, nodename1, nodename2, label=None, url=None, simplify=True, style=None, penwidth=1, color=None):
-        """An edge; ``color`` is (red, green, blue) from 0 to 255."""
+        """An edge of ``graph`` from ``nodename1`` to ``nodename2``; ``color`` is (red, green, blue) from 0 to 255.
+
+        :param label: the text beside it; empty or None: none
+        :param url, style, penwidth: attributes of DOT
+        :param simplify: not used
+        """
         edge = pydot.Edge(self.escape_name(nodename1), self.escape_name(nodename2), penwidth=str(penwidth))
         if label:
             edge.set_label(_quoted(label))

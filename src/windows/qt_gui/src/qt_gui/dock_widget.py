@@ -35,7 +35,7 @@ class DockWidget(QDockWidget):
         return self._containers.owner_of(self.main_window()) if self._containers is not None else None
 
     def move_to(self, main_window, area=Qt.DockWidgetArea.BottomDockWidgetArea):
-        """Move the dock into another main window."""
+        """Move the dock into another main window, into that ``area`` of ``main_window``."""
         if main_window is self.main_window():
             return
         if self.main_window() is not None:
@@ -160,6 +160,10 @@ class Containers:
         return False
 
     def restore_parent(self, dock, serial_number):
+        """Move ``dock`` to where its settings say.
+
+        :param serial_number: of the container, also as a string; None, or one that there is not: the window itself
+        """
         try:
             target = self._containers.get(int(serial_number)) if serial_number not in (None, "", "None") else None
         except (TypeError, ValueError):

@@ -72,11 +72,12 @@ class DockWidgetTitleBar(QWidget):
         self.update_title()
 
     def connect_button(self, name, callback):
-        """Call ``callback()`` when the button is clicked, and show it."""
+        """Call ``callback()`` when the button ``name`` (``help_button``, say) is clicked, and show it."""
         self._buttons[name].clicked.connect(lambda checked=False: callback())
         self.show_button(name)
 
     def show_button(self, name, visible=True):
+        """Show the button ``name``, or hide it when not ``visible``; the help button stays hidden while titles are."""
         if name != "help_button" or not self._hide_title:
             self._buttons[name].setVisible(visible)
 
@@ -113,6 +114,7 @@ class DockWidgetTitleBar(QWidget):
             self._dock.setWindowTitle(title)
 
     def eventFilter(self, watched, event):
+        """Follow the title and icon of ``watched``, the dock; no ``event`` is kept from it."""
         if event.type() in (QEvent.Type.WindowTitleChange, QEvent.Type.WindowIconChange):
             self.update_title()
         return False

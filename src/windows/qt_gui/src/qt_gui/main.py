@@ -27,8 +27,10 @@ class Main:
     def main(self, argv=None, standalone=None, plugin_argument_provider=None, plugin_manager_settings_prefix=""):
         """Run until the window is closed.
 
+        :param argv: with the program's name; None: ``sys.argv``
         :param standalone: the plugin to show alone, as its own command does
         :param plugin_argument_provider: adds the plugin's options to an ``argparse`` parser; ``context.argv()`` has them
+        :param plugin_manager_settings_prefix: taken for upstream's callers; it has no effect
         :return: exit code; wrong options of the window give 1
         """
         argv = sys.argv if argv is None else argv

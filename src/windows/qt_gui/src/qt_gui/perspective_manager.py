@@ -85,7 +85,10 @@ class PerspectiveManager(QObject):
     # switching
 
     def set_perspective(self, name, hide_and_without_plugin_changes=False):
-        """The first perspective of a window: the named one, the last one used, or the hidden one of a plugin alone."""
+        """The first perspective of a window: the one called ``name``, or the last one used if that is None.
+
+        :param hide_and_without_plugin_changes: the hidden one of a plugin alone, ``name``; no plugin is started or ended
+        """
         if name is None:
             name = str(self._proxy.value("", "current-perspective", "Default") or "Default")
         elif hide_and_without_plugin_changes:
@@ -93,7 +96,11 @@ class PerspectiveManager(QObject):
         self.switch_perspective(name, save_before=False, without_plugin_changes=hide_and_without_plugin_changes)
 
     def switch_perspective(self, name, save_before=True, without_plugin_changes=False):
-        """Go over to a perspective, which is made when there is none of that name."""
+        """Go over to the perspective ``name``, which is made when there is none of that name.
+
+        :param save_before: store the one in use first
+        :param without_plugin_changes: the plugins that run get their settings, none is started or ended
+        """
         name = name.replace("/", "__")
         if save_before:
             self.save()
@@ -122,7 +129,7 @@ class PerspectiveManager(QObject):
         self._add_action(name)
 
     def create_perspective(self, name, clone=True):
-        """Make a perspective and go over to it.
+        """Make the perspective ``name`` and go over to it.
 
         :param clone: it starts as a copy of the one in use, and nothing on the screen changes
         """
@@ -149,7 +156,7 @@ class PerspectiveManager(QObject):
     # files
 
     def import_perspective_from_file(self, path, name):
-        """Go over to the perspective in a file, stored under ``name`` and replacing what had that name.
+        """Go over to the perspective in the file ``path``, stored under ``name`` and replacing what had that name.
 
         :raises PerspectiveError: the file is of no use; nothing has changed then.
         """

@@ -25,4 +25,8 @@ class Plugin(QObject):
         """
 
     def restore_settings(self, plugin_settings, instance_settings):
-        """Take back what :meth:`save_settings` stored; numbers and booleans may come back as strings."""
+        """Take back what :meth:`save_settings` stored; numbers and booleans may come back as strings.
+
+        :param plugin_settings: shared by all instances of the plugin, in every perspective
+        :param instance_settings: of this instance in this perspective
+        """

@@ -25,6 +25,13 @@ class PluginDescriptor:
         return self._action
 
     def set_action_attributes(self, label, statustip=None, icon=None, icontype=None):
+        """Say what its menu entry is like.
+
+        :param statustip: one line about it, or None
+        :param icon: name of a theme's icon or path of a file, as ``icontype`` says; None: no icon
+        :param label: of the entry
+        :param icontype: as :func:`qt_gui.icon_loader.get_icon` takes it
+        """
         self._action = {"label": label, "statustip": statustip, "icon": icon, "icontype": icontype}
 
     def groups(self):
@@ -32,4 +39,8 @@ class PluginDescriptor:
         return self._groups
 
     def add_group_attributes(self, label, statustip=None, icon=None, icontype=None):
+        """A submenu that its menu entry is in, below those added before.
+
+        The parameters ``label``, ``statustip``, ``icon`` and ``icontype`` are those of :meth:`set_action_attributes`, for the submenu.
+        """
         self._groups.append({"label": label, "statustip": statustip, "icon": icon, "icontype": icontype})

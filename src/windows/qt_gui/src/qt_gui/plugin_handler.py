@@ -78,11 +78,17 @@ class PluginHandler(QObject):
         self._plugin = None
 
     def save_settings(self, plugin_settings, instance_settings):
+        """Store what the plugin and its docks want to keep.
+
+        :param plugin_settings: shared by all instances of the plugin, in every perspective
+        :param instance_settings: of this instance in this perspective
+        """
         self._call("save_settings", plugin_settings.get_settings("plugin"), instance_settings.get_settings("plugin"))
         for dock in self._docks.values():
             dock.save_settings(self._dock_settings(dock, instance_settings))
 
     def restore_settings(self, plugin_settings, instance_settings):
+        """Give the plugin and its docks what :meth:`save_settings` stored in ``plugin_settings`` and ``instance_settings``."""
         self._call("restore_settings", plugin_settings.get_settings("plugin"), instance_settings.get_settings("plugin"))
         for dock in list(self._docks.values()):
             dock.restore_settings(self._dock_settings(dock, instance_settings))
@@ -228,6 +234,11 @@ class PluginHandler(QObject):
             toolbar.deleteLater()
 
     def eventFilter(self, watched, event):
+        """A plugin that deletes itself is closed; a dock that is minimised or shown again is told to the window.
+
+        :param watched: the plugin, or one of its docks
+        :return: whether ``event`` goes no further
+        """
         kind = event.type()
         if watched is self._plugin and kind == QEvent.Type.DeferredDelete:
             self.close_signal.emit(str(self._instance_id))  # a plugin that deletes itself wants to be closed

@@ -106,7 +106,11 @@ class PluginManager(QObject):
     # loading
 
     def load_plugin(self, plugin_id, serial_number=None, argv=None):
-        """Start a plugin; its errors are reported. True when it runs."""
+        """Start the plugin ``plugin_id``; its errors are reported. True when it runs.
+
+        :param serial_number: of the instance; None: the lowest from 1 that is free
+        :param argv: its arguments, a list of strings
+        """
         self.plugins_about_to_change_signal.emit()
         if serial_number is None:
             used = {h.instance_id().serial_number for h in self._running.values() if h.instance_id().plugin_id == plugin_id}
@@ -224,7 +228,11 @@ class PluginManager(QObject):
         )
 
     def save_settings(self, global_settings, perspective_settings):
-        """Store which plugins run, and what each of them wants to keep."""
+        """Store which plugins run, and what each of them wants to keep.
+
+        :param global_settings: of the window, for what all perspectives share
+        :param perspective_settings: of the perspective in use
+        """
         self._use(global_settings, perspective_settings)
         plugins = {plugin_id: list(numbers) for plugin_id, numbers in self._absent.items()}
         for handler in self._running.values():
@@ -235,7 +243,11 @@ class PluginManager(QObject):
             self._save(handler)
 
     def restore_settings(self, global_settings, perspective_settings):
-        """Run the plugins of a perspective and no others."""
+        """Run the plugins of a perspective and no others.
+
+        :param global_settings: of the window, for what all perspectives share
+        :param perspective_settings: of the perspective that is wanted
+        """
         self._use(global_settings, perspective_settings)
         wanted = self._wanted()
         for name, handler in list(self._running.items()):
@@ -250,7 +262,7 @@ class PluginManager(QObject):
         self.restore_settings_without_plugins(global_settings, perspective_settings)
 
     def restore_settings_without_plugins(self, global_settings, perspective_settings):
-        """Give the running plugins their settings."""
+        """Give the running plugins their settings, of ``global_settings`` and ``perspective_settings``."""
         self._use(global_settings, perspective_settings)
         for handler in self.running():
             self._restore(handler)

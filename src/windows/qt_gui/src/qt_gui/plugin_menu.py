@@ -51,6 +51,7 @@ class PluginMenu(QObject):
         return action
 
     def add_instance(self, descriptor, instance_id):
+        """An entry that closes the plugin of ``descriptor`` which runs as ``instance_id``."""
         label = descriptor.action_attributes()["label"]
         number = instance_id.serial_number
         action = QAction(f"Close: {label}" + (f" ({number})" if number > 1 else ""), self._running.menu)
@@ -66,7 +67,7 @@ class PluginMenu(QObject):
             action.deleteLater()
 
     def update_instance_label(self, instance_id, label):
-        """The title of its dock is what the user knows the instance by."""
+        """Call the entry of ``instance_id`` by ``label``: the title of its dock is what the user knows the instance by."""
         if str(instance_id) in self._instances and label:
             self._instances[str(instance_id)].setText(f"Close: {label}")
 

@@ -18,8 +18,9 @@ class PluginProvider(QObject):
         raise NotImplementedError
 
     def load(self, plugin_id, plugin_context):
-        """An instance of the plugin, given its context.
+        """An instance of the plugin ``plugin_id``, given its context.
 
+        :param plugin_context: what the plugin's constructor takes
         :raises PluginLoadError: it cannot be loaded; anything else that the plugin itself raises is passed on.
         """
         raise NotImplementedError

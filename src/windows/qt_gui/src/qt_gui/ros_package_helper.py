@@ -14,7 +14,10 @@ def get_package_path(name):
 
 
 def package_facts(name, path=None):
-    """``version``, ``description``, ``maintainer``, ``url`` as far as its package.xml has them."""
+    """``version``, ``description``, ``maintainer``, ``url`` as far as the package.xml of the package ``name`` has them.
+
+    :param path: the package's folder; None: it is looked for
+    """
     try:
         root = ET.parse(f"{path or get_package_path(name)}/package.xml").getroot()
     except (rospkg.ResourceNotFound, OSError, ET.ParseError):

@@ -39,8 +39,10 @@ class Settings(QObject):
         self._settings_proxy.remove(self._group, key)
 
     def set_value(self, key, value):
+        """Store ``value`` under ``key`` of this group; None is kept as None."""
         self._settings_proxy.set_value(self._group, key, _NONE if value is None else value)
 
     def value(self, key, default_value=None):
+        """What is stored under ``key`` of this group, or ``default_value`` when there is nothing."""
         value = self._settings_proxy.value(self._group, key, default_value)
         return None if isinstance(value, str) and value == _NONE else value

@@ -37,19 +37,22 @@ class SettingsProxy(QObject):
             return settings.childKeys()
 
     def contains(self, group, key):
+        """Whether ``group`` has a value under ``key``."""
         with self._within(group) as settings:
             return settings.contains(key)
 
     def remove(self, group, key):
+        """Forget ``key`` of ``group`` and what is below it; all of the group for an empty key."""
         with self._within(group) as settings:
             settings.remove(key)
 
     def set_value(self, group, key, value):
+        """Store ``value`` under ``key`` of ``group``."""
         with self._within(group) as settings:
             settings.setValue(key, value)
 
     def value(self, group, key, default_value=None):
-        """The stored value, or the default when there is none or the file holds something unreadable."""
+        """The value stored under ``key`` of ``group``, or ``default_value`` when there is none or the file holds something unreadable."""
         with self._within(group) as settings:
             try:
                 return settings.value(key, default_value)

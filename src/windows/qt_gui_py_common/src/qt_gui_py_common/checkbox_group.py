@@ -25,7 +25,14 @@ class CheckBoxGroup(QGroupBox):
 
 
 def fill(group, buttons, kind, title, options, selected, parent):
-    """Make one button of a kind for each option."""
+    """Make one button of a ``kind`` (a class of buttons) for each of ``options`` in ``group``, a QGroupBox.
+
+    :param buttons: the QButtonGroup that they join, numbered from 0
+    :param title: of the group
+    :param options: dicts with ``title``, ``enabled``, ``tooltip`` and ``description``, all of which may be missing
+    :param selected: numbers of those that are checked
+    :param parent: the widget whose layout they go into; None: ``group``
+    """
     group.setTitle(title)
     group.setLayout(QVBoxLayout())
     layout = (parent or group).layout()

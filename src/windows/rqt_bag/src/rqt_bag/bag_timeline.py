@@ -128,11 +128,11 @@ class BagTimeline(QObject):
         return self._live[topic] if topic in self._live else self._bags.stamps(topic)
 
     def get_entries(self, topics, start_stamp, end_stamp):
-        """Index entries of a topic or several, in the order of their stamps."""
+        """Index entries of ``topics``, one or several, from ``start_stamp`` to ``end_stamp`` (Times), in the order of their stamps."""
         return (entry for _, entry in self._bags.entries(topics, start_stamp, end_stamp))
 
     def get_entries_with_bags(self, topic, start_stamp, end_stamp):
-        """(bag, entry) of the same."""
+        """(bag, entry) of ``topic`` from ``start_stamp`` to ``end_stamp`` (Times), in the order of their stamps."""
         return self._bags.entries(topic, start_stamp, end_stamp)
 
     def get_entry(self, t, topic):
@@ -148,11 +148,11 @@ class BagTimeline(QObject):
         return self._bags.entry_after(t)
 
     def read_message(self, bag, position):
-        """(topic, message, stamp)."""
+        """(topic, message, stamp) at ``position``, that of an index entry of ``bag``."""
         return self._bags.read(bag, position)
 
     def neighbour(self, topic, direction: int):
-        """The entry of a topic (None: of all) before (-1) or after (1) the playhead."""
+        """The entry of ``topic`` (None: of all) before (``direction`` -1) or after (1) the playhead."""
         playhead = self._timeline_frame.playhead
         if playhead is None:
             return None
@@ -235,7 +235,12 @@ class BagTimeline(QObject):
             frame.move_playhead(genpy.Time.from_sec(max(0.0, target)), self.play_speed > 0)
 
     def playhead_moved(self, begin, end, playing: bool) -> None:
-        """The frame tells that the playhead is elsewhere."""
+        """The frame tells that the playhead is elsewhere.
+
+        :param begin: where it was, a Time; None: nowhere, or nothing was passed
+        :param end: where it is, a Time
+        :param playing: all that it passed is published
+        """
         self._player.passed(begin if begin is not None else end, end, playing)
         with self._wished:
             self._wish = end
@@ -261,13 +266,14 @@ class BagTimeline(QObject):
     # Views
 
     def add_listener(self, topic: str, listener) -> None:
-        """Let a MessageView follow the playhead."""
+        """Let ``listener``, a MessageView, follow the playhead through the messages of ``topic``."""
         self._listeners.setdefault(topic, []).append(listener)
         self._shown.pop(topic, None)
         if self._timeline_frame.playhead is not None:
             self.playhead_moved(None, self._timeline_frame.playhead, False)
 
     def remove_listener(self, topic: str, listener) -> None:
+        """``listener`` follows the messages of ``topic`` no longer; nothing happens if it did not."""
         if listener in self._listeners.get(topic, ()):
             self._listeners[topic].remove(listener)
 
@@ -333,7 +339,11 @@ class BagTimeline(QObject):
         return self._recorder is not None
 
     def record_bag(self, name: str, all: bool = True, topics: tuple[str, ...] = ()) -> None:
-        """Record all topics, or those named, into a file; it is shown as it grows. What is wrong is told."""
+        """Record into the file ``name``; it is shown as it grows. What is wrong is told.
+
+        :param all: all topics
+        :param topics: those to record if not ``all``
+        """
         try:
             self._recorder = Recorder(name, None if all else list(topics), lambda topic, _raw, stamp: self._note(topic, stamp))
         except BagError as error:

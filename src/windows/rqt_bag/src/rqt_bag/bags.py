@@ -117,7 +117,7 @@ class Bags:
         return [self._indexes[name] for name in names if name in self._indexes]
 
     def entries(self, topics: Topics, start, end) -> Iterator[tuple[rosbag.Bag, Any]]:
-        """(bag, index entry) with start <= stamp <= end, in the order of their stamps."""
+        """(bag, index entry) of ``topics`` with start <= stamp <= end (Times), in the order of their stamps."""
         parts, keys = [], []
         for index in self._chosen(topics):
             low = int(np.searchsorted(index.nanoseconds, start.to_nsec(), "left"))
@@ -139,16 +139,17 @@ class Bags:
         return best[1] if best else (None, None)
 
     def entry(self, t, topics: Topics = None):
-        """(bag, entry) of the last message at or before ``t``; (None, None) if there is none."""
+        """(bag, entry) of the last message of ``topics`` (None: of all) at or before ``t``; (None, None) if there is none."""
         return self._neighbour(t, topics, False)
 
     def entry_after(self, t, topics: Topics = None):
-        """(bag, entry) of the first message after ``t``; (None, None) if there is none."""
+        """(bag, entry) of the first message of ``topics`` (None: of all) after ``t``; (None, None) if there is none."""
         return self._neighbour(t, topics, True)
 
     def read(self, bag: rosbag.Bag, position, raw: bool = False):
-        """(topic, message, stamp) at a position of an entry.
+        """(topic, message, stamp) at ``position``, that of an entry of ``bag``.
 
+        :param raw: the message is rosbag's tuple with its bytes
         :raises BagError: bytes that are damaged, or a message whose definition makes no sense.
         """
         with self.lock:
@@ -171,9 +172,11 @@ def _time(nanoseconds: int) -> genpy.Time:
 
 
 def copy_region(bags: Bags, name: str, start, end, progress=lambda share: True) -> int:
-    """Copy the messages from ``start`` to ``end`` into a new bag file. :returns: how many.
+    """Copy the messages of ``bags`` from ``start`` to ``end`` (Times) into a new bag file, ``name``.
 
-    :param progress: called with 0..1 now and then; returns False to stop. :raises BagError: it cannot be written.
+    :param progress: called with 0..1 now and then; returns False to stop.
+    :returns: how many.
+    :raises BagError: it cannot be written.
     """
     entries = list(bags.entries(None, start, end))
     try:

@@ -39,5 +39,5 @@ def load_plugins() -> tuple[dict[str, list[type]], dict[str, type]]:
 
 
 def views_of(views: dict[str, list[type]], datatype: str) -> list[type]:
-    """Classes that show messages of a type."""
+    """Classes that show messages of the type ``datatype``, among ``views``: type, or ``*`` for any, -> classes."""
     return [RawView] + views.get("*", []) + views.get(datatype, [])

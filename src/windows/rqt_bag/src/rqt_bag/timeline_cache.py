@@ -51,7 +51,10 @@ class TimelineCache(threading.Thread):
         self.queue.put(entry)
 
     def cache_item(self, topic: str, t, item) -> None:
-        """Keep an item. :param t: its stamp, a Time"""
+        """Keep ``item``, of ``topic``.
+
+        :param t: its stamp, a Time
+        """
         with self.lock:
             items, stamps = self.items.setdefault(topic, OrderedDict()), self._stamps.setdefault(topic, [])
             stamp = t.to_sec()
@@ -64,7 +67,7 @@ class TimelineCache(threading.Thread):
                 del stamps[bisect.bisect_left(stamps, oldest)]
 
     def get_item(self, topic: str, stamp: float, time_threshold: float):
-        """The item nearest to ``stamp`` (s), if it is not more than ``time_threshold`` s away; else None."""
+        """The item of ``topic`` nearest to ``stamp`` (s), if it is not more than ``time_threshold`` s away; else None."""
         with self.lock:
             stamps = self._stamps.get(topic, [])
             at = bisect.bisect_left(stamps, stamp)

@@ -128,7 +128,10 @@ class TimelineFrame(QWidget):
         self.move_playhead(stamp, False)
 
     def move_playhead(self, stamp: genpy.Time, playing: bool) -> None:
-        """Move the playhead, within the bags; the window scrolls along. :param playing: all that it passes is published."""
+        """Move the playhead to ``stamp``, within the bags; the window scrolls along.
+
+        :param playing: all that it passes is published.
+        """
         if self._start is None or stamp is None:
             return
         before, self._playhead = self._playhead, min(max(stamp, self._start), self._end)
@@ -169,7 +172,10 @@ class TimelineFrame(QWidget):
     # View
 
     def map_x_to_stamp(self, x: float, clamp_to_visible: bool = True) -> float:
-        """s at a pixel column."""
+        """s at the pixel column ``x``.
+
+        :param clamp_to_visible: beside the rows it is the time at their end
+        """
         share = (x - self._history_left) / max(1, self._history_right - self._history_left)
         if clamp_to_visible:
             share = min(max(share, 0.0), 1.0)
@@ -179,7 +185,10 @@ class TimelineFrame(QWidget):
         return dx * (self._right - self._left) / max(1, self._history_right - self._history_left)
 
     def map_stamp_to_x(self, stamp: float, clamp_to_visible: bool = True) -> float:
-        """Pixel column of a stamp (s)."""
+        """Pixel column of ``stamp`` (s).
+
+        :param clamp_to_visible: a time that is not shown has the column at the rows' end
+        """
         share = (stamp - self._left) / (self._right - self._left)
         if clamp_to_visible:
             share = min(max(share, 0.0), 1.0)
@@ -250,6 +259,7 @@ class TimelineFrame(QWidget):
         return topic in self._rendered_topics
 
     def set_renderer_active(self, topic: str, active: bool) -> None:
+        """Draw the messages of ``topic`` with its renderer while ``active``, else as plain bars."""
         (self._rendered_topics.add if active else self._rendered_topics.discard)(topic)
         self._timeline.update()
 
@@ -449,7 +459,7 @@ class TimelineFrame(QWidget):
 
 
 def elapsed_text(seconds: float, step: float) -> str:
-    """A time since the beginning, as finely as the divisions are."""
+    """A time since the beginning, ``seconds``, as finely as the divisions of ``step`` seconds are."""
     sign, seconds = ("-", -seconds) if seconds < 0 else ("", seconds)
     if step >= 1.0:
         seconds = round(seconds)

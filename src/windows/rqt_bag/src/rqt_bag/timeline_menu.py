@@ -87,7 +87,10 @@ class TimelinePopupMenu(QMenu):
             self._add(menu, viewer_type.name, lambda viewer_type=viewer_type: self.view(topic, viewer_type))
 
     def view(self, topic: str, viewer_type) -> None:
-        """Open a view of a topic, or bring it back."""
+        """Open a view of ``topic``, or bring it back.
+
+        :param viewer_type: a class derived from MessageView
+        """
         name = f"{topic}__{viewer_type.name}"
         if name not in self._popups:
             try:

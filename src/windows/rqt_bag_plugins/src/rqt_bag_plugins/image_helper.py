@@ -17,6 +17,9 @@ def picture(message) -> np.ndarray:
 
 
 def imgmsg_to_pil(img_msg, rgba: bool = True) -> Image.Image:
-    """A PIL image; the name that views of others import. :param rgba: with an alpha channel."""
+    """``img_msg`` as a PIL image; the name that views of others import.
+
+    :param rgba: with an alpha channel.
+    """
     made = Image.fromarray(picture(img_msg))
     return made.convert("RGBA") if rgba else made

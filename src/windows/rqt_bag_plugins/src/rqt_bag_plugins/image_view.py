@@ -50,7 +50,10 @@ class ImageView(TopicMessageView):
         self.set_image(None, None, None)
 
     def set_image(self, image_msg, image_topic, image_stamp):
-        """Show a message; None shows nothing."""
+        """Show ``image_msg``; None shows nothing.
+
+        :param image_topic, image_stamp: where and when it was sent
+        """
         self._image_topic, self._image_stamp, self._image = image_topic, image_stamp, None
         text = ""
         if image_msg is not None:

@@ -83,7 +83,7 @@ class PlotView(TopicMessageView):
         return found
 
     def check(self, path: str, checked: bool = True) -> None:
-        """Plot a field, as ``/pose/position/x``, or no longer."""
+        """Plot the field ``path``, as ``/pose/position/x``, or no longer when not ``checked``."""
         waiting = [self.tree.invisibleRootItem()]
         while waiting:
             item = waiting.pop()

@@ -269,6 +269,7 @@ class ConsoleWidget(QWidget):
     # settings
 
     def save_settings(self, plugin_settings, settings) -> None:
+        """Store columns, rules and what is paused in ``settings``, of the instance; ``plugin_settings`` are left alone."""
         header = self.table_view.horizontalHeader()
         settings.set_value("hidden_columns", [str(column) for column in range(len(COLUMNS)) if header.isSectionHidden(column)])
         settings.set_value("header_state", header.saveState())
@@ -279,6 +280,7 @@ class ConsoleWidget(QWidget):
         settings.set_value("paused", self.paused)
 
     def restore_settings(self, plugin_settings, settings) -> None:
+        """Take back what :meth:`save_settings` stored in ``settings``; ``plugin_settings`` are not read."""
         for key, restore in (
             ("header_state", self.table_view.horizontalHeader().restoreState),
             ("splitter_sizes", self.splitter.restoreState),

@@ -67,6 +67,7 @@ class MessageDataModel(QAbstractTableModel):
         return 0 if parent.isValid() else len(COLUMNS)
 
     def headerData(self, section, orientation, role=Qt.ItemDataRole.DisplayRole):
+        """Name of the column ``section``, or its tool tip, by ``role``; None for rows, which have the other ``orientation``."""
         if role == Qt.ItemDataRole.DisplayRole and orientation == Qt.Orientation.Horizontal:
             return COLUMNS[section]
         if role == Qt.ItemDataRole.ToolTipRole and orientation == Qt.Orientation.Horizontal:
@@ -74,6 +75,7 @@ class MessageDataModel(QAbstractTableModel):
         return None
 
     def data(self, index, role=Qt.ItemDataRole.DisplayRole):
+        """What the cell ``index`` has for ``role``, as Qt asks; the whole message for MESSAGE_ROLE."""
         if not index.isValid() or index.row() >= len(self._shown):
             return None
         message = self.message_of_row(index.row())
@@ -91,6 +93,7 @@ class MessageDataModel(QAbstractTableModel):
         return message if role == MESSAGE_ROLE else None
 
     def sort(self, column, order=Qt.SortOrder.AscendingOrder):
+        """Show the messages by ``column``, from 0, in this ``order``."""
         self._rearrange(self._shown, column, order == Qt.SortOrder.DescendingOrder)
 
     # what the console asks

@@ -190,7 +190,12 @@ class RuleBox(QGroupBox):
         layout.addWidget(scroll)
 
     def add(self, kind: str, state: dict | None = None, enabled: bool = True):
-        """A new rule, as :meth:`state` has it; returns its filter."""
+        """A new rule, as :meth:`state` has it; returns its filter.
+
+        :param kind: a key of KINDS
+        :param state: of the condition; None: as new
+        :param enabled: it counts from now on
+        """
         label, make = KINDS[kind]
         filter_ = make()
         if state is not None:

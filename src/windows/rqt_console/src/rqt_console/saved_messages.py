@@ -16,7 +16,10 @@ class SavedMessagesError(WindowError, ValueError):
 
 
 def save(path: str, messages: Iterable[Message]) -> None:
-    """:raises OSError: if it cannot be written"""
+    """Write ``messages`` into the file ``path``, below a line with the names of the columns.
+
+    :raises OSError: if it cannot be written
+    """
 
     def quoted(*values):
         return ";".join('"' + str(value).replace("\\", "\\\\").replace('"', '\\"') + '"' for value in values) + "\n"

@@ -51,8 +51,9 @@ class ManagerCalls:
         return rows
 
     def act(self, manager: str, name: str, *steps: str) -> None:
-        """Load, start, stop or unload, one after the other.
+        """Load, start, stop or unload the controller ``name`` of ``manager``, as ``steps`` say, one after the other.
 
+        :param manager: its namespace
         :raises CallError: the manager refuses one
         :raises rospy.ServiceException: it is gone
         """

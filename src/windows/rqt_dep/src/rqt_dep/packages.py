@@ -39,7 +39,10 @@ def read_packages(rospack: rospkg.RosPack | None = None) -> dict[str, set[str]]:
 
 
 def select(packages: dict[str, set[str]], options: Options) -> tuple[set[str], set[tuple[str, str]], set[str]]:
-    """(packages shown, edges from a package to what it needs, those which the filter names)."""
+    """(packages shown, edges from a package to what it needs, those which the filter names), as ``options`` say.
+
+    :param packages: name -> names of those it needs
+    """
     names = set(packages) | ({need for needs in packages.values() for need in needs} if options.system else set())
     text = options.name_filter.strip()
     chosen = {name for name in names if passes(name, text)} if text else set()
@@ -79,7 +82,10 @@ def _without_transitive(edges):
 
 
 def generate_dot(packages: dict[str, set[str]], options: Options) -> str:
-    """DOT text; the packages that the filter names are bold, what is not of this system grey."""
+    """DOT text of what :func:`select` chooses from ``packages`` by ``options``.
+
+    Packages that the filter names are red where others are shown too; what is not of this system is grey.
+    """
     shown, edges, chosen = select(packages, options)
     if not shown:
         return 'digraph graphname { "none" [label="Type the name of a package above" shape=box]; }\n'

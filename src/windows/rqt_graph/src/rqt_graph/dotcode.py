@@ -86,7 +86,7 @@ def split_filter(text: str) -> tuple[list[str], list[str]]:
 
 
 def matches_any(name: str, patterns: Iterable[str]) -> bool:
-    """Whether ``name`` is one of the names, or begins as one of the regular expressions says; one that is malformed fits none."""
+    """Whether ``name`` is one of ``patterns``, or begins as one of these regular expressions says; one that is malformed fits none."""
     for pattern in patterns:
         if name == pattern:
             return True
@@ -100,7 +100,7 @@ def matches_any(name: str, patterns: Iterable[str]) -> bool:
 
 
 def passes(name: str, text: str) -> bool:
-    """Whether a filter lets a name through."""
+    """Whether a filter, ``text``, lets ``name`` through."""
     included, excluded = split_filter(text)
     return matches_any(name, included) and not matches_any(name, excluded)
 
@@ -116,7 +116,7 @@ class Graph:
 
 
 def select(state, options: Options) -> Graph:
-    """The part of a :class:`rqt_graph.ros_state.State` that the options show."""
+    """The part of ``state``, a :class:`rqt_graph.ros_state.State`, that ``options`` show."""
     nodes = {
         node
         for node in state.nodes
@@ -194,7 +194,7 @@ def _grouped(links, topics, options: Options):
 
 
 def generate_dot(state, options: Options, statistics: dict | None = None) -> str:
-    """DOT text of what the options show.
+    """DOT text of what ``options`` show of ``state``, a :class:`rqt_graph.ros_state.State`.
 
     :param statistics: (publisher, topic, subscriber) -> :class:`Statistics`
     """
@@ -336,7 +336,12 @@ class RosGraphDotcodeGenerator:
         return edge.label not in _QUIET_TOPICS and not _quiet(edge.start) and not _quiet(edge.end)
 
     def generate_namespaces(self, graph, graph_mode, quiet=False) -> list[str]:
-        """Namespaces of the nodes, and with topics of these too, that a mode of the graph shows; each with / at its end."""
+        """Namespaces of the nodes, and with topics of these too, that a mode of the graph shows; each with / at its end.
+
+        :param graph: a ``rosgraph.impl.graph.Graph``
+        :param graph_mode: as of :meth:`generate_dotgraph`
+        :param quiet: leave names of debugging out
+        """
         names = list(graph.nn_nodes)
         if graph_mode != NODE_NODE_GRAPH:
             names += [topic.strip() for topic in graph.nt_nodes]
@@ -365,12 +370,13 @@ class RosGraphDotcodeGenerator:
         group_image_nodes=False,
         hide_dynamic_reconfigure=False,
     ):
-        """The factory's graph of a system.
+        """The graph of ``rosgraphinst``, a ``rosgraph.impl.graph.Graph``, by ``dotcode_factory``. ``quiet``: no nodes of debugging.
 
-        :param ns_filter: which nodes: names or regular expressions between commas, a leading - excludes.
-        :param topic_filter: which topics, likewise.
-        :param graph_mode: NODE_NODE_GRAPH, NODE_TOPIC_GRAPH or NODE_TOPIC_ALL_GRAPH
-        :param orientation: LR or TB, the way in which it grows. :param unreachable: hide nodes that do not answer.
+        :param ns_filter: which nodes: names or regular expressions between commas, a leading - excludes. :param topic_filter: topics.
+        :param graph_mode: NODE_NODE_GRAPH, NODE_TOPIC_GRAPH or NODE_TOPIC_ALL_GRAPH. :param cluster_namespaces_level: 0: no boxes.
+        :param hide_single_connection_topics, hide_dead_end_topics, hide_tf_nodes, hide_dynamic_reconfigure: leave these out.
+        :param accumulate_actions, group_tf_nodes, group_image_nodes: draw those as one. :param unreachable: hide who does not answer.
+        :param orientation: LR or TB, the way in which it grows; ``rankdir`` is not used. :param rank, ranksep, simplify: as the factory.
         """
         options = Options(
             graph_mode,
@@ -403,7 +409,10 @@ class RosGraphDotcodeGenerator:
         return graph
 
     def generate_dotcode(self, rosgraphinst, ns_filter, topic_filter, graph_mode, dotcode_factory, *rest, **options) -> str:
-        """As :meth:`generate_dotgraph`, as DOT text with positions."""
+        """As :meth:`generate_dotgraph`, as DOT text with positions; ``dotcode_factory`` writes it.
+
+        ``rosgraphinst``, ``ns_filter``, ``topic_filter``, ``graph_mode`` and all further arguments are the same there.
+        """
         graph = self.generate_dotgraph(rosgraphinst, ns_filter, topic_filter, graph_mode, dotcode_factory, *rest, **options)
         return dotcode_factory.create_dot(graph)
 

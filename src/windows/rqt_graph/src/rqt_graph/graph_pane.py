@@ -107,6 +107,7 @@ class GraphPane(QWidget):
             self.view.scale(2, 2)
 
     def eventFilter(self, watched, event):
+        """The graph is fitted again when ``watched``, the view, changes its size; no ``event`` is kept from it."""
         if event.type() == QEvent.Type.Resize and self.auto_fit and self.nodes:
             self.fit()
         return False

@@ -8,7 +8,11 @@ class Row(QHBoxLayout):
     """One row of controls above a graph."""
 
     def button(self, name, icon, text, tip, slot):
-        """A button with an icon, or with ``text`` where the theme has none."""
+        """A button with the theme's ``icon``, or with ``text`` where the theme has none; ``slot()`` is called when it is clicked.
+
+        :param name: object name
+        :param tip: tool tip
+        """
         button = QPushButton()
         button.setObjectName(name)
         button.setToolTip(tip)
@@ -19,6 +23,11 @@ class Row(QHBoxLayout):
         return button
 
     def check(self, name, text, tip, on, slot):
+        """A check box with ``text`` beside it, checked if ``on``; ``slot()`` is called when that changes.
+
+        :param name: object name
+        :param tip: tool tip
+        """
         box = QCheckBox(text)
         box.setObjectName(name)
         box.setToolTip(tip)
@@ -31,7 +40,12 @@ class Row(QHBoxLayout):
         self.addWidget(QLabel(text))
 
     def file_buttons(self, pane, stem, load=None):
-        """Load DOT, save DOT, SVG, picture: under upstream's names."""
+        """Load DOT, save DOT, SVG, picture: under upstream's names.
+
+        :param pane: the GraphPane that is saved
+        :param stem: of the file names that are proposed
+        :param load: called for the first button; None: ``pane`` asks for a file
+        """
         self.button("load_dot_push_button", "document-open", "Load", "Load DOT graph from file", load or pane.ask_load_dot)
         self.button("save_dot_push_button", "document-save-as", "DOT", "Save as DOT graph", lambda: pane.ask_save_dot(stem + ".dot"))
         self.button("save_as_svg_push_button", "document-save-as", "SVG", "Save as SVG", lambda: pane.ask_save_svg(stem + ".svg"))

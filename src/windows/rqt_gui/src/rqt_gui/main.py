@@ -17,7 +17,10 @@ class Main(Base):
         super().__init__(invoked_filename=filename, settings_filename=settings_filename)
 
     def main(self, argv=None, standalone=None, plugin_argument_provider=None, plugin_manager_settings_prefix=""):
-        """See :meth:`qt_gui.main.Main.main`; ROS remappings are taken out of ``argv`` first."""
+        """See :meth:`qt_gui.main.Main.main`; ROS remappings are taken out of ``argv`` first.
+
+        ``standalone``, ``plugin_argument_provider`` and ``plugin_manager_settings_prefix`` are the same there.
+        """
         argv = rospy.myargv(sys.argv if argv is None else argv)
         try:
             return super().main(

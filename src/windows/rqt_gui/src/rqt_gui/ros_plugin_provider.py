@@ -90,7 +90,7 @@ class RosPluginProvider(PluginProvider):
         return describe_menu(PluginDescriptor(plugin_id, attributes), element)
 
     def package_path(self, package, path):
-        """The folder of a package, given its description file."""
+        """The folder of ``package``, whose description file is ``path``."""
         return os.path.dirname(path)
 
 
@@ -115,7 +115,7 @@ def _parse(package, path):
 
 
 def describe_menu(descriptor, element):
-    """Give ``descriptor`` the menu entry and the groups that ``<qtgui>`` of a class names; returns it."""
+    """Give ``descriptor`` the menu entry and the groups that ``<qtgui>`` of a class, ``element``, names; returns it."""
     gui = element.find("qtgui")
     if gui is not None:
         action = _action(gui, descriptor.plugin_id().split("/")[-1])

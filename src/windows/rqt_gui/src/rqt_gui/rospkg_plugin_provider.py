@@ -68,7 +68,10 @@ _known: dict[Any, Any] = {}  # of the last RosPack asked: several providers ask 
 
 
 def exports(rospack, tags=_WINDOWS):
-    """(package, tag, description file) of all exports of plugins under these tags, in the order of the packages' names."""
+    """(package, tag, description file) of all exports of plugins under these ``tags``, in the order of the packages' names.
+
+    :param rospack: the ``rospkg.RosPack`` to search; the answer is kept until another one is given
+    """
     if _known.get("of") is not rospack:
         _known.clear()
         _known.update(of=rospack, paths=_packages(rospack))

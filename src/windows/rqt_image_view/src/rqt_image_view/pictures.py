@@ -41,7 +41,12 @@ def from_raw(
 ) -> np.ndarray:
     """A picture from the fields of a sensor_msgs/Image.
 
-    :param step: bytes per row. :param data: bytes. :returns: uint8, (h, w) or (h, w, 3) RGB; perhaps a view of ``data``.
+    :param encoding, height, width: fields of it; pixels
+    :param step: bytes per row.
+    :param data: bytes.
+    :param big_endian: of numbers in ``data`` that have several bytes
+    :param depth: how pictures of depths are shown
+    :returns: uint8, (h, w) or (h, w, 3) RGB; perhaps a view of ``data``.
     :raises PictureError: an encoding that is not known, or data that does not fit height, width and step.
     """
     return _shown(lambda: image_pixels.raw(encoding, height, width, step, data, big_endian), depth)
@@ -51,6 +56,9 @@ def from_compressed(layout: str, data, depth: DepthView = DepthView()) -> np.nda
     """A picture from the fields of a sensor_msgs/CompressedImage, compressedDepth included.
 
     :param layout: field ``format``, as ``rgb8; jpeg compressed bgr8`` or ``16UC1; compressedDepth png``.
+    :param data: bytes
+    :param depth: how pictures of depths are shown
+    :returns: uint8, (h, w) or (h, w, 3) RGB
     :raises PictureError: data that cannot be decoded.
     """
     return _shown(lambda: image_pixels.compressed(layout, data), depth)
@@ -65,9 +73,10 @@ def _shown(read: Callable[[], image_pixels.Picture], depth: DepthView) -> np.nda
 
 
 def show_depth(values: np.ndarray, unit: float, view: DepthView) -> np.ndarray:
-    """Depth as grey or colours; what is no depth (NaN, or 0 of whole numbers) is black.
+    """Depth as grey or colours, as ``view`` says; what is no depth (NaN, or 0 of whole numbers) is black.
 
-    :param values: (h, w). :param unit: m per unit of ``values``.
+    :param values: (h, w).
+    :param unit: m per unit of ``values``.
     """
     invalid = values == 0 if values.dtype.kind in "ui" else np.isnan(values)
     values = values.astype(np.float32)
@@ -135,17 +144,17 @@ def _full_range(frame) -> np.ndarray:
 
 
 def rotated(picture: np.ndarray, quarters: int) -> np.ndarray:
-    """Turned clockwise by ``quarters`` of a turn."""
+    """``picture`` turned clockwise by ``quarters`` of a turn."""
     return np.ascontiguousarray(np.rot90(picture, -quarters % 4)) if quarters % 4 else picture
 
 
 def unrotated_point(x: int, y: int, height: int, width: int, quarters: int):
-    """Pixel (x, y) of the picture of height x width before :func:`rotated`, from its place afterwards."""
+    """Pixel of the picture of height x width before :func:`rotated` by ``quarters``, from its place (x, y) afterwards."""
     return {0: (x, y), 1: (y, height - 1 - x), 2: (width - 1 - x, height - 1 - y), 3: (width - 1 - y, x)}[quarters % 4]
 
 
 def invert_grid(picture: np.ndarray, lines: int) -> np.ndarray:
-    """A copy with ``lines`` lines each way, evenly spaced, where the colours are inverted."""
+    """A copy of ``picture`` with ``lines`` lines each way, evenly spaced, where the colours are inverted."""
     picture = picture.copy()
     height, width = picture.shape[:2]
     rows = [round((i + 1) * height / (lines + 1)) for i in range(lines)]

@@ -30,8 +30,9 @@ def image_topics() -> list[str]:
 
 
 def picture_of(message, depth: DepthView = DepthView()) -> np.ndarray:
-    """The picture in a sensor_msgs/Image or CompressedImage: uint8, (h, w) or (h, w, 3) RGB.
+    """The picture in ``message``, a sensor_msgs/Image or CompressedImage: uint8, (h, w) or (h, w, 3) RGB.
 
+    :param depth: how pictures of depths are shown
     :raises PictureError: it cannot be shown; one line that says why.
     """
     if message._type == RAW:

@@ -18,9 +18,9 @@ SHORTEST = 0.5  # s that a motion takes at full speed
 
 
 def duration(positions, targets, velocities, scale: float) -> float:
-    """Seconds for all joints to arrive together.
+    """Seconds for all joints to arrive together, from ``positions`` at ``targets`` (rad or m).
 
-    :param velocities: the joints' limits
+    :param velocities: the joints' limits, rad/s or m/s
     :param scale: share of them, above 0
     """
     return (

@@ -95,7 +95,7 @@ def launch_files(package: str) -> list[str]:
 
 
 def load(package: str, file: str, arguments: str) -> list[LaunchedNode]:
-    """The nodes of a launch file; its parameters are set on the master.
+    """The nodes of the launch file ``file`` in the folder launch of ``package``; its parameters are set on the master.
 
     :param arguments: as typed behind roslaunch: ``gui:=false speed:=2``
     :raises LaunchError: if it cannot be loaded
@@ -122,7 +122,7 @@ def load(package: str, file: str, arguments: str) -> list[LaunchedNode]:
 
 
 def stop_all(nodes: list[LaunchedNode], patience: float = sum(PATIENCE) + 1.0) -> None:
-    """All at once; returns when they have ended, or after ``patience`` seconds."""
+    """Stop all of ``nodes`` that run, at once; returns when they have ended, or after ``patience`` seconds."""
     threads = [threading.Thread(target=node.stop, name=f"stop {node.name}", daemon=True) for node in nodes if node.state() == "running"]
     for thread in threads:
         thread.start()

@@ -28,7 +28,10 @@ class LoggerLevelServiceCaller:
         return {logger.name: logger.level.capitalize() for logger in sorted(answer.loggers, key=lambda logger: logger.name)}
 
     def set_logger_level(self, node: str, logger: str, level: str) -> None:
-        """:raises rospy.ServiceException: the node is gone, or refuses"""
+        """Let ``logger`` of ``node`` log from ``level`` on, one of LEVELS.
+
+        :raises rospy.ServiceException: the node is gone, or refuses
+        """
         rospy.ServiceProxy(node + "/set_logger_level", SetLoggerLevel)(logger, level)
 
 

@@ -14,8 +14,9 @@ class DefinitionError(WindowError, ValueError):
 
 
 def parts(type_name: str, mode: str) -> list[tuple[str, object]]:
-    """(name, empty message) of what a type consists of: itself, request and response, or goal, result and feedback.
+    """(name, empty message) of what ``type_name`` consists of: itself, request and response, or goal, result and feedback.
 
+    :param mode: ``.msg``, ``.srv`` or ``.action``
     :raises DefinitionError: if it cannot be imported
     """
     try:
@@ -38,8 +39,9 @@ def _action_part(type_name: str, name: str):
 
 
 def text(type_name: str, mode: str) -> str:
-    """The definition as ``rosmsg show`` prints it, or the file of an action.
+    """The definition of ``type_name`` as ``rosmsg show`` prints it, or the file of an action.
 
+    :param mode: ``.msg``, ``.srv`` or ``.action``
     :raises DefinitionError: if there is none
     """
     try:

@@ -184,7 +184,7 @@ class Table:
         return len(self.plots), len(self.plots[0]) if self.plots else 0
 
     def resize(self, rows: int, columns: int) -> None:
-        """Add empty plots or drop the last ones."""
+        """Add empty plots or drop the last ones until there are ``rows`` of ``columns`` each."""
         self.plots = [
             [self.plots[r][c] if r < len(self.plots) and c < len(self.plots[r]) else Plot() for c in range(columns)] for r in range(rows)
         ]

@@ -33,7 +33,12 @@ _DEEPEST = 8  # messages within messages that the list of fields goes into
 
 
 def field_names(message_class, prefix: str = "", depth: int = 0) -> list[str]:
-    """Fields of a message that hold numbers, as ``pose/pose/position/x``; of arrays the first element."""
+    """Fields of a message that hold numbers, as ``pose/pose/position/x``; of arrays the first element.
+
+    :param message_class: None, for a type that is not built here: none
+    :param prefix: put before each
+    :param depth: of ``message_class`` in the message that was asked for
+    """
     names: list[str] = []
     if message_class is None or depth > _DEEPEST:
         return names

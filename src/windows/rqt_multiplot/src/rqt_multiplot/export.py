@@ -15,7 +15,11 @@ SIZE = 1280, 1024  #: pixels of a picture
 
 
 def write_image(name: str, panels: list[list[PlotPanel]]) -> None:
-    """A picture of the plots of a table, with their titles. :raises OSError: it cannot be written."""
+    """A picture of the plots of a table, with their titles, into the file ``name``, whose ending says the format.
+
+    :param panels: rows of plots
+    :raises OSError: it cannot be written.
+    """
     image = QImage(*SIZE, QImage.Format.Format_ARGB32)
     image.fill(Qt.GlobalColor.white)
     painter = QPainter(image)
@@ -45,7 +49,10 @@ def _draw(painter: QPainter, cell: QRectF, panel) -> None:
 
 
 def write_text(name: str, panels: list[PlotPanel]) -> None:
-    """Two columns per curve, x and y, under a line with their names. :raises OSError: it cannot be written."""
+    """Two columns per curve of ``panels``, x and y, under a line with their names, into the file ``name``.
+
+    :raises OSError: it cannot be written.
+    """
     titles, columns = [], []
     for panel in panels:
         for curve, points in zip(panel.plot.curves, panel.points):

@@ -18,7 +18,13 @@ CURVE_MIME = "application/x-rqt-multiplot-curve"
 
 
 def tool_button(name: str, icon: str, text: str, tip: str, checkable: bool = False) -> QToolButton:
-    """A button with an icon of the desktop's theme, or a text where the theme lacks it."""
+    """A button with an icon of the desktop's theme, or ``text`` where the theme lacks it.
+
+    :param name: object name
+    :param icon: its name in the theme
+    :param tip: tool tip
+    :param checkable: it stays down until it is clicked again
+    """
     button = QToolButton()
     button.setObjectName(name)
     button.setToolTip(tip)
@@ -114,6 +120,7 @@ class PlotPanel(QWidget):
             self.changed.emit()
 
     def set_colors(self, background: QColor, foreground: QColor) -> None:
+        """Draw in ``foreground`` on ``background``, the title too."""
         self.view.set_colors(background, foreground)
         self.title.setStyleSheet(f"background: {background.name()}; color: {foreground.name()}")
 

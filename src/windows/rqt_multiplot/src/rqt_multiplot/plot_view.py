@@ -39,12 +39,17 @@ class Axis(pg.AxisItem):
         return time.strftime(" [s since %Y-%m-%d %H:%M:%S]", time.localtime(self.offset)) if self.offset else ""
 
     def tickValues(self, low, high, size):
+        """As pyqtgraph asks: (step, values) of the ticks from ``low`` to ``high``, round where the offset is taken off.
+
+        :param size: length of the axis, pixels
+        """
         return [
             (step, [value + self.offset for value in values])
             for step, values in super().tickValues(low - self.offset, high - self.offset, size)
         ]
 
     def tickStrings(self, values, scale, spacing):
+        """As pyqtgraph asks: texts of ``values``, less the offset; ``scale`` and ``spacing`` are those of the base class."""
         return super().tickStrings([value - self.offset for value in values], scale, spacing)
 
 
@@ -126,6 +131,7 @@ class PlotView(pg.PlotWidget):
     # Look
 
     def set_colors(self, background: QColor, foreground: QColor) -> None:
+        """Draw axes, cursor and texts in ``foreground`` on ``background``."""
         self._background, self._foreground = background, foreground
         self.setBackground(background)
         for axis in (self.x_axis, self.y_axis):
@@ -141,6 +147,7 @@ class PlotView(pg.PlotWidget):
             label.setText(label.text)
 
     def set_titles(self, x: str, y: str) -> None:
+        """Titles of the axes, ``x`` and ``y``; long ones are cut."""
         for axis, text in ((self.x_axis, x), (self.y_axis, y)):
             shown = text + axis.suffix() if text or axis.offset else ""
             if shown != axis.labelText:
@@ -148,7 +155,7 @@ class PlotView(pg.PlotWidget):
                 axis.setLabel((shown if len(shown) <= 90 else shown[:87] + "...").strip())
 
     def set_curves(self, curves: list[Curve], legend: bool) -> None:
-        """Draw these curves from now on; each is empty until :meth:`draw`."""
+        """Draw ``curves`` from now on; each is empty until :meth:`draw`. ``legend``: show their names, if there are any."""
         self.legend.clear()
         for item in self._items:
             self.plotItem.removeItem(item)
@@ -173,7 +180,7 @@ class PlotView(pg.PlotWidget):
         self.legend.setVisible(legend and bool(curves))
 
     def draw(self, index: int, curve: Curve, points: Points) -> None:
-        """Draw what is to be seen of a curve."""
+        """Draw what is to be seen of a ``curve``, the one with the number ``index`` of :meth:`set_curves`, of which ``points`` are kept."""
         (x_range, y_range), columns, rows = self.shown_range(), max(64, self.width()), max(64, self.height())
         x, y = points.picture(x_range, y_range, columns, rows)
         style = curve.style
@@ -193,7 +200,7 @@ class PlotView(pg.PlotWidget):
         return list(x), list(y)
 
     def show_range(self, x: tuple[float, float] | None, y: tuple[float, float] | None) -> None:
-        """Show these values; None leaves an axis. What has no extent is shown with one."""
+        """Show these values, ``x`` and ``y`` as (from, to); None leaves an axis. What has no extent is shown with one."""
         ranges = {}
         for name, limits in (("xRange", x), ("yRange", y)):
             if limits is not None and all(map(math.isfinite, limits)):
@@ -218,7 +225,10 @@ class PlotView(pg.PlotWidget):
         self.cursor_moved.emit(None)
 
     def show_cursor(self, place: tuple[float, float] | None, curves: dict[str, Points] | None = None) -> None:
-        """Draw the cross, and with :attr:`track_points` the points of the curves nearest to it; None hides all."""
+        """Draw the cross at ``place``, (x, y), and with :attr:`track_points` the points of ``curves`` nearest to it; None hides all.
+
+        :param curves: name -> points
+        """
         tracked = {}
         if place is not None and self.track_points:
             tracked = {
@@ -244,20 +254,31 @@ class PlotView(pg.PlotWidget):
 
 
 def sticks(x: np.ndarray, y: np.ndarray, baseline: float, orientation: Orientation) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs of points: from the baseline to each point."""
+    """Pairs of points: from the ``baseline`` to each point of ``x`` and ``y``, (n,).
+
+    :param orientation: VERTICAL: the baseline is a value of y, else of x
+    :returns: x and y, (2 n,) each
+    """
     x, y = np.repeat(x, 2), np.repeat(y, 2)
     (y if orientation == Orientation.VERTICAL else x)[0::2] = baseline
     return x, y
 
 
 def steps(x: np.ndarray, y: np.ndarray, inverted: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Corners of a stair: the old value up to the next x, or inverted the new one from the last x."""
+    """Corners of a stair through ``x`` and ``y``, (n,): the old value up to the next x, or ``inverted`` the new one from the last x.
+
+    :returns: x and y, (2 n - 1,) each
+    """
     x, y = np.repeat(x, 2), np.repeat(y, 2)
     return (x[:-1], y[1:]) if inverted else (x[1:], y[:-1])
 
 
 def smooth(x: np.ndarray, y: np.ndarray, pieces: int = 8) -> tuple[np.ndarray, np.ndarray]:
-    """Cubic pieces through all points, with the slope of the neighbours' chord at each."""
+    """Cubic pieces through all points, with the slope of the neighbours' chord at each.
+
+    :param x, y: (n,); fewer than three points come back as they are
+    :param pieces: straight ones between two points
+    """
     if len(x) < 3:
         return x, y
     t = np.linspace(0, 1, pieces, endpoint=False)[None, :]

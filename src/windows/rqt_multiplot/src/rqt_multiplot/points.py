@@ -52,7 +52,10 @@ class Points(Series):
         return limits(self.x), limits(self.y)
 
     def picture(self, x_range, y_range, columns: int, rows: int) -> tuple[np.ndarray, np.ndarray]:
-        """What has to be drawn in a window of columns x rows pixels: x, y."""
+        """What has to be drawn in a window of columns x rows pixels: x, y.
+
+        :param x_range, y_range: (from, to) that is shown
+        """
         if self.ascending:
             shown = visible(self, *x_range)
             return decimate(self.x[shown], self.y[shown], columns, self.dropped + shown.start)

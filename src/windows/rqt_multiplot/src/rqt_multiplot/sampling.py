@@ -18,7 +18,7 @@ AXES = ("x_axis", "y_axis")
 
 
 def is_time(axis: CurveAxis, message_class) -> bool:
-    """Whether the values of an axis are times."""
+    """Whether the values of ``axis`` are times, in messages of ``message_class``; without a class only times of receipt are."""
     if axis.field_type == FieldType.RECEIPT_TIME:
         return True
     try:
@@ -78,7 +78,10 @@ class Sampler:
                 values.clear()
 
     def add(self, topic: str, message, receipt_time: float) -> None:
-        """Take a message of one of :attr:`topics`. :param receipt_time: s"""
+        """Take ``message``, of ``topic``, one of :attr:`topics`.
+
+        :param receipt_time: s
+        """
         axes = self.curve.axes
         try:
             if len(self.topics) == 1:

@@ -74,7 +74,7 @@ class Topics:
 
 
 def read_bag(name: str, samplers: Iterable[Sampler], progress: Callable[[float], bool] = lambda share: True) -> tuple[int, list[str]]:
-    """Feed samplers from a bag file; the time of receipt is that of recording.
+    """Feed ``samplers`` from the bag file ``name``; the time of receipt is that of recording.
 
     :param progress: called with 0..1 now and then; returns False to stop.
     :returns: number of messages read, topics that are wanted and not in the bag.

@@ -189,7 +189,10 @@ class MultiplotWidget(QWidget):
         return write(self.view.table) if self.modified else ""
 
     def restore_unsaved(self, text: str, url: str) -> None:
-        """Take up again what :meth:`unsaved` gave when the window was closed."""
+        """Take up again ``text``, what :meth:`unsaved` gave when the window was closed.
+
+        :param url: of the file that it was read from; "" for none
+        """
         try:
             self._take(read(text)[0], url)
         except ConfigError as error:

@@ -77,6 +77,7 @@ class NavView(QGraphicsView):
             self._failed.emit(str(error))
 
     def line_cb(self, name: str, message) -> None:
+        """Show the path or polygon of ``message``, in rospy's thread; ``name`` is its topic."""
         points, frame = points_of(message), message.header.frame_id.lstrip("/")
         if frame and self.frame_id and frame != self.frame_id:
             try:

@@ -117,16 +117,18 @@ class NavViewWidget(QWidget):
         dialog.open()
 
     def show_topics(self, map_topic: str, paths: list[str], polygons: list[str]) -> None:
-        """Show other topics."""
+        """Show other topics: ``map_topic``, and all of ``paths`` and ``polygons``."""
         self.map_topic, self.paths, self.polygons = map_topic, paths, polygons
         self._new_view()
 
     def save_settings(self, plugin_settings, instance_settings) -> None:
+        """Store the names of the topics in ``instance_settings``; ``plugin_settings`` are left alone."""
         instance_settings.set_value("map_topic", self.map_topic)
         instance_settings.set_value("paths", pack(self.paths))
         instance_settings.set_value("polygons", pack(self.polygons))
 
     def restore_settings(self, plugin_settings, instance_settings) -> None:
+        """Show the topics that ``instance_settings`` have, if they have any; ``plugin_settings`` are not read."""
         if instance_settings.contains("map_topic"):
             self.show_topics(
                 str(instance_settings.value("map_topic")),

@@ -60,7 +60,7 @@ def parse_path(path: str) -> list[Step]:
 
 
 def slot_of(message_class, path: str) -> Slot:
-    """Where ``path`` leads in messages of a class.
+    """Where ``path`` leads in messages of the class ``message_class``.
 
     :raises FieldError: nowhere; the text names the fields that there are.
     """
@@ -85,7 +85,7 @@ def slot_of(message_class, path: str) -> Slot:
 
 
 def number_paths(message_class, path: str = "") -> tuple[list[str], str]:
-    """Paths below ``path`` that are plotted when it is named, and a sentence on what is there.
+    """Paths below ``path`` in ``message_class`` that are plotted when it is named, and a sentence on what is there.
 
     A number is itself; a fixed-size array each of its elements; a message its numbers at the top level, or the Bool of
     ``std_msgs/Bool``. An array of variable size gives nothing without an index.
@@ -139,6 +139,7 @@ def getter(path: str) -> Callable[[object], float]:
 def split_topic(name: str, types: dict[str, str]) -> tuple[str | None, str]:
     """The topic that ``name`` begins with (the longest one known), and the field path behind it.
 
+    :param types: topic -> type of its messages
     :returns: (None, "") when no topic fits.
     """
     fitting = [topic for topic in types if name == topic or name.startswith((topic + "/", topic + "["))]

@@ -18,7 +18,10 @@ _CLOCK_SET_BACK = 1.0  # s: stamps that are older than this are no jitter
 
 
 def get_plot_fields(topic_name: str, types: dict[str, str] | None = None) -> tuple[list[str], str]:
-    """Names of the curves that a name stands for, and a sentence about them. Without ``types`` the master is asked."""
+    """Names of the curves that ``topic_name`` stands for, and a sentence about them.
+
+    :param types: topic -> type of its messages; the master is asked without
+    """
     try:
         names, message = expand(topic_name, topic_types() if types is None else types)
     except RosPlotException as error:

@@ -84,7 +84,7 @@ class Series:
 
 
 def visible(series: Series, low: float, high: float) -> slice:
-    """Index range of the samples with low <= x <= high and one more on either side, so that lines leave the picture."""
+    """Index range of the samples of ``series`` with low <= x <= high and one more on either side, so that lines leave the picture."""
     begin, end = np.searchsorted(series.x, low, "left"), np.searchsorted(series.x, high, "right")
     return slice(max(0, int(begin) - 1), min(len(series), int(end) + 1))
 
@@ -92,6 +92,7 @@ def visible(series: Series, low: float, high: float) -> slice:
 def decimate(x: np.ndarray, y: np.ndarray, columns: int, offset: int = 0) -> tuple[np.ndarray, np.ndarray]:
     """At most about 4 * ``columns`` of the samples, that look the same: the lowest and highest of each group.
 
+    :param x, y: (n,), x in ascending order
     :param offset: number of the first sample since the curve began; groups begin at multiples of their size, so a picture
         that scrolls does not shimmer.
     """

@@ -29,7 +29,11 @@ class PoseWidget(QWidget):
         return QSize(480, 400)
 
     def set_rotation(self, rotation: np.ndarray | None, text: str = "") -> None:
-        """Turn the box; None leaves it. :param text: shown below."""
+        """Turn the box; None leaves it.
+
+        :param rotation: (3, 3), from the box's axes to the world's
+        :param text: shown below.
+        """
         if rotation is not None:
             self._rotation = rotation
         self._text = text

@@ -14,8 +14,9 @@ _DEEPEST = 6
 
 
 def quaternion_path(message_class, wanted: str = "geometry_msgs/Quaternion") -> list[str] | None:
-    """Names that lead to the first quaternion of a message, the nearest to its top first; arrays are left out.
+    """Names that lead to the first quaternion in messages of ``message_class``, the nearest to its top first; arrays are left out.
 
+    :param wanted: type to look for in the place of the quaternion
     :returns: None if there is none; an empty list for a quaternion itself.
     """
     waiting: list[tuple[list[str], Any]] = [([], message_class)]
@@ -90,7 +91,7 @@ class Camera:
         self.azimuth, self.elevation, self.distance = math.radians(35), math.radians(28), 9.0
 
     def turn(self, right: float, up: float) -> None:
-        """Turn by angles, rad; never over the top."""
+        """Turn by the angles ``right`` and ``up``, rad; never over the top."""
         self.azimuth -= right
         self.elevation = min(max(self.elevation + up, -1.55), 1.55)
 

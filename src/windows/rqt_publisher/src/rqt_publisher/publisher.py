@@ -99,7 +99,13 @@ class Publisher(Plugin):
         self._background.run("topics", rospy.get_published_topics, self._widget.set_topics, lambda error: None)
 
     def add_publisher(self, topic: str, type_name: str, rate="1", state=None):
-        """A new entry, not enabled; None with a line in the widget if there can be none."""
+        """A new entry, not enabled; None with a line in the widget if there can be none.
+
+        :param topic: relative names are resolved
+        :param type_name: ``package/Name``
+        :param rate: Hz, a number or what the user has typed
+        :param state: expressions of its fields, as they were saved
+        """
         try:
             value = parse_rate(rate)
             check_topic(topic)

@@ -32,6 +32,7 @@ class PublisherTree(ExpressionTree):
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
 
     def editable(self, item, column):
+        """Whether a double click edits the ``column`` of ``item``: of a publisher, its rate."""
         return item.parent() is None and column == RATE or super().editable(item, column)
 
 

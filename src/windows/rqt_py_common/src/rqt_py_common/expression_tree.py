@@ -42,7 +42,7 @@ class ExpressionTree(QTreeWidget):
         self.blockSignals(blocked)
 
     def editable(self, item, column: int) -> bool:
-        """Whether a double click edits this cell; owners of other rows extend it."""
+        """Whether a double click edits the cell of ``item`` in ``column``; owners of other rows extend it."""
         field = self.field_of(item)
         if field is None:
             return False

@@ -374,7 +374,8 @@ def field_value(text: str, type_name: str, counter: int = 0) -> Any:
 
 
 def convert(value: Any, base: str) -> Any:
-    """A value as a primitive type of messages takes it: floats for whole numbers are cut, whole numbers for floats widened.
+    """``value`` as ``base``, a primitive type of messages, takes it: floats for whole numbers are cut, whole numbers for floats
+    widened.
 
     :raises ExpressionError: if it cannot
     """

@@ -11,6 +11,7 @@ class SpinBoxDelegate(QItemDelegate):
         self._min, self._max, self._decimals = min_value, max_value, decimals
 
     def createEditor(self, parent, option, index):
+        """A spin box in ``parent``, with the limits that were given; it is the same for every ``option`` and ``index``."""
         editor = QDoubleSpinBox(parent)
         editor.setDecimals(self._decimals)
         editor.setRange(self._min, self._max)

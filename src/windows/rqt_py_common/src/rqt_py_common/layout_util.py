@@ -8,7 +8,7 @@ class LayoutUtil:
 
     @staticmethod
     def alternate_color(list_widgets, colors_alter=(Qt.GlobalColor.white, Qt.GlobalColor.gray)):
-        """Give widgets that stand in a row the given background colours in turn."""
+        """Give ``list_widgets``, which stand in a row, the background colours ``colors_alter`` in turn."""
         for index, widget in enumerate(list_widgets):
             widget.setAutoFillBackground(True)
             palette = widget.palette()

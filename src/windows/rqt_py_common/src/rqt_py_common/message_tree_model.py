@@ -15,7 +15,12 @@ class MessageTreeModel(QStandardItemModel):
         super().__init__(parent)
 
     def add_message(self, message_instance, message_name="", message_type="", message_path=""):
-        """Append a message, with all fields that ``message_instance`` has."""
+        """Append a message, with all fields that ``message_instance`` has; None appends nothing.
+
+        :param message_name: shown in its row
+        :param message_type: ``package/Name``
+        :param message_path: put before the paths of its fields: the topic
+        """
         if message_instance is not None:
             self._recursive_create_items(self, message_instance, message_name, message_type, message_path)
 

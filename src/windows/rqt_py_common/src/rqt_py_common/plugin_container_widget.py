@@ -53,10 +53,12 @@ class PluginContainerWidget(QWidget):
         self._plugin_widget.shutdown()
 
     def save_settings(self, plugin_settings, instance_settings):
+        """Store the place of the splitter in ``instance_settings``, and what the widget wants to keep; it gets ``plugin_settings`` too."""
         instance_settings.set_value("_splitter", self._splitter.saveState())
         self._plugin_widget.save_settings(plugin_settings, instance_settings)
 
     def restore_settings(self, plugin_settings, instance_settings):
+        """Take back what :meth:`save_settings` stored in ``plugin_settings`` and ``instance_settings``."""
         state = instance_settings.value("_splitter")
         if isinstance(state, QByteArray):
             self._splitter.restoreState(state)

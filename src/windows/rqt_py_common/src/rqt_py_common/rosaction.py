@@ -15,8 +15,11 @@ class ROSActionException(WindowError):
 
 
 def get_action_class(action_type, reload_on_error=False):
-    """The class of the goal-result-feedback message of an action, ``pkg/Name`` or ``pkg/NameAction``; None when its package is
-    not built."""
+    """The class of the goal-result-feedback message of ``action_type``, ``pkg/Name`` or ``pkg/NameAction``; None when its package
+    is not built.
+
+    :param reload_on_error: without effect; ``roslib.message`` has such an argument
+    """
     package, name = package_resource_name(action_type)
     try:
         module = importlib.import_module(f"{package}.msg")
@@ -26,7 +29,10 @@ def get_action_class(action_type, reload_on_error=False):
 
 
 def iterate_packages(rospack, mode=MODE_ACTION):
-    """(package, folder) of each package with actions."""
+    """(package, folder) of each package of ``rospack``, a ``rospkg.RosPack``, with actions.
+
+    :param mode: MODE_ACTION; nothing else is taken
+    """
     _check(mode)
     for package in rospack.list():
         folder = os.path.join(rospack.get_path(package), "action")
@@ -35,8 +41,9 @@ def iterate_packages(rospack, mode=MODE_ACTION):
 
 
 def list_types(package, mode=MODE_ACTION):
-    """``package/Name`` of all actions in a package, sorted.
+    """``package/Name`` of all actions in ``package``, sorted.
 
+    :param mode: MODE_ACTION; nothing else is taken
     :raises rospkg.ResourceNotFound: no such package.
     """
     _check(mode)

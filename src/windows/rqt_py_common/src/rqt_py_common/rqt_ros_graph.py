@@ -13,7 +13,10 @@ class RqtRosGraph:
 
     @staticmethod
     def get_lower_grn_dfs(model_index, grn_prev=""):
-        """The names of all leaves below an item, beginning with its own."""
+        """The names of all leaves below the item ``model_index``, beginning with its own.
+
+        :param grn_prev: put before each name
+        """
         here = f"{grn_prev}/{model_index.data()}"
         rows = model_index.model().rowCount(model_index) if model_index.isValid() else 0
         if not rows:
@@ -22,7 +25,7 @@ class RqtRosGraph:
 
     @staticmethod
     def get_upper_grn(model_index, str_grn):
-        """``str_grn`` with the names of an item and all above it put before it."""
+        """``str_grn`` with the names of the item ``model_index`` and all above it put before it."""
         while model_index.isValid() and model_index.data() is not None:
             str_grn = f"/{model_index.data()}{str_grn}"
             model_index = model_index.parent()

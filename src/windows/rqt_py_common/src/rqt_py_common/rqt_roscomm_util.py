@@ -12,8 +12,9 @@ class RqtRoscommUtil:
 
     @staticmethod
     def load_parameters(config, caller_id):
-        """Set the parameters of a ``ROSLaunchConfig`` on its master, after clearing those that it clears.
+        """Set the parameters of ``config``, a ``ROSLaunchConfig``, on its master, after clearing those that it clears.
 
+        :param caller_id: name of the node that asks
         :raises RLException: the master refuses one.
         """
         from roslaunch import RLException
@@ -48,7 +49,8 @@ class RqtRoscommUtil:
 
     @staticmethod
     def list_files(package, subdir, file_extension=".launch"):
-        """``package/file`` of all files of that ending in a sub-folder of a package, sorted; none when there is no sub-folder.
+        """``package/file`` of all files that end with ``file_extension`` in the folder ``subdir`` of ``package``, sorted; none when
+        there is no such folder.
 
         :raises rospkg.ResourceNotFound: no such package.
         """

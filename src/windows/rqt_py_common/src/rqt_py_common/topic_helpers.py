@@ -39,7 +39,7 @@ def get_field_type(topic_name):
 
 
 def get_slot_type(message_class, slot_path):
-    """(type, whether it is an array) of a field within a message class.
+    """(type, whether it is an array) of a field within ``message_class``.
 
     :param slot_path: ``header/seq``, ``position[0]``; an index takes one element of an array
     :return: ``(None, False)`` when there is no such field
@@ -68,7 +68,7 @@ def is_slot_numeric(topic_name):
 
 
 def find_slots_by_type_dfs(msg_class, slot_type):
-    """Paths of all fields of a type (name such as ``float64``, or class) within a message class, field by field in depth.
+    """Paths of all fields of ``slot_type`` (name such as ``float64``, or class) within ``msg_class``, field by field in depth.
 
     Arrays are marked: ``poses[]/position``.
     """
@@ -84,7 +84,7 @@ def find_slots_by_type_dfs(msg_class, slot_type):
 
 
 def find_slots_by_type_bfs(msg_class, slot_type):
-    """As :func:`find_slots_by_type_dfs`, those nearest to the message first."""
+    """As :func:`find_slots_by_type_dfs` for ``msg_class`` and ``slot_type``, those nearest to the message first."""
     paths, queue = [], [(msg_class, "")]
     while queue:
         current, path = queue.pop(0)

@@ -26,7 +26,10 @@ _Loader.add_constructor(_TAG, _config)
 
 
 def save(path: str, config: dict) -> None:
-    """:raises OSError: if it cannot be written"""
+    """Write ``config``, name -> value, into the file ``path``.
+
+    :raises OSError: if it cannot be written
+    """
     with open(path, "w", encoding="utf-8") as file:
         yaml.dump(Config(config), file)
 

@@ -59,6 +59,9 @@ class Timeline(QWidget):
         self.levels, self.selected = [], -1
 
     def show_levels(self, levels, selected: int) -> None:
+        """Show ``levels``, those of diagnostic_msgs/DiagnosticStatus, oldest first, with a frame around the one with the number
+        ``selected``.
+        """
         self.levels, self.selected = levels, selected
         self.update()
 
@@ -138,9 +141,11 @@ class RobotMonitorWidget(QWidget):
             self._subscriber = None
 
     def save_settings(self, plugin_settings, instance_settings) -> None:
+        """Store the place of the splitter in ``instance_settings``; ``plugin_settings`` are left alone."""
         instance_settings.set_value("splitter", self.splitter.saveState())
 
     def restore_settings(self, plugin_settings, instance_settings) -> None:
+        """Put the splitter where ``instance_settings`` have it; ``plugin_settings`` are not read."""
         if instance_settings.contains("splitter"):
             self.splitter.restoreState(instance_settings.value("splitter"))
 

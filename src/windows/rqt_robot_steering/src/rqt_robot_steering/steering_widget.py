@@ -103,7 +103,7 @@ class SteeringWidget(QWidget):
         return self.sliders["x"].value() / _SCALE, self.sliders["w"].value() / _SCALE
 
     def move_by(self, axis: str, steps: int) -> None:
-        """Steps of 0.01; 0 sets the axis to zero."""
+        """Move the slider of ``axis``, ``x`` or ``w``, by ``steps`` of 0.01 (m/s, rad/s); 0 sets it to zero."""
         slider = self.sliders[axis]
         slider.setValue(slider.value() + steps * _STEP if steps else 0)
 

@@ -55,7 +55,12 @@ class TheFrame:
         self._made = self._idle = None
 
     def take(self, rviz, ogre_log: bool):
-        """:raises PluginLoadError: another plugin shows it"""
+        """RViz's frame, made if there is none.
+
+        :param rviz: the module
+        :param ogre_log: let Ogre write its log; it counts when the frame is made
+        :raises PluginLoadError: another plugin shows it
+        """
         if self._idle is not None:
             frame, self._idle = self._idle, None
             return frame

@@ -90,7 +90,7 @@ class ServiceCaller(Plugin):
             self._widget.show_error(str(error))
 
     def use(self, service: str, kind, type_name: str) -> None:
-        """Edit a request of a service class.
+        """Edit a request of ``service``, whose class is ``kind`` and whose type is called ``type_name``.
 
         :raises TemplateError: if one of its fields cannot be imported
         """

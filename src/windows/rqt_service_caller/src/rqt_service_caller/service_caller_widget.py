@@ -97,7 +97,11 @@ class ServiceCallerWidget(QWidget):
             self.service_chosen.emit(service)
 
     def show_request(self, title: str, template) -> None:
-        """Rows for a request; none while its type is not known."""
+        """Rows for a request.
+
+        :param title: its type
+        :param template: a RequestField; None while its type is not known, then no rows
+        """
         self.error_label.clear()
         self.request_tree.clear()
         self.response_tree.clear()

@@ -113,11 +113,12 @@ class Desktop:
         return subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, check=True, capture_output=True, text=True).stdout
 
     def click_at(self, x: int, y: int, button: int = 1, times: int = 1) -> None:
+        """Click at the pixel (x, y) of the screen, ``times`` times; ``button``: 1 left, 2 middle, 3 right, 4 and 5 the wheel."""
         self.xdotool("mousemove", "--sync", x, y)
         self.xdotool("click", "--repeat", times, "--delay", 60, button)
 
     def drag(self, start: tuple[int, int], end: tuple[int, int], button: int = 1) -> None:
-        """Press at ``start``, move in some steps, let go at ``end``: pixels of the screen."""
+        """Press ``button`` (1: left) at ``start``, move in some steps, let go at ``end``: pixels of the screen."""
         self.xdotool("mousemove", "--sync", *start, "mousedown", button)
         for step in range(1, 9):
             self.xdotool("mousemove", "--sync", *(round(a + (b - a) * step / 8) for a, b in zip(start, end)))
@@ -185,7 +186,7 @@ class Program:
             return log.read()
 
     def ask(self, what: str, name: str = ""):
-        """One question to the program; None when it has no answer yet."""
+        """One question, ``what``, about the thing called ``name``, to the program; None when it has no answer yet."""
         if self.process.poll() is not None:
             raise AssertionError(f"the program has ended with {self.process.returncode}:\n{self.output()}")
         try:
@@ -202,7 +203,10 @@ class Program:
 
     def window(self, title: str = "", timeout: float = _TIMEOUT) -> list:
         """Wait for a window of this program with ``title`` in its title, in its place and with the focus of the keyboard on the
-        program: [title, class, x, y, width, height]."""
+        program: [title, class, x, y, width, height].
+
+        :param timeout: s
+        """
         return self._wait(lambda: next((w for w in self.ask("windows") or [] if title in w[0]), None), f"window '{title}'", timeout)
 
     def rect(self, name: str) -> tuple[int, int, int, int]:
@@ -214,11 +218,15 @@ class Program:
         return self._wait(lambda: [text for text in [self.ask("text", name)] if text is not None], f"widget {name}")[0]
 
     def click(self, name: str, button: int = 1, times: int = 1, at: tuple[float, float] | None = None) -> None:
-        """Click on the widget of that ``objectName``, in its middle or at a fraction of its width and height."""
+        """Click on the widget of which ``name`` is the ``objectName``, in its middle or ``at`` a fraction of its width and height.
+
+        :param button: 1 left, 2 middle, 3 right
+        :param times: 2 for a double click
+        """
         self._click(lambda: self.ask("rect", name), f"widget {name}", button, times, at)
 
     def click_text(self, text: str, button: int = 1, times: int = 1) -> None:
-        """Click on a menu entry, tab, row, button or label that says ``text``."""
+        """Click on a menu entry, tab, row, button or label that says ``text``; ``button`` and ``times`` as of :meth:`click`."""
         self._click(lambda: self.ask("entry", text), f"'{text}'", button, times, None)
 
     def choose(self, *texts: str) -> None:
@@ -240,7 +248,11 @@ class Program:
         self._desktop.click_at(round(x + right * width), round(y + down * height), button, times)
 
     def wait(self, condition, what: str = "that", timeout: float = _TIMEOUT):
-        """Wait until ``condition()`` is true."""
+        """Wait until ``condition()`` is true; what it returned.
+
+        :param what: names it in the error
+        :param timeout: s
+        """
         return self._wait(condition, what, timeout)
 
     def _wait(self, condition, what, timeout=_TIMEOUT):
@@ -252,7 +264,7 @@ class Program:
             ) from None
 
     def end(self, number: int = signal.SIGINT, timeout: float = _TIMEOUT) -> int:
-        """Send a signal and wait for the end; the exit code."""
+        """Send the signal ``number`` and wait for the end, ``timeout`` s at most; the exit code."""
         self.process.send_signal(number)
         return self.process.wait(timeout)
 

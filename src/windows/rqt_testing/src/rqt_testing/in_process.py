@@ -58,6 +58,7 @@ def application() -> QApplication:
 def open_gui(arguments: Sequence[str] = (), settings: str | None = None, providers=None) -> Iterator[Gui]:
     """A window as ``rqt ARGUMENTS`` opens it.
 
+    :param arguments: without the program's name
     :param settings: path of an INI file to keep settings in from one window to the next; private and empty without
     :param providers: plugin providers; those of rqt without
     """
@@ -77,7 +78,10 @@ def open_gui(arguments: Sequence[str] = (), settings: str | None = None, provide
 
 @contextlib.contextmanager
 def open_plugin(name: str, argv: Sequence[str] = (), settings: str | None = None, providers=None) -> Iterator[Gui]:
-    """A window with one plugin, as ``rqt --standalone NAME --args ARGV`` opens it; ``gui.plugin`` is the instance."""
+    """A window with one plugin, as ``rqt --standalone NAME --args ARGV`` opens it; ``gui.plugin`` is the instance.
+
+    ``name`` and ``argv`` stand for NAME and ARGV; ``settings`` and ``providers`` are those of :func:`open_gui`.
+    """
     with open_gui(["--standalone", name, *(["--args", *argv] if argv else [])], settings, providers) as gui:
         gui.plugin = gui.plugins.running()[0].plugin()
         yield gui
@@ -139,7 +143,7 @@ class FakeContext(PluginContext):
 
 
 def find(parent, name: str) -> QWidget:
-    """The widget or action with that ``objectName`` below a widget or a :class:`Gui`.
+    """The widget or action of which ``name`` is the ``objectName`` below ``parent``, a widget or a :class:`Gui`.
 
     :raises LookupError: none, or several; it lists the names that there are.
     """
@@ -174,5 +178,5 @@ def process_events() -> None:
 
 
 def screenshot(widget, path: str) -> None:
-    """A PNG of a widget or a :class:`Gui`, to look at."""
+    """Write a PNG of ``widget``, a widget or a :class:`Gui`, to ``path``, to look at."""
     (widget.window if isinstance(widget, Gui) else widget).grab().save(path)

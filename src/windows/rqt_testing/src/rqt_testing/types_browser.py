@@ -26,7 +26,10 @@ def children(item):
 def shows(gui, package, name, parts, fields, text):
     """Adds a type, looks at its tree and its text, and removes it.
 
-    :param parts: texts of the rows that come. :param fields: of the first of them.
+    :param gui: of :func:`rqt_testing.in_process.open_plugin`
+    :param package, name: of the type
+    :param parts: texts of the rows that come.
+    :param fields: of the first of them.
     :param text: a part of the definition.
     """
     find(gui, "package_combo").setCurrentText(package)

@@ -42,7 +42,7 @@ def _label(values: dict[str, Any], line_break: str) -> str:
 
 
 def generate_dot(frames: dict[str, dict[str, Any]], time: float) -> str:
-    """DOT text of the tree.
+    """DOT text of the tree of ``frames``, as :func:`parse` returns them.
 
     :param time: of the recording, s
     """
@@ -80,6 +80,10 @@ class RosTfTreeDotcodeGenerator:
 
         :param tf2_frame_srv: called without arguments, returns a tf2_msgs/FrameGraphResponse.
         :param timer: with ``now()``; rospy.Time without.
+        :param dotcode_factory: of :mod:`qt_dotgraph`.
+        :param yaml_parser: with ``safe_load()``.
+        :param rank, ranksep, rankdir: attributes of DOT.
+        :param force_refresh: refuse the last one.
         """
         look = {"rank": rank, "rankdir": rankdir, "ranksep": ranksep}
         dotcode = self.dotcode
@@ -96,7 +100,10 @@ class RosTfTreeDotcodeGenerator:
         return dotcode
 
     def generate(self, data, timestamp: float):
-        """The factory's graph of frames as :func:`parse` returns them. :param timestamp: of the recording, s"""
+        """The factory's graph of frames, ``data``, as :func:`parse` returns them.
+
+        :param timestamp: of the recording, s
+        """
         factory = self.dotcode_factory
         graph = factory.get_graph(**self._look)
         if not data:

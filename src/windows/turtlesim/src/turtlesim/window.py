@@ -29,7 +29,7 @@ class TurtleWindow(QFrame):
         return len(self._pictures)
 
     def clear(self, red: int, green: int, blue: int) -> None:
-        """Forget all lines; of each colour number the lowest byte counts."""
+        """Forget all lines, and fill with the colour (red, green, blue); of each number the lowest byte counts."""
         self._paths.fill(QColor(red & 0xFF, green & 0xFF, blue & 0xFF))
         self.update()
 

@@ -62,27 +62,35 @@ class Turtle:
         return min(math.hypot(*self.command[:2]), _LARGEST)
 
     def drive(self, ahead: float, left: float, turn: float, now: float) -> None:
-        """Take a velocity, in m/s and rad/s, which counts for COMMAND_LIFE.
+        """Take a velocity, ``ahead`` and to the ``left`` in m/s, ``turn`` in rad/s, which counts for COMMAND_LIFE.
 
+        :param now: s, on the clock of :meth:`step`
         :raises WorldError: for numbers that are not finite; the turtle goes on as before
         """
         _check_finite(self.name, "a velocity", ahead, left, turn)
         self.command, self.commanded_at = (ahead, left, turn), now
 
     def set_pen(self, color: tuple[int, int, int], width: int, off: bool) -> None:
+        """Draw in ``color`` (r, g, b; 0 to 255) and ``width`` (pixels, 0 counts as 1); ``off`` lifts the pen, which keeps both."""
         self.pen_down = not off
         if not off:
             self.pen = Pen(color, width or 1)
 
     def teleport(self, x: float, y: float, theta: float) -> list[Line]:
-        """Put the turtle somewhere; what its pen draws on the way."""
+        """Put the turtle at (x, y) m, with the heading ``theta`` rad; what its pen draws on the way.
+
+        :raises WorldError: a number is not finite
+        """
         _check_finite(self.name, "a pose", x, y, theta)
         old = (self.x, self.y)
         self.x, self.y, self.theta = x, min(y, SIZE), theta
         return self._stroke(old)
 
     def teleport_relative(self, distance: float, angle: float) -> list[Line]:
-        """Turn by an angle, then go ahead at once."""
+        """Turn by ``angle`` (rad), then go ``distance`` (m) ahead at once; what its pen draws on the way.
+
+        :raises WorldError: a number is not finite
+        """
         _check_finite(self.name, "a distance and angle", distance, angle)
         old = (self.x, self.y)
         self.theta += angle
@@ -93,6 +101,7 @@ class Turtle:
     def step(self, dt: float, now: float) -> tuple[list[Line], Point | None]:
         """Move on by dt seconds.
 
+        :param now: s; a command older than COMMAND_LIFE has ended
         :returns: what the pen draws, and where the turtle would be if it had not hit the wall (None: it has not)
         """
         if now - self.commanded_at > COMMAND_LIFE:
@@ -121,8 +130,9 @@ class World:
         self._count = 0
 
     def spawn(self, name: str, x: float, y: float, theta: float, picture: int = 0) -> Turtle:
-        """A new turtle; without a name it gets the next free turtleN.
+        """A new turtle at (x, y) m with the heading ``theta`` rad; without a ``name`` it gets the next free turtleN.
 
+        :param picture: number of its picture
         :raises WorldError: if the name is taken, or a number is not finite
         """
         _check_finite(name or "the new turtle", "a pose", x, y, theta)

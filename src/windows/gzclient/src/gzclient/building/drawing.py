@@ -67,7 +67,7 @@ class PlanDrawing:
     # ------------------------------------------------------------------------------------------ the sheet
 
     def sheet(self, height: float, snap: float) -> None:
-        """To draw on, at the height of a level's floor, m."""
+        """Show the sheet to draw on at ``height``, that of a level's floor, with a grid of ``snap`` (both m; cells of 0.05 m at least)."""
         if self._sheet is None or self._grid is None:
             vertices, triangles = boxes_mesh([((0.0, 0.0, -0.005), (_SHEET, _SHEET, 0.01))])
             self._sheet = self._scene.add_mesh_simple("/plan/sheet", vertices, triangles, color=(236, 240, 246), cast_shadow=False)
@@ -88,7 +88,11 @@ class PlanDrawing:
         self._grid.cell_size = max(snap, 0.05)
 
     def picture(self, pixels: np.ndarray | None, resolution: float) -> None:
-        """A floor plan to draw over, its lower left corner at the origin; ``resolution`` m per pixel."""
+        """A floor plan to draw over, its lower left corner at the origin; None takes it away.
+
+        :param pixels: (rows, columns, 3) uint8
+        :param resolution: m per pixel
+        """
         if self._picture is not None:
             self._picture.remove()
             self._picture = None
@@ -112,6 +116,9 @@ class PlanDrawing:
     def show(self, plan: Plan, building: Building | None, picked: Element | None, whole: bool) -> None:
         """What has changed since the last call.
 
+        :param plan: says which level is drawn on
+        :param building: what ``plan`` makes; None: nothing is drawn
+        :param picked: it is drawn in another colour
         :param whole: all levels; else those up to the one that is drawn on
         """
         wanted: dict[str, tuple] = {}
@@ -175,7 +182,12 @@ class PlanDrawing:
         return mesh
 
     def ghost(self, line: tuple[Point, Point] | None, base: float = 0.0, thickness: float = 0.15) -> None:
-        """What a hand is about to draw; None: nothing."""
+        """What a hand is about to draw.
+
+        :param line: both ends, m, in the world; None: nothing
+        :param base: height of the floor, m
+        :param thickness: of a wall, m
+        """
         if line is None:
             if self._ghost is not None:
                 self._ghost.remove()

@@ -60,7 +60,11 @@ class PlaceControls:
         return self._plan, self._which
 
     def show(self, plan: Plan, which: Element | None) -> None:
-        """Other things than numbers have changed, or what is picked."""
+        """Other things than numbers have changed, or what is picked.
+
+        :param plan: what the controls change
+        :param which: what is picked; None hides the folder
+        """
         self._plan, self._which, self._ends = plan, which, {}
         self._folder.visible = which is not None
         if which is None:

@@ -134,8 +134,9 @@ class Plan:
         return snapped(point[0], self.snap), snapped(point[1], self.snap)
 
     def snap_end(self, start: Point, point: Point) -> Point:
-        """The other end of a wall from ``start``: another wall's end nearby, else on a ray of the snap angle with a
-        length on the grid."""
+        """The other end of a wall from ``start`` (m): another wall's end near ``point``, else on a ray of the snap angle with a
+        length on the grid.
+        """
         near = self.snap_point(point)
         ends = [tuple(wall[end]) for wall in self.part(self.level).get("walls") or [] for end in ("from", "to")]
         if near in ends and math.dist(near, start) > _SHORTEST:
@@ -151,8 +152,9 @@ class Plan:
     # ------------------------------------------------------------------------------------------ drawing
 
     def add_wall(self, start: Point, end: Point, **settings: Any) -> Element:
-        """:param settings: thickness, height m; material, or color (r, g, b) 0 to 1
+        """A wall from ``start`` to ``end`` (m) on the level that is drawn on.
 
+        :param settings: thickness, height m; material, or color (r, g, b) 0 to 1
         :raises Refused: it has no length
         """
         if math.dist(start, end) < _SHORTEST:
@@ -254,7 +256,7 @@ class Plan:
         return next((end for end in ("from", "to") if math.dist(whole[end], point) < reach), "")
 
     def move(self, which: Element, grip: str, start: Point, point: Point) -> None:
-        """Drag an element from ``start`` to ``point``.
+        """Drag the element ``which`` from ``start`` to ``point``, m.
 
         An end of a wall takes the walls along that end there too; a door or window stays in its wall.
 
@@ -285,7 +287,7 @@ class Plan:
             wall[end] = list(place)
 
     def ends_at(self, which: Element, end: str) -> list[tuple[int, str]]:
-        """(wall, from or to) of each end of its level that is where this wall's is, its own first."""
+        """(wall, from or to) of each end of its level that is where the ``end`` (from or to) of the wall ``which`` is, its own first."""
         place = self.element(which)[end]
         return [(which.index, end)] + [
             (number, other)
@@ -297,7 +299,9 @@ class Plan:
     def put_ends(self, level: int, ends: list[tuple[int, str]], point: Point) -> None:
         """To that very place, whatever the grid.
 
+        :param level: of the walls, from 0
         :param ends: as of :meth:`ends_at`
+        :param point: m
         :raises Refused: a wall would have no length
         """
 
@@ -311,7 +315,7 @@ class Plan:
         self.attempt(change)
 
     def turn(self, which: Element, angle: float) -> None:
-        """Stairs about their lowest step, rad."""
+        """Turn the stairs ``which`` about their lowest step by ``angle``, rad."""
         whole = self.element(which)
         self.attempt(lambda: whole.update(yaw=round((whole.get("yaw", 0.0) + angle) % (2 * math.pi), 9)))
 

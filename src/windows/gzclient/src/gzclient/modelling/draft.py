@@ -68,7 +68,7 @@ class Draft:
         return found
 
     def add_link(self, shape: Solid, mass: float = 1.0) -> str:
-        """A body of one shape beside the others, its inertia that of the shape; its name."""
+        """A body of one ``shape`` and ``mass`` (kg) beside the others, its inertia that of the shape; its name."""
         if len(self.model.links) >= _MOST_LINKS:
             raise Refused(f"A model has at most {_MOST_LINKS} links here.")
         name = free_name("link", {link.name for link in self.model.links})
@@ -78,16 +78,26 @@ class Draft:
         return name
 
     def change_link(self, name: str, f: Callable[[d.Link], d.Link]) -> None:
-        """:raises Refused: there is none, or no body can be so."""
+        """Put ``f(link)`` in the place of the link ``name``.
+
+        :raises Refused: there is none, or no body can be so.
+        """
         made = f(self.link(name))
         self._set(links=tuple(made if link.name == name else link for link in self.model.links))
 
     def set_pose(self, name: str, pose: Pose) -> None:
-        """X_ML."""
+        """Put the link ``name`` at ``pose``, X_ML."""
         self.change_link(name, lambda link: replace(link, pose=pose))
 
     def set_shape(self, name: str, shape: Solid, mass: float, colour: d.Rgba | None = None) -> None:
-        """Other measures: the inertia follows."""
+        """Other measures: the inertia follows.
+
+        :param name: of the link
+        :param shape: the only one that it has then
+        :param mass: kg
+        :param colour: None: as it was
+        :raises Refused: a size or the mass is not above 0
+        """
         if not (mass > 0.0 and np.isfinite(mass)):
             raise Refused("A mass is more than 0.")
         sizes = [value for field in ("size", "radius", "length", "scale") for value in np.ravel(getattr(shape, field, ()))]
@@ -103,6 +113,10 @@ class Draft:
         self.change_link(name, change)
 
     def rename_link(self, old: str, new: str) -> None:
+        """Give the link ``old`` the name ``new``, in its joints too.
+
+        :raises Refused: ``new`` is no name or is taken, or there is no link ``old``
+        """
         new = checked_name(new)
         if new in {link.name for link in self.model.links} or new == "world":
             raise Refused(f"There is a link '{new}' already.")
@@ -135,7 +149,12 @@ class Draft:
     ) -> str:
         """Its name.
 
-        :param axis, anchor: in the child's frame, m. :param limits: rad or m
+        :param kind: one of JOINTS
+        :param parent: a link, or ``world``
+        :param child: a link
+        :param axis: its direction, in the child's frame; any length
+        :param limits: rad or m
+        :param anchor: where the joint is, in the child's frame, m
         :raises Refused: no such links, or the child hangs on another one already
         """
         if kind not in JOINTS:
@@ -163,9 +182,11 @@ class Draft:
         return name
 
     def add_plugin(self, name: str, filename: str, parameters: str) -> None:
-        """:param parameters: XML elements, as in a file
+        """A plugin of the model.
 
-        :raises Refused: they are none
+        :param filename: of the library, such as ``libgazebo_ros_p3d.so``
+        :param parameters: XML elements, as in a file
+        :raises Refused: they are none, or ``name`` or ``filename`` is empty
         """
         if not name.strip() or not filename.strip():
             raise Refused("A plugin has a name and a file name, such as libgazebo_ros_p3d.so.")
@@ -209,7 +230,7 @@ class Draft:
 
     @classmethod
     def load(cls, name: str, finder: ResourceFinder | None = None) -> Draft:
-        """A model that was saved.
+        """A model that was saved as ``name``.
 
         :param finder: of the meshes that it names
         :raises Refused: it cannot be read
@@ -251,7 +272,9 @@ def names() -> list[str]:
 def keep_mesh(model: str, file: str, content: bytes) -> d.Mesh:
     """Write an uploaded mesh below the model's folder and read it once.
 
-    :raises Refused: it is no mesh
+    :param model: its name
+    :param file: name of the uploaded file
+    :raises Refused: ``content`` is no mesh
     """
     return meshes.keep(path_of(model), checked_name(os.path.basename(file)), content)
 

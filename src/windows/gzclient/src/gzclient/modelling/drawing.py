@@ -63,13 +63,17 @@ class ModelSketch:
             take_away(node)
 
     def place(self, link: str, pose: d.Pose) -> None:
-        """While a hand moves it."""
+        """Put the ``link`` at ``pose``, X_ML, while a hand moves it."""
         if link in self._links:
             node = self._links[link].nodes[0]
             node.position, node.wxyz = pose.p, wxyz(pose.q)
 
     def show(self, model: d.Model, picked: str, movable: bool = True) -> None:
-        """:param movable: by the gizmo; it would be in the way of a click on the link."""
+        """What has changed of ``model`` since the last call.
+
+        :param picked: name of the link that is marked; '' for none
+        :param movable: by the gizmo; it would be in the way of a click on the link.
+        """
         wanted = {link.name: link for link in model.links}
         for name in [name for name, drawn in self._links.items() if wanted.get(name) != drawn.link]:
             for node in reversed(self._links.pop(name).nodes):

@@ -24,7 +24,8 @@ _THINNEST = 1e-3  # m, of the box of a mesh
 def keep(folder: str, base: str, content: bytes) -> d.Mesh:
     """Write an uploaded mesh below the model's ``folder`` and read it once. Another file of that name stays as it is.
 
-    :raises Refused: it is no mesh, or cannot be written
+    :param base: name of the uploaded file
+    :raises Refused: ``content`` is no mesh, or cannot be written
     """
     if not base.lower().endswith(MESHES):
         raise Refused(f"{base}: a mesh is one of {', '.join(MESHES)}")
@@ -45,8 +46,9 @@ def keep(folder: str, base: str, content: bytes) -> d.Mesh:
 
 
 def inertial(mesh: d.Mesh, mass: float) -> d.Inertial:
-    """Of the solid inside a closed surface; else of the box around it.
+    """Of the solid inside the closed surface of ``mesh``; else of the box around it.
 
+    :param mass: kg
     :raises DescriptionError: the file cannot be read any more
     """
     surface = load_surface(mesh.path, mesh.scale, mesh.submesh, mesh.center)

@@ -163,7 +163,7 @@ class TopicsPanel(Panel):
 
 
 def number_at(message: Any, path: str) -> float:
-    """The number at ``a.b[2].c`` of a message.
+    """The number at the ``path`` ``a.b[2].c`` of a ``message``; times and durations in s.
 
     :raises Refused: there is none
     """

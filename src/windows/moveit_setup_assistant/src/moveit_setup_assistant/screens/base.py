@@ -108,7 +108,7 @@ class TwoLists(QWidget):
         allow(self._moves["remove"], "" if self._right.selectedItems() else "Mark names on the right first.")
 
     def set(self, available: Iterable[str], chosen: Iterable[str]) -> None:
-        """Show these names; a chosen one is not offered again."""
+        """Show the names that are ``available``; those in ``chosen`` are on the right, and not offered again."""
         self._all, self._names = list(available), list(chosen)
         self._fill()
 
@@ -160,7 +160,7 @@ class Table(QTableWidget):
         self.spread()
 
     def show_rows(self, rows: Iterable[Iterable[str]], row: int = -1) -> None:
-        """Show these rows, and mark one of them; -1 for none."""
+        """Show ``rows``, the texts of each, and mark the one with the number ``row``, from 0; -1 for none."""
         rows = [list(cells) for cells in rows]
         self.blockSignals(True)
         self.setRowCount(len(rows))
@@ -174,14 +174,14 @@ class Table(QTableWidget):
             self.selectRow(row)
 
     def write(self, row: int, cells: Iterable[str]) -> None:
-        """Put these texts into a row."""
+        """Put ``cells``, texts, into the row with the number ``row``, from the left."""
         for column, text in enumerate(cells):
             item = QTableWidgetItem(text)
             item.setToolTip(text)
             self.setItem(row, column, item)
 
     def rewrite(self, row: int, cells: Iterable[str]) -> None:
-        """Put other texts into a row that is shown."""
+        """Put other texts, ``cells``, into the row with the number ``row``, which is shown."""
         self.blockSignals(True)
         self.write(row, cells)
         self.blockSignals(False)
@@ -272,7 +272,7 @@ class Entries(QWidget):
         self.changed.emit()
 
     def offer(self, key: str, names: Iterable[str]) -> None:
-        """The choices of a field that is a QComboBox."""
+        """The choices, ``names``, of the field ``key``, which is a QComboBox."""
         box = self._fields[key]
         chosen = box.currentText()
         box.blockSignals(True)
@@ -332,13 +332,17 @@ class Entries(QWidget):
 
 
 def allow(button: QWidget, why_not: str) -> None:
-    """Enable a widget if there is no reason against it; the reason is its tool tip."""
+    """Enable the widget ``button`` if ``why_not`` is empty: it is the reason against it, and its tool tip."""
     button.setEnabled(not why_not)
     button.setToolTip(why_not)
 
 
 def hint(name: str, colour: str = "#505050") -> QLabel:
-    """A line below a form: what is missing, or wrong."""
+    """A line below a form: what is missing, or wrong.
+
+    :param name: object name
+    :param colour: of the text, as style sheets name it
+    """
     made = QLabel()
     made.setObjectName(name)
     made.setWordWrap(True)
@@ -347,7 +351,7 @@ def hint(name: str, colour: str = "#505050") -> QLabel:
 
 
 def add_row(form: QFormLayout, text: str, widget: QWidget) -> None:
-    """A row of a form; names of plugins are long, and get a line of their own below their label."""
+    """A row of a ``form``, ``text`` beside ``widget``; names of plugins are long, and get a line of their own below their label."""
     if isinstance(widget, QComboBox) and widget.isEditable():
         form.addRow(QLabel(text))
         form.addRow(widget)
@@ -369,7 +373,10 @@ def line(text: str = "") -> QLineEdit:
 
 
 def choice(names: Iterable[str] = (), editable: bool = False) -> QComboBox:
-    """A field to choose from; it takes the width it is given, and cuts what is longer."""
+    """A field to choose one of ``names`` from; it takes the width it is given, and cuts what is longer.
+
+    :param editable: another text may be typed
+    """
     made = QComboBox()
     made.addItems(list(names))
     made.setEditable(editable)

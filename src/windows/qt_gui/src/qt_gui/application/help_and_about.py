@@ -10,7 +10,7 @@ from qt_gui.ros_package_helper import package_facts
 
 
 def show_plugin_help(parent, descriptor):
-    """Where the plugin comes from: description, package, version, author, web page."""
+    """A box above ``parent`` that says where the plugin of ``descriptor`` comes from: description, package, version, author, web page."""
     attributes = descriptor.attributes()
     facts = package_facts(attributes.get("package_name", ""), attributes.get("package_path"))
     url = facts.get("url", "")

@@ -71,6 +71,8 @@ def parse(
 ) -> argparse.Namespace:
     """The options of one start.
 
+    :param program: its name in messages
+    :param arguments: without the program's name
     :param standalone: the plugin of a command of its own, say ``rqt_graph``; it has fewer options, and those of the plugin
     :param plugin_arguments: adds the plugin's options to a parser
     :raises UsageError: options which do not go together.

@@ -6,6 +6,7 @@ from python_qt_binding.QtWidgets import QCheckBox, QDialog, QDialogButtonBox, QF
 def ask_new_name(parent, taken, cloning=True):
     """(name, whether to copy the perspective in use), the name being None when the user wants none.
 
+    :param parent: widget that the dialog belongs to
     :param taken: names that are in use
     :param cloning: ask whether to copy
     """

@@ -68,7 +68,7 @@ def _read_value(value, path, where):
 
 
 def write(path: str, data: dict[str, Any]) -> None:
-    """Write what :func:`read` returns; a file that is there is replaced only when all is written.
+    """Write ``data``, as :func:`read` returns it; a file that is at ``path`` is replaced only when all is written.
 
     :raises PerspectiveError: the file cannot be written, or a value has no literal form.
     """

@@ -48,7 +48,10 @@ class RemoteControl(QObject):
 
     @Slot(str, str, result=str)
     def start_plugin(self, name, argv):
-        """Start the plugin that ``name`` fits; the answer begins with "ok " or says what is wrong."""
+        """Start the plugin that ``name`` fits; the answer begins with "ok " or says what is wrong.
+
+        :param argv: the plugin's arguments in one line, quoted as in a shell
+        """
         try:
             plugin_id = self._gui.choose(name)
         except UsageError as error:

@@ -19,7 +19,10 @@ class MessageView(QObject):
         self.topic = topic
 
     def message_viewed(self, bag, msg_details):
-        """The playhead is at another message. :param msg_details: (topic, message, stamp)"""
+        """The playhead is at another message, of ``bag``.
+
+        :param msg_details: (topic, message, stamp)
+        """
 
     def message_cleared(self):
         """No message is at the playhead."""

@@ -20,7 +20,11 @@ class TimelineRenderer(QObject):
         return None
 
     def draw_timeline_segment(self, painter, topic, stamp_start, stamp_end, x, y, width, height):
-        """Draw the messages from ``stamp_start`` to ``stamp_end`` (s) into a rectangle. :returns: whether it was done."""
+        """Draw the messages of ``topic`` from ``stamp_start`` to ``stamp_end`` (s) with ``painter``.
+
+        :param x, y, width, height: the rectangle for it, pixels
+        :returns: whether it was done.
+        """
         return False
 
     def close(self):

@@ -15,7 +15,10 @@ _LEVELS = {name: level for level, name in SEVERITIES.items()}
 
 
 def store(settings, name: str, rules: list[list]) -> None:
-    """Keep rules, as ``RuleBox.state`` gives them, under ``<name>_filters`` and ``<name>_filter_<i>/...``."""
+    """Keep ``rules``, as ``RuleBox.state`` gives them, under ``<name>_filters`` and ``<name>_filter_<i>/...`` of ``settings``.
+
+    :param name: ``exclude`` or ``highlight``
+    """
     settings.set_value(f"{name}_filters", pack([kind for kind, _, _ in rules]))
     for index, (kind, enabled, state) in enumerate(rules):
         group = settings.get_settings(f"{name}_filter_{index}")
@@ -35,7 +38,9 @@ def store(settings, name: str, rules: list[list]) -> None:
 
 
 def load(settings, name: str, default: list[list]) -> list[list]:
-    """The rules that :func:`store` or Noetic's console has kept; ``default`` where none were. Unknown kinds are left out."""
+    """The rules that :func:`store` or Noetic's console has kept in ``settings`` as ``name``; ``default`` where none were. Unknown
+    kinds are left out.
+    """
     if not settings.contains(f"{name}_filters"):
         return default
     rules = []

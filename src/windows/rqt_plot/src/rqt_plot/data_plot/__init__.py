@@ -128,11 +128,13 @@ class DataPlot(QWidget):
             self._switch_data_plot_widget(kind["selected_index"], 0 in (markers.get("selected_indexes") or ()))
 
     def save_settings(self, plugin_settings, instance_settings) -> None:
+        """Store plot type and limits in ``instance_settings``; ``plugin_settings`` are left alone."""
         instance_settings.set_value("plot_type", self._plot_index)
         instance_settings.set_value("x_limits", pack([float(x) for x in self.get_xlim()]))
         instance_settings.set_value("y_limits", pack([float(y) for y in self.get_ylim()]))
 
     def restore_settings(self, plugin_settings, instance_settings) -> None:
+        """Take back what :meth:`save_settings` stored in ``instance_settings``; ``plugin_settings`` are not read."""
         try:
             self._switch_data_plot_widget(int(instance_settings.value("plot_type", 0)))
         except (TypeError, ValueError):
@@ -150,7 +152,10 @@ class DataPlot(QWidget):
     def add_curve(self, curve_id: str, curve_name: str, data_x, data_y) -> None:
         """Add a curve. It may be called from any thread.
 
-        :param data_x: (n,) first values, in ascending order. :param data_y: (n,)
+        :param curve_id: by which the other methods know it
+        :param curve_name: in the legend
+        :param data_x: (n,) first values, in ascending order.
+        :param data_y: (n,)
         """
         curve_id = str(curve_id)
         if curve_id in self._curves:
@@ -176,9 +181,11 @@ class DataPlot(QWidget):
         return self._curves[str(curve_id)]
 
     def update_values(self, curve_id: str, values_x, values_y, sort_data: bool = True) -> None:
-        """Append values; they are drawn by the next :meth:`redraw`.
+        """Append values to the curve ``curve_id``; they are drawn by the next :meth:`redraw`.
 
-        :param values_x: (n,) :param values_y: (n,) :param sort_data: put values that come late in their place.
+        :param values_x: (n,)
+        :param values_y: (n,)
+        :param sort_data: put values that come late in their place.
         :raises DataPlotException: no such curve.
         """
         self._get_curve(curve_id).extend(values_x, values_y, sort_data)

@@ -31,6 +31,11 @@ class MatDataPlot(QWidget):
         self._current_vline = None
 
     def add_curve(self, curve_id: str, curve_name: str, curve_color: QColor = QColor("blue"), markers_on: bool = False) -> None:
+        """An empty curve, ``curve_id``, which the legend calls ``curve_name``.
+
+        :param curve_color: of its line
+        :param markers_on: mark each sample
+        """
         (self._curves[curve_id],) = self._axes.plot(
             [], [], label=curve_name, color=curve_color.name(), linewidth=1, marker="o" if markers_on else None, markersize=3
         )
@@ -44,6 +49,7 @@ class MatDataPlot(QWidget):
             self.redraw()
 
     def set_values(self, curve_id: str, x, y) -> None:
+        """Let the curve ``curve_id`` have these samples only; ``x`` and ``y``: (n,)."""
         if curve_id in self._curves:
             self._curves[curve_id].set_data(x, y)
 
@@ -51,6 +57,7 @@ class MatDataPlot(QWidget):
         self._canvas.draw_idle()
 
     def vline(self, x: float, color) -> None:
+        """Draw a vertical line at ``x``, in place of the last one. ``color``: (r, g, b), 0..255"""
         if self._current_vline is not None:
             self._current_vline.remove()
         self._current_vline = self._axes.axvline(x, color=[part / 255 for part in color])

@@ -50,6 +50,11 @@ class PyQtGraphDataPlot(QWidget):
         self._current_vline = None
 
     def add_curve(self, curve_id: str, curve_name: str, curve_color: QColor = QColor("blue"), markers_on: bool = False) -> None:
+        """An empty curve, ``curve_id``, which the legend calls ``curve_name``.
+
+        :param curve_color: of its line
+        :param markers_on: mark each sample
+        """
         pen = pyqtgraph.mkPen(curve_color, width=1)  # wider lines are drawn many times slower
         if markers_on:
             item = pyqtgraph.PlotDataItem(name=curve_name, pen=pen, symbol="o", symbolSize=4, symbolPen=None, symbolBrush=curve_color)
@@ -66,6 +71,7 @@ class PyQtGraphDataPlot(QWidget):
             self._legend.setVisible(bool(self._curves))
 
     def set_values(self, curve_id: str, x, y) -> None:
+        """Let the curve ``curve_id`` have these samples only; ``x`` and ``y``: (n,)."""
         curve = self._curves.get(curve_id)
         if isinstance(curve, _Curve):
             curve.set_values(x, y)
@@ -76,6 +82,7 @@ class PyQtGraphDataPlot(QWidget):
         """Nothing to do: values repaint by themselves."""
 
     def vline(self, x: float, color) -> None:
+        """Draw a vertical line at ``x``, in place of the last one. ``color``: (r, g, b), 0..255"""
         if self._current_vline is not None:
             self._plot_widget.removeItem(self._current_vline)
         self._current_vline = self._plot_widget.addLine(x=x, pen=color)
