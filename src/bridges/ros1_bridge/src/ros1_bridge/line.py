@@ -56,7 +56,7 @@ class Line:
             raise TimeoutError from None
 
     def answer(self, number: int, said: Any, data: Any = None) -> None:
-        """Answer the question ``number`` of the other end: ``said`` is one word, of the question's own kind."""
+        """Answer the question ``number`` of the other end with ``said``, one word that depends on the question, and ``data``."""
         self.tell("answer", number, said, data=data)
 
     def answered(self, number: int, said: Any, data: Any) -> None:
