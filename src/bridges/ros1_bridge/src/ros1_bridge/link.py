@@ -27,11 +27,8 @@ def prefix() -> Path | None:
 
 def environment(folder: Path) -> dict[str, str]:
     """That of a process of ROS 2: nothing of ROS 1's modules and libraries, of which many have the same names."""
-    kept = {
-        name: value
-        for name, value in os.environ.items()
-        if name not in ("PYTHONPATH", "PYTHONHOME", "CMAKE_PREFIX_PATH", "AMENT_PREFIX_PATH")
-    }
+    of_ros1 = ("PYTHONPATH", "PYTHONHOME", "CMAKE_PREFIX_PATH", "AMENT_PREFIX_PATH")
+    kept = {name: value for name, value in os.environ.items() if name not in of_ros1}
     libraries = [str(folder / "lib"), *sorted(map(str, folder.glob("lib/python3*/site-packages/ros_*.libs")))]
     kept.update(
         LD_LIBRARY_PATH=":".join(libraries), AMENT_PREFIX_PATH=str(folder), _ROS_WHEELS_BOOTSTRAP_COMPLETE="1", PYTHONNOUSERSITE="1"

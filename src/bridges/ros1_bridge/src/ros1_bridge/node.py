@@ -19,7 +19,7 @@ from ros1_bridge.errors import BridgeError, Ros2Missing
 from ros1_bridge.line import one_line
 from ros1_bridge.link import HINT, Link, prefix
 from ros1_bridge.pairs import Match, Pairs, service_class
-from ros1_bridge.services import ActionOfRos1, ActionOfRos2, Offered, ServiceOfRos1, ServiceOfRos2, actions_of_ros1, of_an_action
+from ros1_bridge.services import ActionOfRos1, ActionOfRos2, ServiceOfRos1, ServiceOfRos2, actions_of_ros1, of_an_action
 from ros1_bridge.settings import Options, SettingError, allowed, entries, options, quality
 from ros1_bridge.topics import ToRos1, ToRos2
 from ros1_bridge.types import candidates
@@ -28,11 +28,11 @@ PAUSE = 0.5  # s between looks at ROS 1's graph
 NOT_BRIDGED = ("/rosout_agg", "/rosout", "/parameter_events")  # each side's own; bridge_all would carry a line round and round
 OWN_SERVICES = ("/get_loggers", "/set_logger_level")  # every node's own
 OF_EVERY_NODE = ("rcl_interfaces/", "type_description_interfaces/", "lifecycle_msgs/")
-
-
 Names = Iterable[str]
-#: What is bridged, by what the other side calls it; topics, as "to_ros1" and "to_ros2", besides.
-OFFERED: dict[str, type[Offered]] = {
+#: What is bridged, by what the other side calls it.
+KINDS: dict[str, type[Any]] = {
+    "to_ros1": ToRos1,
+    "to_ros2": ToRos2,
     "services_of_ros1": ServiceOfRos1,
     "services_of_ros2": ServiceOfRos2,
     "actions_of_ros1": ActionOfRos1,
@@ -45,7 +45,7 @@ class Bridge:
 
     def __init__(self) -> None:
         self._own = rospy.get_name()
-        self.kept: dict[str, dict[str, Any]] = {kind: {} for kind in ("to_ros1", "to_ros2", *OFFERED)}
+        self.kept: dict[str, dict[str, Any]] = {kind: {} for kind in KINDS}
         self.graph: dict[str, Any] = {"topics": {}, "services": {}, "actions": {}}
         self.changed, self.failed = threading.Event(), False
         self.link = Link(self._heard, self._lost)
@@ -79,15 +79,21 @@ class Bridge:
         rospy.logdebug("%s", trace)
         self.pairs.once(f"{' '.join(map(str, words))} in ROS 2: {line}")
 
-    def keep(self, kind: str, name: str, bridged: Any) -> None:
-        """Open ``bridged`` once it is found by ``kind`` and ``name``: the other side may answer at once."""
-        self.kept[kind][name] = bridged
+    def keep(self, kind: str, name: str, match: Match, *more: Any) -> None:
+        """Bridge ``name`` as ``kind``, with the types ``match`` and what its class takes ``more``.
+
+        It is opened when it can be found: the other side may answer at once.
+        """
+        bridged = self.kept[kind][name] = KINDS[kind](name, match, self.link, self.pairs, *more)
         bridged.open()
 
     # ------------------------------------------------------------------------------------------ all that both know
 
-    def follow(self, chosen: Options) -> None:
-        """Until the node ends: bridges come and go with what they join."""
+    def dynamic(self, chosen: Options) -> None:
+        """Until the node ends: bridges come and go with what they join. Or the pairs of types are printed, if that is ``chosen``."""
+        if chosen.print_pairs:
+            self.print_pairs()
+            return
         master = rosgraph.Master(rospy.get_name())
         while not rospy.is_shutdown():
             try:
@@ -95,9 +101,8 @@ class Bridge:
             except (rosgraph.MasterException, OSError):  # it is away; it may come back
                 self.changed.wait(PAUSE)
                 continue
-            published, subscribed, services = ({name: [n for n in nodes if n != self._own] for name, nodes in part} for part in state)
             published, subscribed, services = (
-                {name: nodes for name, nodes in part.items() if nodes} for part in (published, subscribed, services)
+                {name: others for name, nodes in part if (others := [node for node in nodes if node != self._own])} for part in state
             )
             if chosen.introspection:
                 self._show(published, subscribed, types)
@@ -132,22 +137,21 @@ class Bridge:
             if one == "*" and two is not None and back:
                 one = self.pairs.of_ros2("msg", two) or "*"
             match = self.pairs.find("msg", one, two) if one != "*" and (forward or back) else None
-            if match is not None and self._stale("to_ros2", name, match if forward else None):
-                self.keep("to_ros2", name, ToRos2(name, match, self.link, self.pairs))
-            if match is not None and self._stale("to_ros1", name, match if back else None):
-                self.keep("to_ros1", name, ToRos1(name, match, self.link, self.pairs, seen))
+            self._renew("to_ros2", name, match if forward else None)
+            self._renew("to_ros1", name, match if back else None, seen)
             if name in self.kept["to_ros1"]:
                 self.kept["to_ros1"][name].look(seen)
         for kind in ("to_ros2", "to_ros1"):
             for name in set(self.kept[kind]) - {*published, *subscribed, *there}:
                 self.kept[kind].pop(name).close()
 
-    def _stale(self, kind: str, name: str, match: Match | None) -> bool:
-        """Whether a bridge for ``match`` has to be made; one for another is closed."""
+    def _renew(self, kind: str, name: str, match: Match | None, *more: Any) -> None:
+        """Close a bridge for another match, and keep one for ``match``."""
         old = self.kept[kind].get(name)
         if old is not None and old.match is not match:
             self.kept[kind].pop(name).close()
-        return match is not None and name not in self.kept[kind]
+        if match is not None and name not in self.kept[kind]:
+            self.keep(kind, name, match, *more)
 
     def _offer(self, kind: str, here: Names, there: Names, allow: tuple[str, ...], find: Callable[[str], Match | None]) -> None:
         """Have of ``kind`` what is ``here``, was not ``there`` when it came and fits ``allow``; ``find`` gives types by name."""
@@ -157,7 +161,7 @@ class Bridge:
         for name in sorted(set(here) - set(there) - set(kept)):
             match = find(name) if allowed(name, allow) else None
             if match is not None:
-                self.keep(kind, name, OFFERED[kind](name, match, self.link))
+                self.keep(kind, name, match)
 
     def _of_service(self, name: str) -> Match | None:
         """The types of the service ``name`` of ROS 1."""
@@ -167,7 +171,7 @@ class Bridge:
     # ------------------------------------------------------------------------------------------ what parameters name
 
     def named(self, topics: Any, services_1_to_2: Any, services_2_to_1: Any, names: tuple[str, str, str]) -> None:
-        """``parameter_bridge``: each of ``topics`` in both directions, and the services, each by an entry of its parameter.
+        """``parameter_bridge``, until the node ends: each of ``topics`` both ways, and the services, each by an entry of its parameter.
 
         :param services_1_to_2, services_2_to_1: entries, by where calls come from and go to
         :param names: of the three parameters, for messages
@@ -181,9 +185,8 @@ class Bridge:
             if match is None:
                 continue
             words = quality(entry["qos"], partial(warn, about=f"{name}: ")) if "qos" in entry else None
-            one_way = ToRos2(name, match, self.link, self.pairs, words, entry["queue_size"])
-            self.keep("to_ros2", name, one_way)
-            self.keep("to_ros1", name, ToRos1(name, match, self.link, self.pairs, {}, words or one_way.words, entry["queue_size"]))
+            self.keep("to_ros2", name, match, words, entry["queue_size"])
+            self.keep("to_ros1", name, match, {}, words or self.kept["to_ros2"][name].words, entry["queue_size"])
         # By where calls come from and go to: what is named in services_1_to_2 is a server of ROS 2, with its type of ROS 2.
         self.link.patience = float(rospy.get_param("ros1_bridge/parameter_bridge/service_execution_timeout", 5))
         for entry in entries(names[1], services_1_to_2, "service", warn):
@@ -193,23 +196,21 @@ class Bridge:
             if service_class(one) is None:  # of ROS 2, though it should be of ROS 1
                 one = self.pairs.of_ros2("srv", one) or one
             self._name("services_of_ros1", entry, self.pairs.find("srv", one))
+        rospy.spin()
 
     def _name(self, kind: str, entry: dict[str, Any], match: Match | None) -> None:
         if match is not None:
-            name = rospy.resolve_name(entry["service"])
-            self.keep(kind, name, OFFERED[kind](name, match, self.link))
+            self.keep(kind, rospy.resolve_name(entry["service"]), match)
 
     def print_pairs(self) -> None:
-        known = {f"{one.split('/')[0]}/{one.rpartition('/')[2]}": one.split("/")[1] for one in self.link.question("known")}
+        known = self.link.question("known")
         rospack = rospkg.RosPack()
         for mode, form, what in ((rosmsg.MODE_MSG, "msg", "message"), (rosmsg.MODE_SRV, "srv", "service")):
             print(f"Supported ROS 2 <=> ROS 1 {what} type conversion pairs:")
             for package, path in sorted(rosmsg.iterate_packages(rospack, mode)):
                 for short in rosmsg._list_types(path, form, mode):
                     one = f"{package}/{short}"
-                    if not any(two in known for two in candidates(one)):
-                        continue
-                    match = self.pairs.find(form, one)
+                    match = self.pairs.find(form, one) if known.intersection(candidates(one)) else None
                     if match is not None:
                         print(f"  - '{match.ros2.replace('/', f'/{form}/')}' (ROS 2) <=> '{one}' (ROS 1)", flush=True)
 
@@ -246,17 +247,10 @@ def dynamic_bridge() -> int:
     words = rospy.myargv()[1:]
     try:
         options(words, lambda name, default: default)  # -h and what is misspelt, before anything starts
-        return run(lambda bridge: _dynamic(bridge, options(words, lambda name, default: rospy.get_param("~" + name, default))))
+        return run(lambda bridge: bridge.dynamic(options(words, lambda name, default: rospy.get_param("~" + name, default))))
     except SettingError as error:
         print(f"ros1_bridge: {error}", file=sys.stderr)
         return 1
-
-
-def _dynamic(bridge: Bridge, chosen: Options) -> None:
-    if chosen.print_pairs:
-        bridge.print_pairs()
-    else:
-        bridge.follow(chosen)
 
 
 def parameter_bridge() -> int:
@@ -273,14 +267,10 @@ def parameter_bridge() -> int:
     def work(bridge: Bridge) -> None:
         values = [rospy.get_param(name, [] if index else None) for index, name in enumerate(names)]
         bridge.named(values[0], values[1], values[2], names)
-        rospy.spin()
 
     return run(work)
 
 
 def static_bridge() -> int:
-    def work(bridge: Bridge) -> None:
-        bridge.named([{"topic": "chatter", "type": "std_msgs/msg/String", "queue_size": 10}], [], [], ("topics", "", ""))
-        rospy.spin()
-
-    return run(work)
+    chatter = {"topic": "chatter", "type": "std_msgs/msg/String", "queue_size": 10}
+    return run(lambda bridge: bridge.named([chatter], [], [], ("topics", "", "")))

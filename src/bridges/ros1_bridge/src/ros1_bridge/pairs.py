@@ -11,6 +11,7 @@ from typing import Any
 import roslib.message
 
 from ros1_bridge.errors import MappingError
+from ros1_bridge.link import Link
 from ros1_bridge.types import Types, candidates, candidates_of_ros1, fields_of_ros1, fields_of_ros2
 from ros1_bridge.wire import Pair
 
@@ -24,19 +25,16 @@ def bytes_of(message: Any) -> bytes:
     return out.getvalue()
 
 
-def message_class(name: str) -> Any:
-    """None where no package of ROS 1 defines it."""
+def message_class(name: str, get: Callable[[str], Any] = roslib.message.get_message_class) -> Any:
+    """What ``get``, roslib's function, finds by ``name``; None where no package of ROS 1 defines it."""
     try:
-        return roslib.message.get_message_class(name)
+        return get(name)
     except (ValueError, ImportError, AttributeError):
         return None
 
 
 def service_class(name: str) -> Any:
-    try:
-        return roslib.message.get_service_class(name)
-    except (ValueError, ImportError, AttributeError):
-        return None
+    return message_class(name, roslib.message.get_service_class)
 
 
 def classes(form: str, name: str) -> dict[str, Any]:
@@ -146,3 +144,13 @@ class Pairs:
         names = {part: f"{two}_{part}" if part else two for part in kinds}
         pairs = {part: Pair(one + part, types_of_ros1(kind, one + part), names[part], types) for part, kind in kinds.items()}
         return Match(one, two, kinds, pairs)
+
+
+class Bridged:
+    """What one side offers by ``name`` with the types ``match``, made known to the other.
+
+    The other side is told nothing before ``open()``: it may answer at once, and then this must be where the answer is handed on.
+    """
+
+    def __init__(self, name: str, match: Match, link: Link, pairs: Pairs) -> None:
+        self.name, self.match, self._link, self._pairs = name, match, link, pairs

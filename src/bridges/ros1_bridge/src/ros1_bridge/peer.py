@@ -18,6 +18,7 @@ import traceback
 from collections import deque
 from collections.abc import Callable
 from multiprocessing.connection import Connection
+from pathlib import Path
 from typing import Any
 
 import rclpy
@@ -69,18 +70,15 @@ def fields(kind: Any, found: dict[str, dict[str, str]], name: str) -> None:
 
 
 def profile(words: dict[str, Any]) -> QoSProfile:
-    made = QoSProfile(
+    spans = ("deadline", "lifespan", "liveliness_lease_duration")
+    return QoSProfile(
         depth=words.get("depth", 10),
-        history=HistoryPolicy.KEEP_ALL if words.get("history") == "keep_all" else HistoryPolicy.KEEP_LAST,
-        reliability=ReliabilityPolicy.BEST_EFFORT if words.get("reliability") == "best_effort" else ReliabilityPolicy.RELIABLE,
-        durability=DurabilityPolicy.TRANSIENT_LOCAL if words.get("durability") == "transient_local" else DurabilityPolicy.VOLATILE,
+        history=HistoryPolicy[words.get("history", "keep_last").upper()],
+        reliability=ReliabilityPolicy[words.get("reliability", "reliable").upper()],
+        durability=DurabilityPolicy[words.get("durability", "volatile").upper()],
+        liveliness=LivelinessPolicy(words.get("liveliness", 0)),
+        **{name: Duration(nanoseconds=words[name]) for name in spans if name in words},
     )
-    for name in ("deadline", "lifespan", "liveliness_lease_duration"):
-        if name in words:
-            setattr(made, name, Duration(nanoseconds=words[name]))
-    if "liveliness" in words:
-        made.liveliness = LivelinessPolicy(words["liveliness"])
-    return made
 
 
 def policy(info: Any) -> str:
@@ -120,10 +118,8 @@ class Peer:
             self.executor.create_task(self._work)
 
     def _work(self) -> None:
-        try:
-            self._do(self._orders[0])
-        finally:
-            self._orders.popleft()
+        self._do(self._orders[0])
+        self._orders.popleft()
 
     def _do(self, order: tuple[Any, ...]) -> None:
         try:
@@ -167,15 +163,11 @@ class Peer:
         self._line.answer(number, found)
 
     def do_known(self, number: int, _: Any) -> None:
-        """Answer the question ``number`` with all interfaces that are installed: package/msg/Name"""
+        """Answer the question ``number`` with all interfaces that are installed, as package/Name."""
         from ament_index_python.resources import get_resource, get_resources
 
-        names = []
-        for package in get_resources("rosidl_interfaces"):
-            for line in get_resource("rosidl_interfaces", package)[0].splitlines():
-                if line.startswith(("msg/", "srv/", "action/")) and not line.endswith((".idl", ".json")):
-                    names.append(f"{package}/{line.rpartition('.')[0]}")
-        self._line.answer(number, sorted(set(names)))
+        listed = ((package, get_resource("rosidl_interfaces", package)[0].split()) for package in get_resources("rosidl_interfaces"))
+        self._line.answer(number, {f"{package}/{Path(line).stem}" for package, lines in listed for line in lines})
 
     def watch(self) -> None:
         before = None
@@ -229,7 +221,7 @@ class Peer:
         self._made["publisher", topic] = publisher
         for info in self.node.get_publishers_info_by_topic(topic):
             if info.node_name == self.node.get_name():
-                self._gids.add(bytes(info.endpoint_gid)[:16])
+                self._gids.add(bytes(info.endpoint_gid))
 
     def do_publish(self, topic: str, data: Any) -> None:
         """Publish ``data``, a message as bytes of CDR, on ``topic``."""
@@ -241,8 +233,8 @@ class Peer:
         """Tell what comes on ``topic``, of ``type_name``, read with the quality of service ``words``."""
         self.do_forget("subscriber", topic, None)
 
-        def take(data: bytes, info: Any) -> None:
-            if self._foreign(info):
+        def take(data: bytes, info: dict[str, Any]) -> None:
+            if info["publisher_gid"]["data"] not in self._gids:
                 self.tell("to_ros1", topic, "message", data=data)
 
         events = SubscriptionEventCallbacks(
@@ -251,11 +243,6 @@ class Peer:
         self._made["subscriber", topic] = self.node.create_subscription(
             kind_of(type_name, "msg"), topic, take, profile(words), raw=True, event_callbacks=events
         )
-
-    def _foreign(self, info: Any) -> bool:
-        gid = info.get("publisher_gid") if isinstance(info, dict) else info.publisher_gid
-        data = gid.get("data") if isinstance(gid, dict) else gid
-        return data is None or bytes(data)[:16] not in self._gids
 
     def do_forget(self, what: str, name: str, _: Any) -> None:
         """End the publisher, subscriber, server or action_server (``what``) called ``name``."""

@@ -12,22 +12,14 @@ from actionlib_msgs.msg import GoalStatus
 
 from ros1_bridge.errors import BridgeError, MappingError
 from ros1_bridge.line import one_line
-from ros1_bridge.link import Link
-from ros1_bridge.pairs import Match, message_class, service_class
+from ros1_bridge.pairs import Bridged, message_class, service_class
 
 
 class CallFailed(BridgeError):
     """A service of the other side did not answer."""
 
 
-class Offered:
-    """What both know by ``name`` and ``match``: a service or action of one side, offered on the other."""
-
-    def __init__(self, name: str, match: Match, link: Link) -> None:
-        self.name, self.match, self._link = name, match, link
-
-
-class ServiceOfRos2(Offered):
+class ServiceOfRos2(Bridged):
     """Offered in ROS 1."""
 
     def open(self) -> None:
@@ -51,7 +43,7 @@ class ServiceOfRos2(Offered):
         self._service.shutdown()
 
 
-class ServiceOfRos1(Offered):
+class ServiceOfRos1(Bridged):
     """Offered in ROS 2."""
 
     def open(self) -> None:
@@ -73,7 +65,7 @@ class ServiceOfRos1(Offered):
         self._link.tell("forget", "server", self.name)
 
 
-class ActionOfRos1(Offered):
+class ActionOfRos1(Bridged):
     """An action server of ROS 1, offered in ROS 2."""
 
     def open(self) -> None:
@@ -129,7 +121,7 @@ class ActionOfRos1(Offered):
         self._client.stop()
 
 
-class ActionOfRos2(Offered):
+class ActionOfRos2(Bridged):
     """An action server of ROS 2, offered in ROS 1."""
 
     def open(self) -> None:
