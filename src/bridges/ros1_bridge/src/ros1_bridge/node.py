@@ -60,9 +60,11 @@ class Bridge:
             if found is not None:
                 getattr(found, word)(*words)
             elif word == "call":
-                self.link.answer(words[0], f"{name} of ROS 1 has gone")
+                raise BridgeError(f"{name} of ROS 1 has gone")
         except Exception as error:  # one thing that goes wrong ends none of the others
             rospy.logwarn("%s from ROS 2: %s", word, one_line(error))
+            if word == "call":
+                self.link.answer(words[0], one_line(error))
 
     def _lost(self) -> None:
         if not rospy.is_shutdown():
