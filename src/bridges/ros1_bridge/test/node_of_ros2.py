@@ -1,16 +1,18 @@
-"""A node of ROS 2, run by ROS 2's own Python: orders come as lines of JSON, and so go the answers."""
+"""A node of ROS 2, run by ROS 2's own Python: orders come as lines of JSON, and so go the answers.
+
+All that rclpy makes is made by the executor's one thread, which would see things half made otherwise.
+"""
 
 import json
+import queue
 import sys
 import threading
-import time
 
 import rclpy
 from builtin_interfaces.msg import Duration
 from control_msgs.action import FollowJointTrajectory, GripperCommand
 from rclpy.action import ActionClient, ActionServer, CancelResponse
-from rclpy.callback_groups import ReentrantCallbackGroup
-from rclpy.executors import MultiThreadedExecutor
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from rclpy.serialization import serialize_message
 from rosgraph_msgs.msg import Clock
@@ -35,10 +37,16 @@ class Node:
     def __init__(self):
         rclpy.init()
         self.node = rclpy.create_node("tester")
-        self.executor = MultiThreadedExecutor(4)
+        self.executor = SingleThreadedExecutor()
         self.executor.add_node(self.node)
         threading.Thread(target=self.executor.spin, daemon=True).start()
         self.publishers, self.kept = {}, []
+
+    def made(self, make, *words):
+        """What ``make`` makes of the node and ``words`` in the executor's thread, for another one."""
+        done = queue.SimpleQueue()
+        self.executor.create_task(lambda: done.put(make(self.node, *words)))
+        return done.get()
 
     def hear(self, topic, kind, profile=""):
         def take(message):
@@ -64,14 +72,14 @@ class Node:
         self.kept.append(self.node.create_service(SetBool, name, answer))
 
     def call(self, name, value):
-        client = self.node.create_client(SetBool, name)
+        client = self.made(type(self.node).create_client, SetBool, name)
         client.wait_for_service(20.0)
         answer = client.call(SetBool.Request(data=value))
         say(called=name, success=answer.success, message=answer.message)
 
     def goal(self, name, positions, joints, seconds, cancel=""):
         """:param cancel: "moving" or "at once"; "" for not at all"""
-        client = ActionClient(self.node, FollowJointTrajectory, name)
+        client = self.made(ActionClient, FollowJointTrajectory, name)
         goal = FollowJointTrajectory.Goal()
         goal.trajectory.joint_names = joints
         goal.trajectory.points = [JointTrajectoryPoint(positions=positions, time_from_start=Duration(sec=seconds))]
@@ -98,29 +106,32 @@ class Node:
         say(ended=name, status=answer.status, code=answer.result.error_code, text=answer.result.error_string, feedback=len(feedback))
 
     def serve_action(self, name, until_cancelled=False):
-        def execute(handle):
+        canceled = {}  # what will be true, by the bytes of a goal's number
+
+        def accept(handle):
+            canceled[bytes(handle.goal_id.uuid)] = self.executor.create_future()
+            handle.execute()
+
+        def cancel(handle):
+            canceled[bytes(handle.goal_id.uuid)].set_result(True)
+            return CancelResponse.ACCEPT
+
+        async def execute(handle):
             say(begun=name)
             feedback = FollowJointTrajectory.Feedback(joint_names=handle.request.trajectory.joint_names)
             handle.publish_feedback(feedback)
-            while until_cancelled and not handle.is_cancel_requested:
-                time.sleep(0.01)
+            if until_cancelled:
+                await canceled[bytes(handle.goal_id.uuid)]
             (handle.canceled if until_cancelled else handle.succeed)()
             say(over=name)
             return FollowJointTrajectory.Result(error_code=-3, error_string="of ROS 2")
 
         self.kept.append(
-            ActionServer(
-                self.node,
-                FollowJointTrajectory,
-                name,
-                execute,
-                cancel_callback=lambda _: CancelResponse.ACCEPT,
-                callback_group=ReentrantCallbackGroup(),
-            )
+            ActionServer(self.node, FollowJointTrajectory, name, execute, handle_accepted_callback=accept, cancel_callback=cancel)
         )
 
     def grip(self, name, position, effort):
-        client = ActionClient(self.node, GripperCommand, name)
+        client = self.made(ActionClient, GripperCommand, name)
         goal = GripperCommand.Goal()
         goal.command.position, goal.command.max_effort = position, effort
         client.wait_for_server(20.0)
@@ -143,7 +154,10 @@ def main():
     for line in sys.stdin:
         words = json.loads(line)
         run = getattr(node, words.pop("do"))
-        threading.Thread(target=run, kwargs=words, daemon=True).start() if run.__name__ in ("call", "goal", "grip") else run(**words)
+        if run.__name__ in ("call", "goal", "grip"):  # these wait for answers
+            threading.Thread(target=run, kwargs=words, daemon=True).start()
+        else:
+            node.executor.create_task(run, **words)
 
 
 if __name__ == "__main__":

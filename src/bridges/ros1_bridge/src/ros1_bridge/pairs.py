@@ -5,13 +5,18 @@ from __future__ import annotations
 import io
 import threading
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import roslib.message
 
 from ros1_bridge.errors import MappingError
+from ros1_bridge.link import Link
 from ros1_bridge.types import Types, candidates, candidates_of_ros1, fields_of_ros1, fields_of_ros2
 from ros1_bridge.wire import Pair
+
+#: What an interface of each form consists of: classes of ROS 1 are called by these, those of ROS 2 too, with "_" before.
+PARTS = {"msg": ("",), "srv": ("Request", "Response"), "action": ("Goal", "Result", "Feedback")}
 
 
 def bytes_of(message: Any) -> bytes:
@@ -20,19 +25,25 @@ def bytes_of(message: Any) -> bytes:
     return out.getvalue()
 
 
-def message_class(name: str) -> Any:
-    """None where no package of ROS 1 defines it."""
+def message_class(name: str, get: Callable[[str], Any] = roslib.message.get_message_class) -> Any:
+    """What ``get``, roslib's function, finds by ``name``; None where no package of ROS 1 defines it."""
     try:
-        return roslib.message.get_message_class(name)
+        return get(name)
     except (ValueError, ImportError, AttributeError):
         return None
 
 
 def service_class(name: str) -> Any:
-    try:
-        return roslib.message.get_service_class(name)
-    except (ValueError, ImportError, AttributeError):
-        return None
+    return message_class(name, roslib.message.get_service_class)
+
+
+def classes(form: str, name: str) -> dict[str, Any]:
+    """Those of ROS 1 by the parts of ``name``, which is by ``form`` a "msg", "srv" or "action"; {} where no package defines it."""
+    if form == "srv":
+        kind = service_class(name)
+        return {"Request": kind._request_class, "Response": kind._response_class} if kind is not None else {}
+    kinds = {part: message_class(name + part) for part in PARTS[form]}
+    return {} if None in kinds.values() else kinds
 
 
 def types_of_ros1(kind: Any, name: str, found: Types | None = None) -> Types:
@@ -47,35 +58,55 @@ def types_of_ros1(kind: Any, name: str, found: Types | None = None) -> Types:
     return found
 
 
+@dataclass(frozen=True, eq=False)
+class Match:
+    """A type of ROS 1 and one of ROS 2, package/Name, that belong together. ``kinds`` and ``pairs`` are by part."""
+
+    ros1: str
+    ros2: str
+    kinds: dict[str, Any]
+    pairs: dict[str, Pair]
+
+    def message(self, part: str, data: Any) -> Any:
+        """ROS 1's message of the ``part`` that ``data``, bytes of ROS 2, are; one of zeros where ``data`` is None."""
+        message = self.kinds[part]()
+        if data is not None:
+            message.deserialize(bytes(self.pairs[part].to_ros1(data)))
+        return message
+
+    def data(self, part: str, message: Any) -> bytearray:
+        """The bytes of ROS 2 for ``message``, ROS 1's of the ``part``."""
+        return self.pairs[part].to_ros2(bytes_of(message))
+
+
 class Pairs:
-    """:param describe: fields of a type of ROS 2 (:meth:`ros1_bridge.link.Link.describe`)
+    """:param describe: gives by name and form the fields of a type of ROS 2 and of all that it consists of, {} where it has none
     :param say: is told in one line what has no counterpart, once each
     """
 
     def __init__(self, describe: Callable[[str, str], dict[str, dict[str, str]]], say: Callable[[str], None]) -> None:
         self._describe, self._say = describe, say
-        self._found: dict[tuple[str, ...], Any] = {}
+        self._found: dict[tuple[str, str, str | None], Match | None] = {}
         self._told: set[str] = set()
         self._lock = threading.RLock()
 
-    def message(self, of_ros1: str, of_ros2: str | None = None) -> Pair | None:
-        """The pair of the type ``of_ros1`` and ``of_ros2`` (None: the one that it is there); None where there is none, which has been
-        said.
+    def find(self, form: str, of_ros1: str, of_ros2: str | None = None) -> Match | None:
+        """The match of the types ``of_ros1`` and ``of_ros2`` (None: the one that it is there), by ``form`` "msg", "srv" or "action"; None
+        where there is none, which has been said.
         """
-        return self._one(("msg", of_ros1, of_ros2 or ""), of_ros1, of_ros2, lambda two: self._message(of_ros1, two))
+        with self._lock:
+            if (form, of_ros1, of_ros2) not in self._found:
+                self._found[form, of_ros1, of_ros2] = self._look(form, of_ros1, of_ros2)
+            return self._found[form, of_ros1, of_ros2]
 
-    def service(self, of_ros1: str, of_ros2: str | None = None) -> tuple[str, Pair, Pair] | None:
-        """The type of ROS 2 for ``of_ros1``, request and response; ``of_ros2`` as for :meth:`message`."""
-        return self._one(("srv", of_ros1, of_ros2 or ""), of_ros1, of_ros2, lambda two: self._service(of_ros1, two))
-
-    def action(self, of_ros1: str, of_ros2: str | None = None) -> tuple[str, Pair, Pair, Pair] | None:
-        """The type of ROS 2 for ``of_ros1``, goal, result and feedback; ``of_ros2`` as for :meth:`message`."""
-        return self._one(("action", of_ros1, of_ros2 or ""), of_ros1, of_ros2, lambda two: self._action(of_ros1, two))
+    def counterpart(self, form: str, of_ros2: str) -> Match | None:
+        """The match of ``of_ros2``, a type of ROS 2, by ``form`` "msg", "srv" or "action"; None as for :meth:`find`."""
+        one = self.of_ros2(form, of_ros2)
+        return self.find(form, one, of_ros2) if one is not None else None
 
     def of_ros2(self, form: str, of_ros2: str) -> str | None:
         """The type of ROS 1 that ``of_ros2`` is; ``form``: "msg", "srv" or "action"."""
-        tests = {"msg": message_class, "srv": service_class, "action": lambda name: message_class(name + "Goal")}
-        known = [one for one in candidates_of_ros1(of_ros2) if tests[form](one) is not None]
+        known = [one for one in candidates_of_ros1(of_ros2) if classes(form, one)]
         if not known:
             self.once(f"{of_ros2} of ROS 2 has no counterpart in ROS 1: what has this type is not bridged")
         return known[0] if known else None
@@ -87,51 +118,39 @@ class Pairs:
             self._told.add(line)
         self._say(line)
 
-    def _one(self, key: tuple[str, ...], of_ros1: str, of_ros2: str | None, make: Callable[[str], Any]) -> Any:
-        with self._lock:
-            if key not in self._found:
-                self._found[key] = None
-                reasons: list[str] = []
-                allowed = candidates(of_ros1)
-                for two in [of_ros2] if of_ros2 is not None else allowed:
-                    same = (key[0], of_ros1, two)
-                    if self._found.get(same) is not None:  # looked for before, with its type of ROS 2 or without: a bridge stays as it is
-                        self._found[key] = self._found[same]
-                        break
-                    try:
-                        if two not in allowed:
-                            raise MappingError(f"{of_ros1} of ROS 1 and {two} of ROS 2 are no pair")
-                        self._found[key] = make(two)
-                    except MappingError as error:
-                        reasons.append(str(error))
-                    if self._found[key] is not None:
-                        self._found[same] = self._found[key]
-                        break
-                else:
-                    reason = f": {reasons[0]}" if reasons else ""
-                    self.once(f"{of_ros1} has no counterpart in ROS 2: what has this type is not bridged{reason}")
-            return self._found[key]
+    def _look(self, form: str, of_ros1: str, of_ros2: str | None) -> Match | None:
+        reasons: list[str] = []
+        allowed = candidates(of_ros1)
+        for two in [of_ros2] if of_ros2 is not None else allowed:
+            try:
+                if two not in allowed:
+                    raise MappingError(f"{of_ros1} of ROS 1 and {two} of ROS 2 are no pair")
+                # Perhaps found before, with its type of ROS 2 or without: a bridge stays as it is.
+                found = self._found.get((form, of_ros1, two)) or self._make(form, of_ros1, two)
+            except MappingError as error:
+                reasons.append(str(error))
+                continue
+            if found is not None:
+                self._found[form, of_ros1, two] = found
+                return found
+        self.once(f"{of_ros1} has no counterpart in ROS 2: what has this type is not bridged{''.join(': ' + one for one in reasons[:1])}")
+        return None
 
-    def _message(self, one: str, two: str) -> Pair | None:
-        kind, described = message_class(one), self._describe(two, "msg")
-        return _pair(kind, one, described, two) if kind is not None and described else None
-
-    def _service(self, one: str, two: str) -> tuple[str, Pair, Pair] | None:
-        kind, described = service_class(one), self._describe(two, "srv")
-        if kind is None or not described:
+    def _make(self, form: str, one: str, two: str) -> Match | None:
+        kinds, described = classes(form, one), self._describe(two, form)
+        if not kinds or not described:
             return None
-        request = _pair(kind._request_class, one + "Request", described, two + "_Request")
-        return two, request, _pair(kind._response_class, one + "Response", described, two + "_Response")
-
-    def _action(self, one: str, two: str) -> tuple[str, Pair, Pair, Pair] | None:
-        described = self._describe(two, "action")
-        kinds = [message_class(one + part) for part in ("Goal", "Result", "Feedback")]
-        if None in kinds or not described:
-            return None
-        parts = zip(kinds, ("Goal", "Result", "Feedback"))
-        goal, result, feedback = [_pair(kind, one + part, described, f"{two}_{part}") for kind, part in parts]
-        return two, goal, result, feedback
+        types = {name: fields_of_ros2(fields) for name, fields in described.items()}
+        names = {part: f"{two}_{part}" if part else two for part in kinds}
+        pairs = {part: Pair(one + part, types_of_ros1(kind, one + part), names[part], types) for part, kind in kinds.items()}
+        return Match(one, two, kinds, pairs)
 
 
-def _pair(kind: Any, one: str, described: dict[str, dict[str, str]], two: str) -> Pair:
-    return Pair(one, types_of_ros1(kind, one), two, {name: fields_of_ros2(types) for name, types in described.items()})
+class Bridged:
+    """What one side offers by ``name`` with the types ``match``, made known to the other.
+
+    The other side is told nothing before ``open()``: it may answer at once, and then this must be where the answer is handed on.
+    """
+
+    def __init__(self, name: str, match: Match, link: Link, pairs: Pairs) -> None:
+        self.name, self.match, self._link, self._pairs = name, match, link, pairs

@@ -10,7 +10,37 @@ from typing import Any
 
 from ros1_bridge.errors import BridgeError
 
-_LIVELINESS = {"SYSTEM_DEFAULT": 0, "AUTOMATIC": 1, "MANUAL_BY_TOPIC": 3}
+_LIVELINESS: dict[Any, int] = {"SYSTEM_DEFAULT": 0, "AUTOMATIC": 1, "MANUAL_BY_TOPIC": 3}
+
+
+def _one_of(*names: str) -> tuple[Callable[[Any], Any], str]:
+    return dict(zip(names, names)).__getitem__, " is {}, and may be " + " or ".join(names)
+
+
+def _depth(value: Any) -> int:
+    if not isinstance(value, int) or value < 1:
+        raise ValueError
+    return value
+
+
+def _liveliness(value: Any) -> int:
+    numbers = {**_LIVELINESS, **{number: number for number in _LIVELINESS.values()}}
+    return numbers[value if isinstance(value, int) else str(value).upper().removeprefix("LIVELINESS_")]
+
+
+_UNKNOWN: tuple[Callable[[Any], Any], str] = {}.__getitem__, ": {} is not known"
+_SPAN: tuple[Callable[[Any], Any], str] = lambda value: int(value["secs"]) * 10**9 + int(value["nsecs"]), " needs secs and nsecs"
+#: The words of qos: what makes of a value in upstream's form one for the other side, and what is said of a value that it cannot take.
+_QUALITY = {
+    "reliability": _one_of("best_effort", "reliable"),
+    "durability": _one_of("transient_local", "volatile"),
+    "history": _one_of("keep_all", "keep_last"),
+    "depth": (_depth, _UNKNOWN[1]),
+    "deadline": _SPAN,
+    "lifespan": _SPAN,
+    "liveliness_lease_duration": _SPAN,
+    "liveliness": (_liveliness, " is {}, and may be " + ", ".join("LIVELINESS_" + name for name in _LIVELINESS)),
+}
 
 
 class SettingError(BridgeError):
@@ -25,7 +55,6 @@ class Options:
     all_2to1: bool = False
     print_pairs: bool = False
     introspection: bool = False
-    multi_threads: bool = False  # this bridge has threads in any case
     topic_whitelist: tuple[str, ...] = (".*",)
     service_whitelist: tuple[str, ...] = (".*",)
     action_whitelist: tuple[str, ...] = (".*",)
@@ -51,7 +80,6 @@ def options(words: list[str], get: Callable[[str, Any], Any]) -> Options:
         read.bridge_all_topics or read.bridge_all_2to1_topics,
         read.print_pairs,
         read.show_introspection,
-        read.multi_threads,
         **lists,
     )
 
@@ -80,31 +108,12 @@ def quality(words: Any, say: Callable[[str], None]) -> dict[str, Any]:
     if not isinstance(words, dict):
         say("qos should be a dictionary; it is left out")
         return found
-    choices = {
-        "reliability": ("best_effort", "reliable"),
-        "durability": ("transient_local", "volatile"),
-        "history": ("keep_all", "keep_last"),
-    }
     for name, value in words.items():
-        if name in choices and value in choices[name]:
-            found[name] = value
-        elif name in choices:
-            say(f"qos: {name} is {value!r}, and may be {' or '.join(choices[name])}; it is left out")
-        elif name == "depth" and isinstance(value, int) and value > 0:
-            found[name] = value
-        elif name in ("deadline", "lifespan", "liveliness_lease_duration"):
-            try:
-                found[name] = int(value["secs"]) * 10**9 + int(value["nsecs"])
-            except (TypeError, KeyError, ValueError):
-                say(f"qos: {name} needs secs and nsecs; it is left out")
-        elif name == "liveliness":
-            number = value if isinstance(value, int) else _LIVELINESS.get(str(value).upper().removeprefix("LIVELINESS_"))
-            if number in _LIVELINESS.values():
-                found[name] = number
-            else:
-                say(f"qos: liveliness is {value!r}, and may be {', '.join('LIVELINESS_' + one for one in _LIVELINESS)}; it is left out")
-        else:
-            say(f"qos: {name}: {value!r} is not known; it is left out")
+        read, wrong = _QUALITY.get(name, _UNKNOWN)
+        try:
+            found[name] = read(value)
+        except (TypeError, KeyError, ValueError):
+            say(f"qos: {name}{wrong.format(repr(value))}; it is left out")
     if words.get("history") == "keep_last" and "depth" not in words:
         say("qos: history: keep_last needs depth, too; it is 10")
     return found

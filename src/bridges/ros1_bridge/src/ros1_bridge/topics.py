@@ -10,9 +10,9 @@ import rospy
 
 from ros1_bridge.errors import MappingError
 from ros1_bridge.link import Link
-from ros1_bridge.pairs import Pairs, bytes_of, message_class
-from ros1_bridge.wire import Pair
+from ros1_bridge.pairs import Bridged, Match, Pairs, bytes_of
 
+Words = dict[str, Any]  # quality of service, or what is seen of a topic in ROS 2's graph
 BUFFER = 16 * 1024 * 1024  # bytes that are read at once, of pictures and clouds
 #: Types that sensors of ROS 2 publish as best effort.
 SENSORS = {
@@ -22,56 +22,55 @@ SENSORS = {
 }
 
 
-def promised(topic: str, type_name: str) -> dict[str, Any]:
+def promised(topic: str, type_name: str) -> Words:
     """The quality of service of ``topic``, of ``type_name``, that has not been told one."""
-    if topic == "/tf_static":
-        return {"depth": 100, "durability": "transient_local"}
-    if topic == "/tf":
-        return {"depth": 100}
-    if type_name in SENSORS:
-        return {"depth": 5, "reliability": "best_effort"}
-    return {"depth": 10}
+    if topic in ("/tf", "/tf_static"):
+        return {"depth": 100, **({"durability": "transient_local"} if topic == "/tf_static" else {})}
+    return {"depth": 5, "reliability": "best_effort"} if type_name in SENSORS else {"depth": 10}
 
 
-class ToRos2:
+class ToRos2(Bridged):
     """A topic of ROS 1, published in ROS 2."""
 
-    def __init__(self, topic: str, pair: Pair, link: Link, pairs: Pairs, words: dict[str, Any] | None = None, queue: int = 100) -> None:
-        self.topic, self.pair = topic, pair
-        self._link, self._pairs, self._queue, self._told = link, pairs, queue, words is not None
-        self.words = words or promised(topic, pair.ros1)
+    def __init__(self, name: str, match: Match, link: Link, pairs: Pairs, words: Words | None = None, queue: int = 100) -> None:
+        """:param words: what a parameter says the quality of service is"""
+        super().__init__(name, match, link, pairs)
+        self._queue, self._told = queue, words is not None
+        self.words = words or promised(name, match.ros1)
         self._lock = threading.Lock()
         self._subscriber: rospy.Subscriber | None = None
-        link.tell("advertise", topic, pair.ros2, self.words)
 
-    def matched(self, count: int) -> None:
+    def open(self) -> None:
+        self._link.tell("advertise", self.name, self.match.ros2, self.words)
+
+    def matched(self, count: int, _: Any = None) -> None:
         """:param count: who listens in ROS 2"""
         with self._lock:
             if count and self._subscriber is None:
                 self._subscriber = rospy.Subscriber(
-                    self.topic, rospy.AnyMsg, self._take, queue_size=self._queue, buff_size=BUFFER, tcp_nodelay=True
+                    self.name, rospy.AnyMsg, self._take, queue_size=self._queue, buff_size=BUFFER, tcp_nodelay=True
                 )
             elif not count and self._subscriber is not None:
                 self._subscriber.unregister()
                 self._subscriber = None
 
-    def unequal(self, policy: str, words: dict[str, Any]) -> None:
+    def unequal(self, policy: str, words: Words, _: Any) -> None:
         """A subscriber asks for more of ``policy`` than is promised, which was ``words``: it is promised, unless a parameter says what
         is to be.
         """
         more = {"DURABILITY": ("durability", "transient_local"), "RELIABILITY": ("reliability", "reliable")}.get(policy)
         if self._told or more is None:
-            self._pairs.once(f"{self.topic}: a subscriber of ROS 2 asks for another {policy.lower()} than this topic's, and gets nothing")
+            self._pairs.once(f"{self.name}: a subscriber of ROS 2 asks for another {policy.lower()} than this topic's, and gets nothing")
         elif words == self.words:
             self._promise({**self.words, more[0]: more[1]})
 
     def close(self) -> None:
         self.matched(0)
-        self._link.tell("forget", "publisher", self.topic)
+        self._link.tell("forget", "publisher", self.name)
 
-    def _promise(self, words: dict[str, Any]) -> None:
+    def _promise(self, words: Words) -> None:
         self.words = words
-        self._link.tell("advertise", self.topic, self.pair.ros2, words)
+        self.open()
         with self._lock:
             old, self._subscriber = self._subscriber, None
         if old is not None:  # what is latched comes once more
@@ -81,20 +80,20 @@ class ToRos2:
         header = message._connection_header
         if header.get("callerid") == rospy.get_name():
             return  # what this bridge itself has brought from ROS 2
-        if header.get("type") not in (self.pair.ros1, "*"):
+        if header.get("type") not in (self.match.ros1, "*"):
             self._pairs.once(
-                f"{self.topic}: {header.get('callerid')} publishes {header.get('type')}, not {self.pair.ros1}; it is not bridged"
+                f"{self.name}: {header.get('callerid')} publishes {header.get('type')}, not {self.match.ros1}; it is not bridged"
             )
             return
         if header.get("latching") == "1" and not self._told and self.words.get("durability") != "transient_local":
             self.words = {**self.words, "durability": "transient_local"}
-            self._link.tell("advertise", self.topic, self.pair.ros2, self.words)
+            self.open()
         try:
             # rospy reads a topic once in a process: /clock comes as its own message
             data = message._buff if isinstance(message, rospy.AnyMsg) else bytes_of(message)
-            self._link.tell("publish", self.topic, data=self.pair.to_ros2(data))
+            self._link.tell("publish", self.name, data=self.match.pairs[""].to_ros2(data))
         except MappingError as error:
-            self._pairs.once(f"{self.topic}: a message of {header.get('callerid')} is not bridged: {error}")
+            self._pairs.once(f"{self.name}: a message of {header.get('callerid')} is not bridged: {error}")
 
 
 def packed(kind: Any) -> Any:
@@ -110,48 +109,51 @@ def packed(kind: Any) -> Any:
     return Packed
 
 
-class ToRos1(rospy.SubscribeListener):
+class ToRos1(Bridged, rospy.SubscribeListener):
     """A topic of ROS 2, published in ROS 1."""
 
     def __init__(
-        self, topic: str, pair: Pair, link: Link, pairs: Pairs, seen: dict[str, Any], words: dict[str, Any] | None = None, queue: int = 100
-    ):
-        super().__init__()
-        self.topic, self.pair, self._link, self._pairs = topic, pair, link, pairs
-        self._given = words
+        self, name: str, match: Match, link: Link, pairs: Pairs, seen: Words, words: Words | None = None, queue: int = 100
+    ) -> None:
+        """:param words: what a parameter says the quality of service is"""
+        super().__init__(name, match, link, pairs)
+        self._queue, self._given = queue, words
         self.words = words or self.wanted(seen)
-        latched = self.words.get("durability") == "transient_local"
-        self._old: deque = deque(maxlen=100 if topic == "/tf_static" else 1)
+        self._latched = self.words.get("durability") == "transient_local"
+        self._old: deque = deque(maxlen=100 if name == "/tf_static" else 1)
         self._listening, self._lock = False, threading.Lock()
-        self._class = packed(message_class(pair.ros1))
-        self.publisher = rospy.Publisher(topic, self._class, self, queue_size=queue, latch=latched)
-        self._latched = latched
-        if latched:
+        self._class = packed(match.kinds[""])
+        self.publisher: Any = None
+
+    def open(self) -> None:
+        self.publisher = rospy.Publisher(self.name, self._class, self, queue_size=self._queue, latch=self._latched)
+        if self._latched or self.publisher.get_num_connections():
             self._listen()
 
-    def wanted(self, seen: dict[str, Any]) -> dict[str, Any]:
+    def wanted(self, seen: Words) -> Words:
         """What all publishers in ROS 2 can give."""
-        words = {"depth": 100 if self.topic in ("/tf", "/tf_static") else 10}
         return {
-            **words,
+            "depth": 100 if self.name in ("/tf", "/tf_static") else 10,
             **({"reliability": "best_effort"} if seen.get("best_effort") else {}),
             **({"durability": "transient_local"} if seen.get("latched") else {}),
         }
 
-    def look(self, seen: dict[str, Any]) -> None:
+    def look(self, seen: Words) -> None:
         """Publishers have come or gone."""
         words = self._given or self.wanted(seen)
         if words != self.words:
             self.words = words
             if self._listening:
-                self._link.tell("subscribe", self.topic, self.pair.ros2, words)
+                self._link.tell("subscribe", self.name, self.match.ros2, words)
 
-    def unequal(self, policy: str) -> None:
-        self._pairs.once(f"{self.topic}: a publisher of ROS 2 gives less {policy.lower()} than this topic's, and is not heard")
+    def unequal(self, policy: str, _: Any) -> None:
+        """A publisher of ROS 2 gives less of ``policy`` than is asked for."""
+        self._pairs.once(f"{self.name}: a publisher of ROS 2 gives less {policy.lower()} than this topic's, and is not heard")
 
     def peer_subscribe(self, topic_name: str, topic_publish: Any, peer_publish: Any) -> None:
         """rospy tells of a subscriber to ``topic_name``: ``topic_publish`` and ``peer_publish`` send to all and to it."""
-        self._listen()
+        if self.publisher is not None:  # a message may come at once
+            self._listen()
         for message in list(self._old)[:-1] if self._latched else []:  # rospy itself gives the last
             peer_publish(message)
 
@@ -160,21 +162,21 @@ class ToRos1(rospy.SubscribeListener):
         if not num_peers and not self._latched:
             with self._lock:
                 self._listening = False
-            self._link.tell("forget", "subscriber", self.topic)
+            self._link.tell("forget", "subscriber", self.name)
 
     def message(self, data: Any) -> None:
         try:
             message = self._class()
-            message._buff = bytes(self.pair.to_ros1(data))
+            message._buff = bytes(self.match.pairs[""].to_ros1(data))
         except MappingError as error:
-            self._pairs.once(f"{self.topic}: a message from ROS 2 is not bridged: {error}")
+            self._pairs.once(f"{self.name}: a message from ROS 2 is not bridged: {error}")
             return
         if self._latched:
             self._old.append(message)
         self.publisher.publish(message)
 
     def close(self) -> None:
-        self._link.tell("forget", "subscriber", self.topic)
+        self._link.tell("forget", "subscriber", self.name)
         self.publisher.unregister()
 
     def _listen(self) -> None:
@@ -182,4 +184,4 @@ class ToRos1(rospy.SubscribeListener):
             if self._listening:
                 return
             self._listening = True
-        self._link.tell("subscribe", self.topic, self.pair.ros2, self.words)
+        self._link.tell("subscribe", self.name, self.match.ros2, self.words)

@@ -28,18 +28,15 @@ class Codec:
 
     def __init__(self, align: int) -> None:
         self.align = align
+        self.gaps = [bytes(-length % align) for length in range(align)]  # by the length of what is before
 
     def read(self, data: memoryview, at: int) -> tuple[Any, int]:
-        """The value and where it ends."""
+        """The value that begins in ``data``, or after a gap, at the byte ``at``, counted from the end of the header; and where it ends."""
         raise NotImplementedError
 
     def write(self, out: bytearray, value: Any) -> None:
+        """Add ``value`` to ``out``, the bytes up to here, in ROS 2 with their header of four; what does not fit is a MappingError."""
         raise NotImplementedError
-
-    def pad(self, out: bytearray) -> None:
-        gap = (4 - len(out)) % self.align  # from the end of the header on
-        if gap:
-            out += bytes(gap)
 
 
 class Flat(Codec):
@@ -51,10 +48,12 @@ class Flat(Codec):
 
     def read(self, data: memoryview, at: int) -> tuple[Any, int]:
         at += -at % self.align
-        return data[at : at + self.size], at + self.size
+        end = at + self.size
+        return data[at:end], end
 
     def write(self, out: bytearray, value: Any) -> None:
-        self.pad(out)
+        if self.align > 1:
+            out += self.gaps[(len(out) - 4) % self.align]
         out += value
 
 
@@ -72,7 +71,7 @@ class Converted(Codec):
         return self._form.unpack_from(data, at)[0], at + self._form.size
 
     def write(self, out: bytearray, value: Any) -> None:
-        self.pad(out)
+        out += self.gaps[(len(out) - 4) % self.align]
         out += self._form.pack(int(value) if self._whole else value)
 
 
@@ -83,20 +82,21 @@ class Text(Codec):
 
     def __init__(self, align: int, end: bytes, bound: int | None) -> None:
         super().__init__(align)
-        self._end, self._bound = end, bound
+        self._end, self._more, self._bound = end, len(end), bound
 
     def read(self, data: memoryview, at: int) -> tuple[Any, int]:
         at += 4 + -at % self.align
-        (length,) = _LENGTH.unpack_from(data, at - 4)
-        return bytes(data[at : at + max(length - len(self._end), 0)]), at + length
+        end = at + _LENGTH.unpack_from(data, at - 4)[0]
+        return bytes(data[at : end - self._more]), end
 
     def write(self, out: bytearray, value: Any) -> None:
-        if self._end and not value.isascii():  # ROS 1 takes any bytes; a node of ROS 2 in Python ends at what is no UTF-8
-            value = value.decode("utf-8", "replace").encode()
-        if self._bound is not None and len(value) > self._bound:
-            raise MappingError(f"a text of {len(value)} bytes where ROS 2 takes {self._bound}")
-        self.pad(out)
-        out += _LENGTH.pack(len(value) + len(self._end))
+        if self._end:
+            if not value.isascii():  # ROS 1 takes any bytes; a node of ROS 2 in Python ends at what is no UTF-8
+                value = value.decode("utf-8", "replace").encode()
+            if self._bound is not None and len(value) > self._bound:
+                raise MappingError(f"a text of {len(value)} bytes where ROS 2 takes {self._bound}")
+            out += self.gaps[(len(out) - 4) % self.align]
+        out += _LENGTH.pack(len(value) + self._more)
         out += value
         out += self._end
 
@@ -110,38 +110,42 @@ class Array(Codec):
     def __init__(self, align: int, element: Codec, fixed: int, bound: int | None) -> None:
         super().__init__(align)
         self._element, self._fixed, self._bound = element, fixed, bound
-        self.zero = element.zero * fixed if isinstance(element, Flat) else [element.zero] * fixed
+        self._size = element.size if isinstance(element, Flat) else 0
+        self.zero = element.zero * fixed if self._size else [element.zero] * fixed
 
     def read(self, data: memoryview, at: int) -> tuple[Any, int]:
-        count, element = self._fixed, self._element
+        count = self._fixed
         if not count:
             at += 4 + -at % self.align
             (count,) = _LENGTH.unpack_from(data, at - 4)
-        if isinstance(element, Flat):
+        if self._size:
             if count:  # without elements there is no gap before them
-                at += -at % element.align
-            end = at + count * element.size
+                at += -at % self._element.align
+            end = at + count * self._size
             return data[at:end], end
-        values = []
+        values, read = [], self._element.read
         for _ in range(count):
             if at > len(data):
                 raise MappingError("it ends within a list")
-            value, at = element.read(data, at)
+            value, at = read(data, at)
             values.append(value)
         return values, at
 
     def write(self, out: bytearray, value: Any) -> None:
-        flat = isinstance(self._element, Flat)
-        count = len(value) // self._element.size if isinstance(self._element, Flat) else len(value)
+        count = len(value) // self._size if self._size else len(value)
         if self._fixed and count != self._fixed:
             raise MappingError(f"a list of {count} where the other side takes {self._fixed}")
         if self._bound is not None and count > self._bound:
             raise MappingError(f"a list of {count} where ROS 2 takes {self._bound}")
         if not self._fixed:
-            self.pad(out)
+            out += self.gaps[(len(out) - 4) % self.align]
             out += _LENGTH.pack(count)
-        for one in ([value] if count else []) if flat else value:
-            self._element.write(out, one)
+        write = self._element.write
+        if not self._size:
+            for one in value:
+                write(out, one)
+        elif count:
+            write(out, value)
 
 
 class Struct(Codec):
@@ -152,17 +156,18 @@ class Struct(Codec):
 
     def __init__(self, fields: list[tuple[str, Codec]], filler: int) -> None:
         super().__init__(1)
-        self._fields, self._filler, self.zero = fields, bytes(0 if fields else filler), {}
+        self._filler, self.zero = bytes(0 if fields else filler), {}
+        self._fields = [(name, codec.read, codec.write, codec.zero) for name, codec in fields]
 
     def read(self, data: memoryview, at: int) -> tuple[Any, int]:
         values = {}
-        for name, codec in self._fields:
-            values[name], at = codec.read(data, at)
+        for name, read, _, _ in self._fields:
+            values[name], at = read(data, at)
         return values, at + len(self._filler)
 
     def write(self, out: bytearray, value: Any) -> None:
-        for name, codec in self._fields:
-            codec.write(out, value[name] if name in value else codec.zero)
+        for name, _, write, zero in self._fields:
+            write(out, value.get(name, zero))
         out += self._filler
 
 
