@@ -9,7 +9,7 @@ foreach(proto ${protos})
   list(APPEND headers ${generated}/${name}.pb.h)
   # One file of all: they differ in everything but two static names.
   string(APPEND all "#define schemas schemas_${name}\n#define file_default_instances file_default_instances_${name}\n"
-    "#include \"${generated}/${name}.pb.cc\"\n#undef schemas\n#undef file_default_instances\n")
+    "#include <gazebo/msgs/${name}.pb.cc>\n#undef schemas\n#undef file_default_instances\n")
 endforeach()
 file(WRITE ${PROJECT_BINARY_DIR}/messages.cpp.new "${all}")
 configure_file(${PROJECT_BINARY_DIR}/messages.cpp.new ${PROJECT_BINARY_DIR}/messages.cpp COPYONLY)
