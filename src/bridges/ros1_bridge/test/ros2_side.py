@@ -2,12 +2,15 @@
 
 import json
 import os
+import struct
 import subprocess
 import threading
 import time
 from urllib.parse import urlparse
 
+import rospy
 from ros1_bridge.link import environment, prefix
+from sensor_msgs.msg import JointState
 
 PATIENCE = 30.0  # s of wall time
 
@@ -60,3 +63,32 @@ class Other:
     def count(self, **key):
         """How often it was told."""
         return sum(key.items() <= one.items() for one in self.told)
+
+
+class SameStates:
+    """Joint states on ``topic`` as both sides see them."""
+
+    def __init__(self, other, topic):
+        self._other, self._topic, self._ours = other, topic, {}
+        rospy.Subscriber(topic, JointState, self._keep)
+        other.do("hear", topic=topic, kind="JointState", profile="sensor")
+
+    def _keep(self, message):
+        stamp = struct.pack("<2I", message.header.stamp.secs, message.header.stamp.nsecs)
+        self._ours[stamp] = message.name, struct.pack(f"<{len(message.position)}d", *message.position)
+
+    def newest(self):
+        """Positions by joint in ROS 2's newest message that ROS 1 has seen too; {} where there is none."""
+        for data in reversed(self._other.heard(self._topic)):
+            names, bits = self._ours.get(data[4:12], ([], b""))
+            at = data.find(bits)
+            if names and at > 0:
+                return dict(zip(names, struct.unpack_from(f"<{len(names)}d", data, at)))
+        return {}
+
+    def compare(self, case):
+        """Positions are the same bits in all messages of one stamp. :return: how many were compared"""
+        both = [(self._ours[data[4:12]][1], data) for data in self._other.heard(self._topic) if data[4:12] in self._ours]
+        for bits, data in both:
+            case.assertIn(bits, data)
+        return len(both)

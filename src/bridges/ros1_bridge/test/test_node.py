@@ -7,8 +7,8 @@ from ros1_bridge.settings import Options
 TYPES = {
     "std_msgs/String": {"std_msgs/String": {"data": "string"}},
     "std_srvs/SetBool": {
-        "std_srvs/SetBool_Request": {"data": "boolean"},
-        "std_srvs/SetBool_Response": {"success": "boolean", "message": "string"},
+        "std_srvs/SetBoolRequest": {"data": "boolean"},
+        "std_srvs/SetBoolResponse": {"success": "boolean", "message": "string"},
     },
 }
 

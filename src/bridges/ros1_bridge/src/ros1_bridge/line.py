@@ -9,6 +9,8 @@ from collections.abc import Callable
 from multiprocessing.connection import Connection
 from typing import Any
 
+#: What an interface of each form consists of: ROS 1's classes end with these, ROS 2's interface has classes of these names.
+PARTS = {"msg": ("",), "srv": ("Request", "Response"), "action": ("Goal", "Result", "Feedback")}
 BULK = 65536  # bytes from which data goes as a piece of its own
 
 

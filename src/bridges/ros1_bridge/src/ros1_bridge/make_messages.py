@@ -22,6 +22,7 @@ ALWAYS = ("action_msgs", "builtin_interfaces", "service_msgs", "unique_identifie
 RUNTIME = ("rosidl_runtime_c", "rosidl_typesupport_c", "rcutils")
 INTROSPECTION = "introspection_c"
 BOOTSTRAPPED = {"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"}  # the wheels' start-up hook would start Python again for its libraries
+GENERATED = ("rosidl_generator_c", "rosidl_generator_py")  # libraries that one of ours stands for
 PARTS = ("py", "fastrtps_c", "c")  # folders that the generators write
 FASTRTPS = ("rosidl_typesupport_fastrtps_c", "rosidl_typesupport_fastrtps_cpp", "fastcdr", "rmw")
 
@@ -55,18 +56,13 @@ class Package:
     def _rosidl(self, out: Path, files: list[Path]) -> None:
         words = ("-t", "c", "-t", "py", "-ts", "c", "-ts", "fastrtps_c", "-ts", "introspection_c")
         script = "import sys; from rosidl_cli.cli import main; sys.exit(main())"
-        lib = f"{self.prefix}/lib"
+        found = {"PYTHONPATH": DEBIAN, "AMENT_PREFIX_PATH": str(self.prefix), "PATH": "/usr/bin:/bin"}
+        found["LD_LIBRARY_PATH"] = f"{self.prefix}/lib"
         subprocess.run(
             [sys.executable, "-c", script, "generate", "-o", out, *words, "-I", self.prefix / "share", self.name, *map(str, files)],
             check=True,
             cwd=self.source,
-            env={
-                "PYTHONPATH": DEBIAN,
-                "AMENT_PREFIX_PATH": str(self.prefix),
-                "PATH": "/usr/bin:/bin",
-                "LD_LIBRARY_PATH": lib,
-                **BOOTSTRAPPED,
-            },
+            env={**found, **BOOTSTRAPPED},
             stdout=subprocess.DEVNULL,
         )
 
@@ -75,23 +71,15 @@ class Package:
         here, lib = headers / self.name, self.prefix / "lib"
         import numpy
 
-        includes = [
-            headers,
-            self.prefix / "include",
-            *(self.prefix / "include").iterdir(),
-            sysconfig.get_paths()["include"],
-            numpy.get_include(),
-        ]
+        installed = self.prefix / "include"
+        includes = [headers, installed, *installed.iterdir(), sysconfig.get_paths()["include"], numpy.get_include()]
         sources = [path for path in here.rglob("*.c*") if path.suffix in (".c", ".cpp") and ".ep." not in path.name]
         fast = [path for path in sources if path.name.endswith("__type_support_c.cpp")]
         entry = here / f"_{self.name}_s.ep.rosidl_typesupport_c.c"
-        kinds: dict[str, list[str]] = {
-            end: [f"{name}__{end}" for name in self.needs] for end in ("rosidl_generator_c", "rosidl_generator_py")
-        }
         first, second = f"lib{self.name}__rosidl_typesupport_c.so", f"lib{self.name}__rosidl_typesupport_fastrtps_c.so"
-        base = [*kinds["rosidl_generator_c"], *kinds["rosidl_generator_py"], *(f"{n}__rosidl_typesupport_c" for n in self.needs), *RUNTIME]
+        base = [*(f"{name}__{end}" for end in (*GENERATED, "rosidl_typesupport_c") for name in self.needs), *RUNTIME]
         self._link(lib / first, [path for path in sources if path not in fast], includes, base)
-        for end in kinds:  # packages that use this one look for these
+        for end in GENERATED:  # packages that use this one look for these
             (lib / f"lib{self.name}__{end}.so").unlink(missing_ok=True)
             (lib / f"lib{self.name}__{end}.so").symlink_to(first)
         own = f"{self.name}__rosidl_typesupport_c"

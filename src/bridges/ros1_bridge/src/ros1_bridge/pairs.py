@@ -11,12 +11,10 @@ from typing import Any
 import roslib.message
 
 from ros1_bridge.errors import MappingError
+from ros1_bridge.line import PARTS
 from ros1_bridge.link import Link
 from ros1_bridge.types import Types, candidates, candidates_of_ros1, fields_of_ros1, fields_of_ros2
 from ros1_bridge.wire import Pair
-
-#: What an interface of each form consists of: classes of ROS 1 are called by these, those of ROS 2 too, with "_" before.
-PARTS = {"msg": ("",), "srv": ("Request", "Response"), "action": ("Goal", "Result", "Feedback")}
 
 
 def bytes_of(message: Any) -> bytes:
@@ -141,8 +139,7 @@ class Pairs:
         if not kinds or not described:
             return None
         types = {name: fields_of_ros2(fields) for name, fields in described.items()}
-        names = {part: f"{two}_{part}" if part else two for part in kinds}
-        pairs = {part: Pair(one + part, types_of_ros1(kind, one + part), names[part], types) for part, kind in kinds.items()}
+        pairs = {part: Pair(one + part, types_of_ros1(kind, one + part), two + part, types) for part, kind in kinds.items()}
         return Match(one, two, kinds, pairs)
 
 

@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any
 
 import rclpy
-from line import Line, one_line
+from line import PARTS, Line, one_line
 from rclpy.action import ActionClient, ActionServer, CancelResponse
 from rclpy.action.graph import get_action_server_names_and_types_by_node as actions_of
 from rclpy.callback_groups import ReentrantCallbackGroup
@@ -36,7 +36,6 @@ from rclpy.task import Future
 
 LOOK = 0.25  # s between looks at the graph
 FOUND = 10.0  # s until a server that the graph has shown must be connected
-PARTS = {"msg": ("",), "srv": ("_Request", "_Response"), "action": ("_Goal", "_Result", "_Feedback")}
 #: Orders that the thread of the line carries out: they make nothing of rclpy's, and a publisher may publish in any thread.
 AT_ONCE = ("publish", "describe", "known")
 
@@ -159,7 +158,7 @@ class Peer:
         kind = kind_of(name, form)
         found: dict[str, dict[str, str]] = {}
         for part in PARTS[form] if kind is not None else ():
-            fields(getattr(kind, part[1:]) if part else kind, found, name + part)
+            fields(getattr(kind, part) if part else kind, found, name + part)
         self._line.answer(number, found)
 
     def do_known(self, number: int, _: Any) -> None:
@@ -246,14 +245,10 @@ class Peer:
 
     def do_forget(self, what: str, name: str, _: Any) -> None:
         """End the publisher, subscriber, server or action_server (``what``) called ``name``."""
-        made = self._made.pop((what, name), None)
-        if made is None:
-            return
-        if what == "action_server":
-            made.destroy()
-        else:
-            ends = {"publisher": "destroy_publisher", "subscriber": "destroy_subscription", "server": "destroy_service"}
-            getattr(self.node, ends[what])(made)
+        node, made = self.node, self._made.pop((what, name), None)
+        ends = {"publisher": node.destroy_publisher, "subscriber": node.destroy_subscription, "server": node.destroy_service}
+        if made is not None:
+            ends.get(what, ActionServer.destroy)(made)
 
     # -------------------------------------------------------------------------------------------- services
 
