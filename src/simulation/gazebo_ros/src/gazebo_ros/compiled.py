@@ -292,7 +292,7 @@ class Bridge:
         if pose:
             x, y, z, *q = pose
             model = replace(model, pose=d.Pose((x, y, z), (q[0], q[1], q[2], q[3])))
-        resolved = server.resolve(model)
+        resolved = server.plugins.resolve(model)
         self._later(lambda: server.spawn(model, resolved), f"inserting model '{model.name}'")
 
     def _plugin(self, filename: str, name: str, text: str) -> None:
@@ -301,9 +301,9 @@ class Bridge:
         threading.Thread(target=self._resolve_and_start, args=(plugin,), name="load plugin", daemon=True).start()
 
     def _resolve_and_start(self, plugin: d.Plugin) -> None:
-        resolved = self._server.resolve_world_plugin(plugin)
+        resolved = self._server.plugins.resolve_of_world(plugin)
         if resolved is not None:
-            self._later(lambda: self._server.start_world_plugin(resolved), f"loading plugin {plugin.name}")
+            self._later(lambda: self._server.plugins.start_of_world(resolved), f"loading plugin {plugin.name}")
 
     def _remove(self, name: str) -> None:
         self._later(lambda: self._server.remove(name), f"removing model '{name}'")

@@ -8,22 +8,18 @@ import time
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, field
 from typing import Any
 
 import rospy
 from node_signals.rates import Spaced
 from ode_sim.description import model as d
 from ode_sim.errors import Unavailable
-from ode_sim.handles import ModelHandle
 
-from gazebo_ros import protocols
 from gazebo_ros.callbacks import CallbackList, Connection
 from gazebo_ros.delivery import Delivery
 from gazebo_ros.driving import Drivers
-from gazebo_ros.plugin import ModelPlugin, PluginError, SensorPlugin, WorldPlugin
-from gazebo_ros.plugin_host import PluginHost, PluginInstance, ResolvedPlugin, plugin_sdf
-from gazebo_ros.sensors import Sensor
+from gazebo_ros.plugin_host import PluginHost, PluginInstance
+from gazebo_ros.running_plugins import ResolvedModel, RunningPlugins
 from gazebo_ros.server_view import ServerView
 from gazebo_ros.throttle import Throttle
 
@@ -51,25 +47,6 @@ class WallLimit:
         return self._server.throttled or self._gate.due(time.monotonic_ns())
 
 
-class ResolvedModel:
-    """Plugin classes of a model that is about to be spawned, imported outside the physics thread."""
-
-    def __init__(self, model: d.Model, host: PluginHost):
-        where = f"model {model.name}"
-        self.plugins = [host.resolve(plugin, where) for plugin in model.plugins]
-        self.sensor_plugins = {
-            (type(part), part.name, sensor.name): [host.resolve(plugin, where) for plugin in sensor.plugins]
-            for part in model.parts
-            for sensor in part.sensors
-        }
-
-
-@dataclass
-class _ModelRuntime:  # in load order
-    sensors: list[Sensor] = field(default_factory=list)
-    plugins: list[PluginInstance] = field(default_factory=list)
-
-
 class Server:
     """One simulated world, stepped in one thread.
 
@@ -84,6 +61,8 @@ class Server:
         physics waits for every sensor (``--lockstep``): a camera must not drop a frame
     ``delivery``
         in lock-step: what subscribers have not taken yet, which physics waits for, too
+    ``plugins``
+        those of the world and of its models, with their sensors
     ``ros_time``
         let ``rospy.Time.now()`` of this process be :meth:`now` (off when /use_sim_time is false)
     """
@@ -114,7 +93,7 @@ class Server:
         self.stepped = CallbackList()  # called when a run of steps begins or ends: pause, unpause, end of a request
         self.starting = CallbackList()  # called once, before plugins are loaded
         self.went_back = CallbackList()  # called when time has gone back: resets, a saved moment
-        self._host = host
+        self.plugins = RunningPlugins(host, description.name, lambda owner: ServerView(self, owner), self._disconnect)
         self._ros_time = ros_time
         self._iterations_left = iterations or None
         self._requested_steps = 0
@@ -127,9 +106,6 @@ class Server:
         self._thread: int | None = None
         self._before = CallbackList()
         self._after = CallbackList()
-        self._world_plugins: list[PluginInstance] = []
-        self._models: dict[str, _ModelRuntime] = {}
-        self._sensors: tuple[Sensor, ...] = ()
         self._wake_limit = WallLimit(self)
         self.now_ns = 0  # as now(), read at every step
         self._set_now()
@@ -171,11 +147,6 @@ class Server:
         """Steps are paced by wall time, not taken as fast as possible."""
         return self.throttle.paced and not self._requested_steps
 
-    @property
-    def sensors(self) -> tuple[Sensor, ...]:
-        """All sensors that have a plugin, in load order."""
-        return self._sensors
-
     # ------------------------------------------------------------------------------------------ the loop
 
     def run(self) -> None:
@@ -183,7 +154,7 @@ class Server:
         self._thread = threading.get_ident()
         try:
             self.starting.call()
-            self._load_world_plugins()
+            self.plugins.load(self.description.plugins, self.world.models.values())
             self.started.call()
             self.throttle.restart()
             while not self._stopping:
@@ -247,9 +218,10 @@ class Server:
         self._before.call()
 
     def _end_step(self, world) -> None:
-        if self._sensors:
+        sensors = self.plugins.sensors
+        if sensors:
             now_ns = world.time_ns
-            for sensor in self._sensors:
+            for sensor in sensors:
                 sensor.update(now_ns)
         self._after.call()
 
@@ -322,7 +294,7 @@ class Server:
     def reset_world(self) -> None:
         """Model poses back to the initial ones, velocities zero; time and the angles within models stay. Physics thread."""
         self.world.reset_poses()
-        self._reset_plugins([])
+        self.plugins.reset(of_world=False)
 
     def reset_simulation(self) -> None:
         """Time and all poses back to the start. Physics thread."""
@@ -337,9 +309,9 @@ class Server:
     def _time_went_back(self) -> None:
         self._set_now()
         self.throttle.restart()
-        for sensor in self._sensors:
+        for sensor in self.plugins.sensors:
             sensor.reset()
-        self._reset_plugins(self._world_plugins)
+        self.plugins.reset(of_world=True)
         self.went_back.call()
 
     def restore(self, snapshot) -> None:
@@ -352,23 +324,7 @@ class Server:
         self._time_went_back()
         self.stepped.call()
 
-    def _reset_plugins(self, world_plugins: list[PluginInstance]) -> None:
-        for instance in (*world_plugins, *(each for runtime in self._models.values() for each in runtime.plugins)):
-            instance.attempt(instance.plugin.reset)
-
     # ------------------------------------------------------------------------------------------ models
-
-    def resolve(self, model: d.Model) -> ResolvedModel:
-        """Import the plugin classes of a model. Any thread but the physics one: imports may take long."""
-        return ResolvedModel(model, self._host)
-
-    def resolve_world_plugin(self, plugin: d.Plugin) -> ResolvedPlugin | None:
-        """What ``plugin`` of the world means, ready to be started; None, with an ERROR line, where nothing can be."""
-        return self._host.resolve(plugin, f"world {self.description.name}")
-
-    def start_world_plugin(self, plugin: ResolvedPlugin) -> None:  # physics thread
-        """Start ``plugin``, resolved before. Physics thread."""
-        self._start(plugin, WorldPlugin, self._world_plugins)
 
     def spawn(self, model: d.Model, resolved: ResolvedModel):
         """Put ``model`` into the world and start its plugins, ``resolved``. Physics thread.
@@ -377,7 +333,7 @@ class Server:
         """
         handle = self.world.spawn(model)
         self.report_problems(f"model {model.name}")
-        self._load_model_plugins(handle, resolved)
+        self.plugins.start(handle, resolved)
         return handle
 
     def report_problems(self, what: str) -> None:
@@ -387,59 +343,8 @@ class Server:
 
     def remove(self, name: str) -> None:
         """Shut the plugins of the model ``name`` down and take it out of the world. Physics thread."""
-        runtime = self._models.pop(name, None)
-        if runtime:
-            gone = set(map(id, runtime.sensors))
-            self._sensors = tuple(sensor for sensor in self._sensors if id(sensor) not in gone)
-            for instance in runtime.plugins:
-                self._end_plugin(instance)
+        self.plugins.end(name)
         self.world.remove(name)
-
-    def _load_world_plugins(self) -> None:
-        resolved = [self.resolve_world_plugin(plugin) for plugin in self.description.plugins]
-        models = [(handle, self.resolve(handle.description)) for handle in self.world.models.values()]
-        for plugin in filter(None, resolved):
-            self.start_world_plugin(plugin)
-        for handle, plugins in models:
-            self._load_model_plugins(handle, plugins)
-
-    def _load_model_plugins(self, handle: ModelHandle, resolved: ResolvedModel) -> None:
-        """Sensors first, those of links, then of joints, then the model's own plugins in file order, as Gazebo."""
-        runtime = self._models[handle.name] = _ModelRuntime()
-        for part in handle.parts:
-            for description in part.description.sensors:
-                plugins = resolved.sensor_plugins.get((type(part.description), part.name, description.name), [])
-                sensor = Sensor(description, part, PluginInstance.report)
-                for plugin in filter(None, plugins):
-                    self._start(plugin, SensorPlugin, runtime.plugins, sensor)
-                if any(plugins):
-                    runtime.sensors.append(sensor)
-                    self._sensors += (sensor,)
-        for plugin in filter(None, resolved.plugins):
-            self._start(plugin, ModelPlugin, runtime.plugins, handle)
-
-    def _start(
-        self, resolved: ResolvedPlugin, base: type[Any], started: list[PluginInstance], *subject: ModelHandle | protocols.Sensor
-    ) -> None:
-        """Load one plugin; a failure leaves it out with one line.
-
-        :param subject: what the plugin is attached to: a model handle, a Sensor, or nothing for the world
-        """
-        instance = PluginInstance(resolved)
-        if not isinstance(instance.plugin, base):
-            instance.report(PluginError(f"is no {base.__name__}: it cannot be used in this place of the file"))
-            return
-        for thing in subject:
-            if isinstance(thing, Sensor):
-                thing.owner = instance
-        seen: protocols.Server = ServerView(self, instance)
-        if instance.attempt(instance.plugin.load, seen, *subject, plugin_sdf(resolved)):
-            started.append(instance)
-        else:
-            self._disconnect(instance)
-            for thing in subject:
-                if isinstance(thing, Sensor):
-                    thing.disconnect_owner(instance)
 
     def _disconnect(self, instance: PluginInstance) -> None:
         self._before.disconnect_owner(instance)
@@ -447,21 +352,12 @@ class Server:
         self.stepped.disconnect_owner(instance)
         self._drivers.ended(instance)
 
-    def _end_plugin(self, instance: PluginInstance) -> None:
-        self._disconnect(instance)
-        instance.attempt(instance.plugin.shutdown)
-
     def _shutdown(self) -> None:
         self._ended = True
         if self._request is not None:
             self._request.set_exception(Stopped("the simulator is shutting down"))
         self._refuse_calls()
-        for runtime in self._models.values():
-            for instance in runtime.plugins:
-                self._end_plugin(instance)
-        for instance in self._world_plugins:
-            self._end_plugin(instance)
-        self._models.clear()
+        self.plugins.end_all()
 
 
 def log_problems(problems: Iterable[d.Problem], what: str) -> None:

@@ -234,7 +234,7 @@ def test_spawned_plugins_start_and_end_with_their_model(host):
     with Running(make(host, paused=True)) as server:
         text = f"<sdf version='1.6'><model name='m'><link name='l'/>{recorder('m')}</model></sdf>"
         model, _ = read_sdf_model(text, finder=server.finder)
-        resolved = server.resolve(model)
+        resolved = server.plugins.resolve(model)
         server.call(lambda: server.spawn(model, resolved))
         server.call(lambda: server.request_steps(2)).result(10)
         assert LOG == ["load m of m", "before m 1", "after m", "before m 2", "after m"]
@@ -279,5 +279,5 @@ def test_two_plugins_that_drive_the_same_joints_are_one_line(host, errors):
             assert word in told[0]
         server.call(lambda: server.remove("block"))  # and may be spawned anew, with one plugin
         description = replace(server.description.models[0], plugins=server.description.models[0].plugins[:1])
-        server.call(lambda: server.spawn(description, server.resolve(description)))
+        server.call(lambda: server.spawn(description, server.plugins.resolve(description)))
         assert len([line for line in errors if "drive" in line]) == 1, errors

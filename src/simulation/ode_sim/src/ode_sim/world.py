@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,13 +17,14 @@ from ode_sim.description import model as d
 from ode_sim.handles import CollisionHandle, JointHandle, LinkHandle, ModelHandle
 from ode_sim.math3 import compose
 from ode_sim.physics import PhysicsSettings, check_gravity, check_physics, usable_physics
+from ode_sim.random_streams import RandomStreams
+from ode_sim.saved_state import apply_state
 
 if TYPE_CHECKING:
     from ode_sim.actors.puppet import Puppet
 
 Entity = ModelHandle | LinkHandle | CollisionHandle
 _MOST_STEPS = 1_000_000  # in one call into the core
-_LONGEST_TIME = 9e9  # s that the clock's nanoseconds can hold
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,6 @@ class World:
         self.on_spawn: list[Callable[[ModelHandle], None]] = []
         self.on_remove: list[Callable[[ModelHandle], None]] = []
         self._collisions: dict[int, CollisionHandle] = {}
-        self._generators: dict[str, np.random.Generator] = {}
         self.seed = seed
         for light in description.lights:
             self.lights.setdefault(light.name, light)
@@ -89,7 +88,7 @@ class World:
                 except d.DescriptionError as error:
                     self.problems.append(d.Problem("error", f"model '{model.name}' is left out: {error}", model.source))
         if description.state:
-            self._apply_state(description.state)
+            apply_state(self, description.state)
 
     @classmethod
     def load(cls, source: str, seed: int = 0, finder=None) -> World:
@@ -153,20 +152,16 @@ class World:
 
     @property
     def seed(self) -> int:
-        return self._seed
+        return self._random.seed
 
     @seed.setter
     def seed(self, seed: int) -> None:
-        self._seed = int(seed)
-        self.core.seed = self._seed & 0xFFFFFFFFFFFFFFFF
-        self._generators.clear()
+        self._random = RandomStreams(seed)
+        self.core.seed = self._random.seed & 0xFFFFFFFFFFFFFFFF
 
     def rng(self, name: str) -> np.random.Generator:
         """The random generator of that name: its numbers depend on the seed and the name alone."""
-        if name not in self._generators:
-            digest = hashlib.sha256(f"{self._seed}/{name}".encode()).digest()
-            self._generators[name] = np.random.Generator(np.random.PCG64(int.from_bytes(digest[:16], "little")))
-        return self._generators[name]
+        return self._random.stream(name)
 
     # ------------------------------------------------------------------------------------------ models
 
@@ -329,7 +324,7 @@ class World:
         self.core.time_ns = 0
         self.core.iterations = 0
         self.reset_poses()
-        self._generators.clear()
+        self._random.restart()
 
     def reset_time(self) -> None:
         """Time 0; where everything is, how it moves and how many steps were taken stays."""
@@ -353,8 +348,7 @@ class World:
 
     def save(self) -> Snapshot:
         """The whole state: continuing from it gives the same bits as going on without saving."""
-        states = [(name, generator.bit_generator.state) for name, generator in sorted(self._generators.items())]
-        kept = {"seed": self._seed, "streams": states, "actors": [actor.state() for actor in self.actors.values()]}
+        kept = {**self._random.state(), "actors": [actor.state() for actor in self.actors.values()]}
         return Snapshot(tuple(self.models), self.core.save(), json.dumps(kept).encode(), tuple(self.core.welds()))
 
     def restore(self, snapshot: Snapshot) -> None:
@@ -368,17 +362,14 @@ class World:
             )
         try:
             saved = json.loads(snapshot.generators)
-            seed, generators = int(saved["seed"]), {}
+            random = RandomStreams.read(saved)
             if len(saved["actors"]) != len(self.actors):
                 raise ValueError("it is of other actors")
             actors = [actor.read_state(state) for actor, state in zip(self.actors.values(), saved["actors"])]
-            for stream, state in saved["streams"]:
-                generators[stream] = np.random.Generator(np.random.PCG64())
-                generators[stream].bit_generator.state = state
         except (ValueError, TypeError, KeyError) as error:
             raise ValueError(f"the snapshot cannot be restored: its random numbers or actors are damaged ({error})") from None
         self.core.restore(snapshot.state, snapshot.welds)
-        self._seed, self._generators = seed, generators
+        self._random = random
         for actor, state in zip(self.actors.values(), actors):
             actor.set_state(state)
 
@@ -431,38 +422,3 @@ class World:
         if origins.shape != directions.shape:
             raise ValueError(f"{len(origins)} ray origins but {len(directions)} directions")
         return self.core.cast_rays(origins, directions, float(max_range), [c.id for c in ignore])
-
-    # ------------------------------------------------------------------------------------------ <state>
-
-    def _apply_state(self, state: d.WorldState) -> None:
-        """What a saved world says about time, poses and velocities, in the place of the models' own."""
-        if 0.0 <= state.sim_time <= _LONGEST_TIME and 0 <= state.iterations < 2**63:
-            self.core.time_ns = round(state.sim_time * 1e9)
-            self.core.iterations = int(state.iterations)
-        else:
-            self._state_problem(f"no clock shows {state.sim_time:g} s after {state.iterations} steps; it starts from 0")
-        for name, pose in state.light_poses:
-            if name in self.lights:
-                self.lights[name] = replace(self.lights[name], pose=pose)
-        for saved in state.models:
-            model = self.models.get(saved.name)
-            if model is None:
-                continue
-            try:
-                self._apply_model_state(model, saved)
-            except ValueError as error:
-                self._state_problem(f"model '{saved.name}' stays where the simulator has put it: {error}")
-
-    @staticmethod
-    def _apply_model_state(model: ModelHandle, saved: d.ModelState) -> None:
-        if saved.pose is not None:
-            model.pose = saved.pose
-            model.initial_pose = unit_pose(saved.pose)
-        for link_state in saved.links:
-            link = model.links.get(link_state.name)
-            if link is not None:
-                link.pose = link_state.pose
-                link.set_twist(link_state.linear, link_state.angular)
-
-    def _state_problem(self, message: str) -> None:
-        self.problems.append(d.Problem("warning", f"<state>: {message}", self.description.source))

@@ -61,7 +61,7 @@ class MetricsPublisher:
         message = PerformanceMetrics()
         message.header.stamp = self._server.now()
         message.real_time_factor = sim / wall
-        for sensor in self._server.sensors:
+        for sensor in self._server.plugins.sensors:
             in_sim, in_wall = self._rates.setdefault(sensor.scoped_name, _Rate()).read(sensor.counted, self._sim_ns)
             message.sensors.append(
                 SensorPerformanceMetric(

@@ -65,7 +65,7 @@ class SpawnServices:
         log_problems(problems, f"model {model.name}")
         set_robot_namespace(model, request.robot_namespace)
         prepare(model)
-        resolved = server.resolve(model)
+        resolved = server.plugins.resolve(model)
 
         def put() -> None:
             world = server.world
