@@ -170,6 +170,18 @@ def test_what_the_demo_built_without_libraries_is_configured_anew_though_catkin_
     assert ("--force-cmake" in (machine.folder / "words").read_text().split()) == (options == "OFF")
 
 
+def test_the_demo_is_built_with_the_workspaces_options_but_without_compiled_plugins_and_tests(machine):
+    own = ["-DX=1", "-DNOETIC_LABS_COMPILED_PLUGINS=ON", "-DCATKIN_ENABLE_TESTING=ON"]
+    profile = machine.folder / "clone/.catkin_tools/profiles/default/config.yaml"
+    profile.write_text("cmake_args:\n" + "".join(f"- {option}\n" for option in own) + "devel_layout: linked\n")
+    machine.play("catkin", f'echo "$@" > {machine.folder}/words')
+    machine.run("--demo")
+    words = (machine.folder / "words").read_text().split()
+    assert words[words.index("--cmake-args") + 1 :] == ["-DX=1", "-DNOETIC_LABS_COMPILED_PLUGINS=OFF", "-DCATKIN_ENABLE_TESTING=OFF"]
+    machine.run()  # the whole build has the profile's own
+    assert "--cmake-args" not in (machine.folder / "words").read_text()
+
+
 @pytest.mark.parametrize("arguments", [["--demo"], []])
 def test_nothing_is_installed_while_the_build_is_at_work(machine, arguments):
     machine.play(

@@ -139,6 +139,7 @@ class Peer:
                 pass
             except Exception as error:
                 self.tell("", "", "refused", ("a callback",), one_line(error), traceback.format_exc())
+                time.sleep(0.05)  # what fails each time does not take a processor
 
     def _ask(self, kind: str, name: str, data: bytes) -> tuple[int, Future]:
         """Have ``name``, kept as ``kind`` in ROS 1, called with ``data``. Returns the question's number, and what will be its answer."""
