@@ -71,7 +71,10 @@ class RunningPlugins:
         self._start(plugin, WorldPlugin, self._of_world)
 
     def start(self, handle: ModelHandle, resolved: ResolvedModel) -> None:
-        """Those of a model, ``resolved`` before: of its sensors first, on links, then on joints, then its own, in file order as Gazebo."""
+        """Start those of the model ``handle``, ``resolved`` before.
+
+        Of sensors on links first, then on joints, then its own, in file order, as Gazebo.
+        """
         mine = self._of_models[handle.name] = _OfModel()
         for part in handle.parts:
             for description in part.description.sensors:
