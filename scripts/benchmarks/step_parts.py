@@ -85,7 +85,7 @@ def main():
             text.replace("<robotNamespace>/arm", f"<robotNamespace>/{space}"), name=space, finder=server.finder
         )
         model = replace(model, pose=ode_sim.Pose((2.0 * index, 0.0, 0.0)))
-        resolved = server.resolve(model)
+        resolved = server.plugins.resolve(model)
         server.call(lambda: server.spawn(model, resolved))
     managers = [thing._manager for thing in gc.get_objects() if isinstance(thing, GazeboRosControl)]
     server.call(server.unpause)
