@@ -54,6 +54,8 @@ def test_one_that_speaks_no_xmlrpc(monkeypatch):
         OSError(errno.ENOMEM, "no memory"),
         OSError(errno.EMFILE, "too many open files"),
         socket.gaierror(socket.EAI_MEMORY, "no memory"),
+        SystemError("error return without exception set"),  # what CPython says where there is no memory for a MemoryError
+        SystemError("<built-in function exec> returned NULL without setting an exception"),
     ],
     ids=repr,
 )

@@ -137,6 +137,14 @@ def _end_when_starved_at_start() -> None:
         if starved(RuntimeError(reason)):
             _end_starved(reason)
 
+    run_error = rospy.impl.init._node_run_error
+
+    def in_xml_rpc(error: Exception) -> None:
+        if starved(error):
+            _end_starved(error)  # to log it, as rospy does, takes memory
+        run_error(error)
+
+    rospy.impl.init._node_run_error = in_xml_rpc
     rospy.core.add_preshutdown_hook(at_end)
     logging.getLogger("rosout").addFilter(look)
 
@@ -154,6 +162,8 @@ def starved(error: BaseException | None) -> bool:
         and "can't start new thread" in text
         or isinstance(error, ImportError)
         and ("failed to map segment" in text or "cannot allocate memory" in text)
+        or isinstance(error, SystemError)  # the interpreter's own word where not even a MemoryError could be made
+        and ("without exception set" in text or "without setting an exception" in text)
     )
 
 
@@ -169,7 +179,7 @@ def _end_starved(error) -> None:
 
 
 def _watch_for_starvation() -> None:
-    main, thread = sys.excepthook, threading.excepthook
+    main, thread, ignored = sys.excepthook, threading.excepthook, sys.unraisablehook
 
     def in_main(kind, error, trace) -> None:
         _end_starved(error) if starved(error) else main(kind, error, trace)
@@ -180,7 +190,13 @@ def _watch_for_starvation() -> None:
         elif not _over(args.exc_value):
             thread(args)
 
-    sys.excepthook, threading.excepthook = in_main, in_thread
+    def in_bare_thread(args) -> None:
+        """rosgraph starts the thread of a node's XML-RPC server by ``_thread``; init_node waits for it for ever."""
+        if starved(args.exc_value) and "thread" in (args.err_msg or ""):
+            _end_starved(args.exc_value)
+        ignored(args)
+
+    sys.excepthook, threading.excepthook, sys.unraisablehook = in_main, in_thread, in_bare_thread
 
 
 def _over(error: BaseException | None) -> bool:
