@@ -58,7 +58,14 @@ _LAST_RESORT = 1.5  # s from a signal to the end of the process, whatever a plug
 
 def main() -> None:
     """Run the server and end the process."""
-    code = _run()
+    try:
+        code = _run()
+    except DescriptionError as error:  # of the empty world, too
+        rospy.logfatal("%s", error)
+        code = 1
+    except Exception as error:  # rospy's threads would end the process with 0
+        sys.excepthook(type(error), error, error.__traceback__)
+        code = 1
     logging.shutdown()
     sys.stdout.flush()
     sys.stderr.flush()
