@@ -2,6 +2,8 @@
 
 import errno
 import socket
+import subprocess
+import sys
 import threading
 import time
 import xmlrpc.client
@@ -66,3 +68,13 @@ def test_want_of_memory_or_files_is_no_missing_master(monkeypatch, error):
     monkeypatch.setattr(rosgraph.Master, "getPid", refuse)
     with pytest.raises(type(error)):
         master_answers("/test")
+
+
+@pytest.mark.parametrize("error", ["MemoryError()", "SystemError('error return without exception set')"])
+def test_a_bare_thread_without_memory_ends_the_process_with_one_line(error):
+    """rosgraph starts a node's XML-RPC server by ``_thread``, and rospy waits for it for ever."""
+    words = f"import node_signals, _thread, time\nwith node_signals.silent():\n  def run(): raise {error}\n"
+    ended = subprocess.run(
+        [sys.executable, "-c", words + "  _thread.start_new_thread(run, ())\n  time.sleep(20)"], capture_output=True, text=True, timeout=60
+    )
+    assert ended.returncode == 1 and ended.stderr.count("\n") == 1 and "ulimit" in ended.stderr, ended.stderr
