@@ -323,26 +323,40 @@ bool comesTrue(const std::function<bool()>& condition)
   return condition();
 }
 
-TEST(Execution, controllersBehindActions)
+using ExecutionStatus = moveit_controller_manager::ExecutionStatus;
+using trajectory_execution_manager::TrajectoryExecutionManager;
+
+// The parameters of one controller behind an action; `own` numbers are of its entry.
+void useLateController(const std::map<std::string, double>& own = {})
 {
-  using Status = moveit_controller_manager::ExecutionStatus;
   ros::param::set("~moveit_controller_manager", "moveit_simple_controller_manager/MoveItSimpleControllerManager");
   XmlRpc::XmlRpcValue list;
   list[0]["name"] = "late_controller";
   list[0]["action_ns"] = "follow_joint_trajectory";
   list[0]["type"] = "FollowJointTrajectory";
   list[0]["joints"][0] = "joint_1";
+  for (const auto& [key, value] : own)
+    list[0][key] = value;
   ros::param::set("~controller_list", list);
-  trajectory_execution_manager::TrajectoryExecutionManager execution(loader().getModel(), nullptr);
-  const auto moved = [&execution](double position, double duration) {
-    moveit_msgs::RobotTrajectory trajectory;
-    trajectory.joint_trajectory.joint_names = { "joint_1" };
-    trajectory.joint_trajectory.points.resize(2);
-    trajectory.joint_trajectory.points[0].positions = { 0.0 };
-    trajectory.joint_trajectory.points[1].positions = { position };
-    trajectory.joint_trajectory.points[1].time_from_start = ros::Duration(duration);
-    EXPECT_TRUE(execution.push(trajectory));
-  };
+}
+
+void pushMotion(TrajectoryExecutionManager& execution, double position, double duration)
+{
+  moveit_msgs::RobotTrajectory trajectory;
+  trajectory.joint_trajectory.joint_names = { "joint_1" };
+  trajectory.joint_trajectory.points.resize(2);
+  trajectory.joint_trajectory.points[0].positions = { 0.0 };
+  trajectory.joint_trajectory.points[1].positions = { position };
+  trajectory.joint_trajectory.points[1].time_from_start = ros::Duration(duration);
+  EXPECT_TRUE(execution.push(trajectory));
+}
+
+TEST(Execution, controllersBehindActions)
+{
+  using Status = ExecutionStatus;
+  useLateController();
+  TrajectoryExecutionManager execution(loader().getModel(), nullptr);
+  const auto moved = [&execution](double position, double duration) { pushMotion(execution, position, duration); };
   moved(0.5, 0.1);
   EXPECT_EQ(execution.executeAndWait(), Status::ABORTED);  // the controller is not there yet
   auto controller = std::make_unique<Controller>();
@@ -367,6 +381,37 @@ TEST(Execution, controllersBehindActions)
   EXPECT_TRUE(comesTrue([&] { return controller->goals() > goals; }));
   controller.reset();
   EXPECT_EQ(execution.waitForExecution(), Status::ABORTED);
+}
+
+// As upstream: an entry of controller_list may say how long its own controller may take.
+TEST(Execution, aControllerMayHaveItsOwnAllowedDuration)
+{
+  const Controller controller;
+  const double more = 30.0, less = -0.5;
+  for (const bool own : { true, false })
+  {
+    useLateController({ { "allowed_execution_duration_scaling", 1.0 }, { "allowed_goal_duration_margin", own ? more : less } });
+    TrajectoryExecutionManager execution(loader().getModel(), nullptr);
+    execution.setAllowedGoalDurationMargin(own ? less : more);
+    pushMotion(execution, 0.5, 1.0);
+    EXPECT_EQ(execution.executeAndWait(), own ? ExecutionStatus::SUCCEEDED : ExecutionStatus::TIMED_OUT);
+  }
+}
+
+// As upstream: a trajectory begins where the robot is, so the robot must be heard of.
+TEST(Execution, nothingMovesFromWhereNobodyHasHeardTheRobotIs)
+{
+  const Controller controller;
+  useLateController();
+  const auto deaf = std::make_shared<planning_scene_monitor::CurrentStateMonitor>(loader().getModel(), nullptr);
+  deaf->startStateMonitor("joint_states_of_nobody");
+  TrajectoryExecutionManager execution(loader().getModel(), deaf);
+  pushMotion(execution, 0.5, 0.1);
+  EXPECT_EQ(execution.executeAndWait(), ExecutionStatus::ABORTED);
+  EXPECT_EQ(controller.goals(), 0);
+  execution.setAllowedStartTolerance(0.0);  // then nobody asks
+  pushMotion(execution, 0.5, 0.1);
+  EXPECT_EQ(execution.executeAndWait(), ExecutionStatus::SUCCEEDED);
 }
 
 int main(int argc, char** argv)

@@ -2,9 +2,8 @@
 #include <moveit/trajectory_execution_manager/trajectory_execution_manager.h>
 
 #include <algorithm>
-#include <cmath>
-#include <tuple>
 
+#include "laws/execution.hpp"
 #include "log_names.hpp"
 
 namespace trajectory_execution_manager
@@ -18,82 +17,6 @@ std::string listed(const std::set<std::string>& names)
     text += name + " ";
   return text;
 }
-
-std::vector<double> picked(const std::vector<double>& values, const std::vector<std::size_t>& columns, double factor = 1.0)
-{
-  std::vector<double> some;
-  for (const std::size_t column : columns)
-    if (column < values.size())
-      some.push_back(values[column] * factor);
-  return some;
-}
-
-template <typename Trajectory>
-std::vector<std::size_t> columnsOf(const Trajectory& trajectory, const std::set<std::string>& joints)
-{
-  std::vector<std::size_t> columns;
-  for (const std::string& joint : joints)
-  {
-    const auto found = std::find(trajectory.joint_names.begin(), trajectory.joint_names.end(), joint);
-    if (found != trajectory.joint_names.end())
-      columns.push_back(found - trajectory.joint_names.begin());
-  }
-  return columns;
-}
-
-// The part of a trajectory that moves the joints, in alphabetical order.
-moveit_msgs::RobotTrajectory partOf(const moveit_msgs::RobotTrajectory& whole, const std::set<std::string>& joints,
-                                    double scaling)
-{
-  moveit_msgs::RobotTrajectory part;
-  const std::vector<std::size_t> columns = columnsOf(whole.joint_trajectory, joints);
-  if (!columns.empty())
-  {
-    part.joint_trajectory.header = whole.joint_trajectory.header;
-    for (const std::size_t column : columns)
-      part.joint_trajectory.joint_names.push_back(whole.joint_trajectory.joint_names[column]);
-    for (const auto& point : whole.joint_trajectory.points)
-    {
-      part.joint_trajectory.points.emplace_back();
-      auto& own = part.joint_trajectory.points.back();
-      own.positions = picked(point.positions, columns);
-      own.velocities = picked(point.velocities, columns, scaling);
-      own.accelerations = picked(point.accelerations, columns);
-      own.effort = picked(point.effort, columns);
-      own.time_from_start = point.time_from_start;
-    }
-  }
-  const std::vector<std::size_t> bases = columnsOf(whole.multi_dof_joint_trajectory, joints);
-  if (!bases.empty())
-  {
-    part.multi_dof_joint_trajectory.header = whole.multi_dof_joint_trajectory.header;
-    for (const std::size_t column : bases)
-      part.multi_dof_joint_trajectory.joint_names.push_back(whole.multi_dof_joint_trajectory.joint_names[column]);
-    for (const auto& point : whole.multi_dof_joint_trajectory.points)
-    {
-      part.multi_dof_joint_trajectory.points.emplace_back();
-      auto& own = part.multi_dof_joint_trajectory.points.back();
-      for (const std::size_t column : bases)
-        if (column < point.transforms.size())
-          own.transforms.push_back(point.transforms[column]);
-      own.time_from_start = point.time_from_start;
-    }
-  }
-  return part;
-}
-
-bool isWhole(const trajectory_msgs::JointTrajectory& trajectory)
-{
-  ros::Duration before(-1.0);
-  for (const auto& point : trajectory.points)
-  {
-    if (point.positions.size() != trajectory.joint_names.size() || point.time_from_start <= before ||
-        !std::all_of(point.positions.begin(), point.positions.end(), [](double value) { return std::isfinite(value); }))
-      return false;
-    before = point.time_from_start;
-  }
-  return true;
-}
 }  // namespace
 
 TrajectoryExecutionManager::Joints TrajectoryExecutionManager::jointsOf(const std::string& controller) const
@@ -103,81 +26,28 @@ TrajectoryExecutionManager::Joints TrajectoryExecutionManager::jointsOf(const st
   return Joints(joints.begin(), joints.end());
 }
 
-// Those that need a controller: not fixed, passive or mimic.
-TrajectoryExecutionManager::Joints TrajectoryExecutionManager::actuated(const std::vector<std::string>& joints) const
+std::vector<std::string> TrajectoryExecutionManager::choose(const Joints& wanted, const std::vector<std::string>& allowed) const
 {
-  Joints wanted;
-  for (const std::string& name : joints)
-    if (robot_model_->hasJointModel(name))
-    {
-      const moveit::core::JointModel* joint = robot_model_->getJointModel(name);
-      if (!joint->isPassive() && !joint->getMimic() && joint->getType() != moveit::core::JointModel::FIXED)
-        wanted.insert(name);
-    }
-  return wanted;
-}
-
-// As few controllers as possible; of those the default ones, with few joints, active already.
-std::vector<std::string> TrajectoryExecutionManager::select(const Joints& wanted, const std::vector<std::string>& allowed) const
-{
-  std::vector<std::string> useful;
-  std::map<std::string, Joints> joints;
+  std::vector<execution::Controller> controllers;
   for (const std::string& name : allowed)
   {
-    joints[name] = jointsOf(name);
-    if (std::any_of(joints[name].begin(), joints[name].end(),
-                    [&](const std::string& joint) { return wanted.count(joint) > 0; }))
-      useful.push_back(name);
+    const auto state = controller_manager_->getControllerState(name);
+    controllers.push_back({ name, jointsOf(name), state.active_, state.default_ });
   }
-  std::sort(useful.begin(), useful.end());
-  useful.resize(std::min<std::size_t>(useful.size(), 16));
-  using Rank = std::tuple<int, int, int, int>;
-  std::vector<std::string> best;
-  Rank rank_of_best;
-  for (unsigned option = 1; option < (1u << useful.size()); ++option)
-  {
-    std::vector<std::string> names;
-    Joints covered;
-    std::size_t sum = 0;
-    int defaults = 0, active = 0;
-    for (std::size_t i = 0; i < useful.size(); ++i)
-      if (option & (1u << i))
-      {
-        names.push_back(useful[i]);
-        covered.insert(joints[useful[i]].begin(), joints[useful[i]].end());
-        sum += joints[useful[i]].size();
-        const auto state = controller_manager_->getControllerState(useful[i]);
-        defaults += state.default_;
-        active += state.active_;
-      }
-    if (sum != covered.size() || !std::includes(covered.begin(), covered.end(), wanted.begin(), wanted.end()))
-      continue;
-    const int idle = static_cast<int>(names.size()) - active;
-    // Without the right to switch, what is active already comes first.
-    const Rank rank(manage_controllers_ ? 0 : idle, static_cast<int>(names.size()), -defaults, static_cast<int>(sum) + idle);
-    if (best.empty() || rank < rank_of_best)
-    {
-      best = names;
-      rank_of_best = rank;
-    }
-  }
-  return best;
+  return execution::choose(wanted, controllers, manage_controllers_);
 }
 
 bool TrajectoryExecutionManager::configure(TrajectoryExecutionContext& context, const moveit_msgs::RobotTrajectory& trajectory,
                                            const std::vector<std::string>& controllers) const
 {
-  const auto& points = trajectory.joint_trajectory.points;
-  if (points.empty() && trajectory.multi_dof_joint_trajectory.points.empty())
-    return true;
-  if (!isWhole(trajectory.joint_trajectory))
+  const std::string fault = execution::fault(trajectory, *robot_model_->core());
+  if (!fault.empty())
   {
-    ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER,
-                    "Wrong trajectory: each point needs a position for each joint, later than the one before");
+    ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "%s", fault.c_str());
     return false;
   }
-  if (!points.empty() && (trajectory.joint_trajectory.header.stamp + points.back().time_from_start).isZero())
-    return true;  // takes no time
+  if (execution::takesNoTime(trajectory))
+    return true;
   if (!controller_manager_)
   {
     ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "No controller manager is loaded: nothing can be executed");
@@ -186,7 +56,7 @@ bool TrajectoryExecutionManager::configure(TrajectoryExecutionContext& context, 
   std::vector<std::string> names = trajectory.joint_trajectory.joint_names;
   names.insert(names.end(), trajectory.multi_dof_joint_trajectory.joint_names.begin(),
                trajectory.multi_dof_joint_trajectory.joint_names.end());
-  const Joints wanted = actuated(names);
+  const Joints wanted = execution::actuated(names, *robot_model_->core());
   if (wanted.empty())
   {
     ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "The trajectory to execute specifies no joints");
@@ -200,7 +70,7 @@ bool TrajectoryExecutionManager::configure(TrajectoryExecutionContext& context, 
       ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "Controller '%s' is not known", name.c_str());
       return false;
     }
-  context.controllers_ = select(wanted, controllers.empty() ? known : controllers);
+  context.controllers_ = choose(wanted, controllers.empty() ? known : controllers);
   if (context.controllers_.empty())
   {
     std::string text;
@@ -213,45 +83,47 @@ bool TrajectoryExecutionManager::configure(TrajectoryExecutionContext& context, 
     return false;
   }
   for (const std::string& name : context.controllers_)
-    context.trajectory_parts_.push_back(partOf(trajectory, jointsOf(name), execution_velocity_scaling_));
+    context.trajectory_parts_.push_back(execution::share(trajectory, jointsOf(name), execution_velocity_scaling_));
   return true;
 }
 
 // Does the trajectory start where the robot is?
 bool TrajectoryExecutionManager::startsHere(const TrajectoryExecutionContext& context) const
 {
-  if (!(allowed_start_tolerance_ > 0.0) || !csm_ || context.trajectory_parts_.empty())
+  const execution::StartTolerance tolerance{ allowed_start_tolerance_, joints_allowed_start_tolerance_ };
+  if (!tolerance.any() || !csm_ || context.trajectory_parts_.empty())
     return true;
-  if (!csm_->waitForCurrentState(ros::Time::now(), 1.0))
-    ROS_WARN_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER,
-                   "Failed to validate trajectory: couldn't receive full current joint state within 1s");
+  if (!heardOf(context))
+    return false;
   const moveit::core::RobotStatePtr state = csm_->getCurrentState();
-  std::map<std::string, double> own;
-  ros::param::get(node_handle_.resolveName("trajectory_execution/joints_allowed_start_tolerance"), own);
   for (const auto& part : context.trajectory_parts_)
   {
-    if (part.joint_trajectory.points.empty())
+    const std::string line = execution::startDeviation(part, state->core(), tolerance);
+    if (line.empty())
       continue;
-    const auto& names = part.joint_trajectory.joint_names;
-    for (std::size_t i = 0; i < names.size(); ++i)
-    {
-      const moveit::core::JointModel* joint = robot_model_->getJointModel(names[i]);
-      if (!joint || joint->getVariableCount() != 1)
-        continue;
-      const double allowed = own.count(names[i]) ? own[names[i]] : allowed_start_tolerance_;
-      double expected = part.joint_trajectory.points[0].positions[i], current = *state->getJointPositions(joint);
-      joint->enforcePositionBounds(&expected);
-      joint->enforcePositionBounds(&current);
-      if (allowed > 0.0 && !(joint->distance(&expected, &current) <= allowed))
+    ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "%s", line.c_str());
+    return false;
+  }
+  return true;
+}
+
+// Has each joint that is to move been heard of since now? One second at most is waited.
+bool TrajectoryExecutionManager::heardOf(const TrajectoryExecutionContext& context) const
+{
+  const ros::Time now = ros::Time::now();
+  csm_->waitForCurrentState(now, 1.0);
+  std::vector<std::string> missing;
+  csm_->haveCompleteState(now, missing);
+  for (const auto& part : context.trajectory_parts_)
+    for (const std::string& name : part.joint_trajectory.joint_names)
+      if (std::find(missing.begin(), missing.end(), name) != missing.end())
       {
         ROS_ERROR_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER,
-                        "Invalid Trajectory: start point deviates from current robot state more than %g: joint '%s': "
-                        "expected: %g, current: %g. Plan again from where the robot is now",
-                        allowed, names[i].c_str(), expected, current);
+                        "Failed to validate trajectory: couldn't receive full current joint state within 1s: joint '%s' is not "
+                        "in what %s says",
+                        name.c_str(), csm_->getMonitoredTopic().c_str());
         return false;
       }
-    }
-  }
   return true;
 }
 
@@ -274,7 +146,7 @@ bool TrajectoryExecutionManager::ensureActiveControllersForJoints(const std::vec
     return false;
   std::vector<std::string> known;
   controller_manager_->getControllersList(known);
-  const std::vector<std::string> chosen = select(actuated(joints), known);
+  const std::vector<std::string> chosen = choose(execution::actuated(joints, *robot_model_->core()), known);
   return !chosen.empty() && ensureActiveControllers(chosen);
 }
 

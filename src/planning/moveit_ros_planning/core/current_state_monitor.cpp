@@ -1,6 +1,7 @@
 #include <moveit/planning_scene_monitor/current_state_monitor.h>
 
 #include <chrono>
+#include <cmath>
 #include <sstream>
 
 #include <tf2_eigen/tf2_eigen.h>
@@ -271,18 +272,26 @@ void CurrentStateMonitor::clearUpdateCallbacks()
 }
 
 // Whether the state is another one than before.
-bool CurrentStateMonitor::takeJoint(const sensor_msgs::JointState& joint_state, std::size_t i)
+bool CurrentStateMonitor::takeJoint(const sensor_msgs::JointState& joint_state, const ros::Time& stamp, std::size_t i)
 {
   if (!robot_model_->hasJointModel(joint_state.name[i]))
     return false;
   const moveit::core::JointModel* joint = robot_model_->getJointModel(joint_state.name[i]);
   if (joint->getVariableCount() != 1)
     return false;
+  double position = joint_state.position[i];
+  if (!std::isfinite(position))
+  {
+    ROS_ERROR_STREAM_THROTTLE_NAMED(
+        5, log_names::CURRENT_STATE_MONITOR,
+        "joint '" << joint->getName() << "' has the position " << position << " on " << getMonitoredTopic() << ": ignored");
+    return false;
+  }
   const auto heard = joint_time_.find(joint);
-  if (heard != joint_time_.end() && heard->second >= joint_state.header.stamp)
+  if (heard != joint_time_.end() && heard->second >= stamp)
   {
     // Time ran backwards: a simulation was reset, a bag began again. A stamp that comes twice is nothing.
-    if (heard->second > joint_state.header.stamp)
+    if (heard->second > stamp)
     {
       ROS_WARN_STREAM_NAMED(log_names::CURRENT_STATE_MONITOR, "New joint state for joint '"
                                                                   << joint->getName()
@@ -293,8 +302,7 @@ bool CurrentStateMonitor::takeJoint(const sensor_msgs::JointState& joint_state, 
         entry = entry->second.isZero() ? std::next(entry) : joint_time_.erase(entry);
     }
   }
-  joint_time_[joint] = joint_state.header.stamp;
-  double position = joint_state.position[i];
+  joint_time_[joint] = stamp;
   const moveit::core::VariableBounds& bounds = joint->getVariableBounds()[0];
   if (bounds.position_bounded_ && !isContinuous(*joint))
   {
@@ -328,12 +336,20 @@ void CurrentStateMonitor::take(const sensor_msgs::JointStateConstPtr& joint_stat
                              "match number of positions)");
     return;
   }
+  ros::Time stamp = joint_state->header.stamp;
+  if (stamp.isZero())
+  {
+    ROS_WARN_ONCE_NAMED(log_names::CURRENT_STATE_MONITOR,
+                        "joint states on %s carry no time; the time of their arrival is used instead",
+                        getMonitoredTopic().c_str());
+    stamp = ros::Time::now();
+  }
   std::vector<JointStateUpdateCallback> callbacks;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     bool changed = false;
     for (std::size_t i = 0; i < joint_state->name.size(); ++i)
-      changed = takeJoint(*joint_state, i) || changed;
+      changed = takeJoint(*joint_state, stamp, i) || changed;
     if (changed)
       callbacks = update_callbacks_;
   }

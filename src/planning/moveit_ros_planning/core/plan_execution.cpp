@@ -2,9 +2,11 @@
 #include <moveit/plan_execution/plan_execution.h>
 
 #include <algorithm>
+#include <optional>
 
 #include <moveit/utils/message_checks.h>
 
+#include "laws/execution.hpp"
 #include "log_names.hpp"
 
 namespace plan_execution
@@ -14,12 +16,6 @@ namespace
 using Codes = moveit_msgs::MoveItErrorCodes;
 using planning_scene_monitor::LockedPlanningSceneRO;
 using planning_scene_monitor::PlanningSceneMonitor;
-
-// Another attempt may find what this one did not.
-bool mayBeTriedAgain(int code)
-{
-  return code == Codes::PLANNING_FAILED || code == Codes::INVALID_MOTION_PLAN || code == Codes::UNABLE_TO_AQUIRE_SENSOR_DATA;
-}
 
 int codeOf(const moveit_controller_manager::ExecutionStatus& status)
 {
@@ -91,16 +87,8 @@ bool PlanExecution::attempt(ExecutableMotionPlan& plan, const Options& opt, bool
       repair ? opt.repair_plan_callback_(plan, execution_->getCurrentExpectedTrajectoryIndex()) : opt.plan_callback_(plan);
   if (preempt_)
     return false;
-  if (mayBeTriedAgain(plan.error_code_.val))
-  {
-    if (plan.error_code_.val == Codes::UNABLE_TO_AQUIRE_SENSOR_DATA)
-      ros::WallDuration(opt.replan_delay_).sleep();
-    return true;
-  }
-  if (!found)
-    return false;
-  solved = true;
-  if (plan.error_code_.val == Codes::SUCCESS)
+  solved = solved || found;
+  if (found && plan.error_code_.val == Codes::SUCCESS)
   {
     if (opt.before_execution_callback_)
       opt.before_execution_callback_();
@@ -108,9 +96,10 @@ bool PlanExecution::attempt(ExecutableMotionPlan& plan, const Options& opt, bool
       return false;
     plan.error_code_ = executeAndMonitor(plan, false);
   }
-  if (plan.error_code_.val != Codes::MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE)
+  if (!execution::mayPlanAgain(plan.error_code_.val))
     return false;
-  ros::WallDuration(opt.replan_delay_).sleep();
+  if (execution::waitsBeforePlanning(plan.error_code_.val))
+    ros::WallDuration(opt.replan_delay_).sleep();
   return !preempt_;
 }
 
@@ -170,16 +159,13 @@ bool PlanExecution::push(ExecutableMotionPlan& plan)
 void PlanExecution::unwind(ExecutableMotionPlan& plan, std::size_t index) const
 {
   robot_trajectory::RobotTrajectory& trajectory = *plan.plan_components_[index].trajectory_;
-  const robot_trajectory::RobotTrajectory* before = nullptr;
-  for (std::size_t j = 0; j < index; ++j)
-  {
-    const auto& other = plan.plan_components_[j].trajectory_;
-    if (other && !other->empty() &&
-        (!before || before->getGroup() != trajectory.getGroup() || other->getGroup() == trajectory.getGroup()))
-      before = other.get();
-  }
-  if (before)
-    trajectory.unwind(before->getLastWayPoint());
+  std::vector<std::optional<std::string>> groups;
+  for (const ExecutableTrajectory& part : plan.plan_components_)
+    groups.push_back(part.trajectory_ && !part.trajectory_->empty() ? std::optional(part.trajectory_->getGroupName())
+                                                                    : std::nullopt);
+  const int before = execution::goesOnFrom(groups, index);
+  if (before >= 0)
+    trajectory.unwind(plan.plan_components_[before].trajectory_->getLastWayPoint());
   else if (plan.planning_scene_monitor_->getStateMonitor())
     trajectory.unwind(*plan.planning_scene_monitor_->getStateMonitor()->getCurrentState());
   else

@@ -164,7 +164,7 @@ MotionPlanResponse PlanningComponent::planOnce(const PlanRequestParameters& para
   if (current_goal_constraints_.empty())
   {
     ROS_ERROR_NAMED(log_names::PLANNING_COMPONENT, "No goal constraints set for planning request");
-    solution.error_code_ = MoveItErrorCode(MoveItErrorCode::INVALID_GOAL_CONSTRAINTS);
+    solution.error_code_ = moveit::core::MoveItErrorCode(moveit::core::MoveItErrorCode::INVALID_GOAL_CONSTRAINTS);
     return solution;
   }
   const auto pipeline = moveit_cpp_->getPlanningPipelines().find(parameters.planning_pipeline);
@@ -172,7 +172,7 @@ MotionPlanResponse PlanningComponent::planOnce(const PlanRequestParameters& para
   {
     ROS_ERROR_NAMED(log_names::PLANNING_COMPONENT, "No planning pipeline available for name '%s'",
                     parameters.planning_pipeline.c_str());
-    solution.error_code_ = MoveItErrorCode(MoveItErrorCode::FAILURE);
+    solution.error_code_ = moveit::core::MoveItErrorCode(moveit::core::MoveItErrorCode::FAILURE);
     return solution;
   }
   const auto start = considered_start_state_ ? considered_start_state_ : moveit_cpp_->getCurrentState();
@@ -200,8 +200,8 @@ MotionPlanResponse PlanningComponent::planOnce(const PlanRequestParameters& para
   if (!pipeline->second->generatePlan(scene, request, solution))
   {
     ROS_ERROR_NAMED(log_names::PLANNING_COMPONENT, "Could not compute plan successfully");
-    if (solution.error_code_.val == MoveItErrorCode::SUCCESS || solution.error_code_.val == 0)
-      solution.error_code_ = MoveItErrorCode(MoveItErrorCode::FAILURE);
+    if (solution.error_code_.val == moveit::core::MoveItErrorCode::SUCCESS || solution.error_code_.val == 0)
+      solution.error_code_ = moveit::core::MoveItErrorCode(moveit::core::MoveItErrorCode::FAILURE);
     solution.trajectory_.reset();
   }
   solution.start_state_ = request.start_state;
@@ -227,7 +227,7 @@ MotionPlanResponse PlanningComponent::plan(const MultiPipelinePlanRequestParamet
       {
         ROS_ERROR_NAMED(log_names::PLANNING_COMPONENT, "Planning pipeline '%s' threw exception '%s'",
                         own.planning_pipeline.c_str(), error.what());
-        solution.error_code_ = MoveItErrorCode(MoveItErrorCode::FAILURE);
+        solution.error_code_ = moveit::core::MoveItErrorCode(moveit::core::MoveItErrorCode::FAILURE);
       }
       std::lock_guard<std::mutex> lock(one_at_a_time);
       solutions.pushBack(solution);

@@ -2,26 +2,20 @@
 #include <moveit/trajectory_execution_manager/trajectory_execution_manager.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "built_in_controllers.hpp"
+#include "execution_parameters.hpp"
+#include "laws/execution.hpp"
 #include "log_names.hpp"
 
 namespace trajectory_execution_manager
 {
 namespace
 {
-double durationOf(const moveit_msgs::RobotTrajectory& part)
+double ownOr(const std::map<std::string, double>& own, const std::string& name, double standard)
 {
-  const ros::Time now = ros::Time::now();
-  double longest = 0.0;
-  if (!part.joint_trajectory.points.empty())
-    longest = part.joint_trajectory.points.back().time_from_start.toSec() +
-              std::max(0.0, (part.joint_trajectory.header.stamp - now).toSec());
-  if (!part.multi_dof_joint_trajectory.points.empty())
-    longest = std::max(longest, part.multi_dof_joint_trajectory.points.back().time_from_start.toSec() +
-                                    std::max(0.0, (part.multi_dof_joint_trajectory.header.stamp - now).toSec()));
-  return longest;
+  const auto found = own.find(name);
+  return found == own.end() ? standard : found->second;
 }
 }  // namespace
 
@@ -61,6 +55,9 @@ void TrajectoryExecutionManager::initialize()
   settings.getParam("execution_velocity_scaling", execution_velocity_scaling_);
   settings.getParam("allowed_start_tolerance", allowed_start_tolerance_);
   settings.getParam("wait_for_trajectory_completion", wait_for_trajectory_completion_);
+  joints_allowed_start_tolerance_ = readStartTolerances(settings);
+  controller_duration_scaling_ = readOfControllers(node_handle_, "allowed_execution_duration_scaling");
+  controller_duration_margin_ = readOfControllers(node_handle_, "allowed_goal_duration_margin");
   loadControllers();
   event_topic_subscriber_ =
       root_node_handle_.subscribe<std_msgs::String>(EXECUTION_EVENT_TOPIC, 100, [this](const std_msgs::StringConstPtr& event) {
@@ -271,13 +268,25 @@ bool TrajectoryExecutionManager::send(const TrajectoryExecutionContext& context)
   return true;
 }
 
+// The longest of the controllers' times.
+double TrajectoryExecutionManager::allowedDuration(const TrajectoryExecutionContext& context) const
+{
+  const ros::Time now = ros::Time::now();
+  double longest = 0.0;
+  for (std::size_t i = 0; i < context.controllers_.size(); ++i)
+  {
+    const std::string& name = context.controllers_[i];
+    const double scaling = ownOr(controller_duration_scaling_, name, allowed_execution_duration_scaling_);
+    const double margin = ownOr(controller_duration_margin_, name, allowed_goal_duration_margin_);
+    longest = std::max(longest, execution::allowedDuration(context.trajectory_parts_[i], now, scaling, margin));
+  }
+  return longest;
+}
+
 TrajectoryExecutionManager::Status TrajectoryExecutionManager::watch(const TrajectoryExecutionContext& context,
                                                                      const ros::Time& started)
 {
-  double longest = 0.0;
-  for (const auto& part : context.trajectory_parts_)
-    longest = std::max(longest, durationOf(part));
-  const double allowed = longest * allowed_execution_duration_scaling_ + allowed_goal_duration_margin_;
+  const double allowed = allowedDuration(context);
   std::vector<moveit_controller_manager::MoveItControllerHandlePtr> handles;
   {
     std::lock_guard<std::mutex> lock(mutex_);
@@ -318,8 +327,12 @@ TrajectoryExecutionManager::Status TrajectoryExecutionManager::watch(const Traje
 // Three states in a row without motion, one second at most.
 void TrajectoryExecutionManager::waitForRest(const TrajectoryExecutionContext& context) const
 {
-  if (!(allowed_start_tolerance_ > 0.0) || !wait_for_trajectory_completion_ || !csm_)
+  const execution::StartTolerance tolerance{ allowed_start_tolerance_, joints_allowed_start_tolerance_ };
+  if (!tolerance.any() || !wait_for_trajectory_completion_ || !csm_)
     return;
+  std::vector<std::string> joints;
+  for (const auto& part : context.trajectory_parts_)
+    joints.insert(joints.end(), part.joint_trajectory.joint_names.begin(), part.joint_trajectory.joint_names.end());
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(1.0);
   moveit::core::RobotStatePtr before = csm_->getCurrentState();
   for (int still = 0; still < 3 && !stopped_ && ros::WallTime::now() < end;)
@@ -327,12 +340,7 @@ void TrajectoryExecutionManager::waitForRest(const TrajectoryExecutionContext& c
     if (!csm_->waitForCurrentState(ros::Time::now(), std::max(0.01, (end - ros::WallTime::now()).toSec())))
       return;
     const moveit::core::RobotStatePtr now = csm_->getCurrentState();
-    bool moved = false;
-    for (const auto& part : context.trajectory_parts_)
-      for (const std::string& name : part.joint_trajectory.joint_names)
-        if (const moveit::core::JointModel* joint = now->getJointModel(name))
-          moved = moved || now->distance(*before, joint) > allowed_start_tolerance_;
-    still = moved ? 0 : still + 1;
+    still = execution::moved(joints, before->core(), now->core(), tolerance, 1.0) ? 0 : still + 1;
     before = now;
   }
 }

@@ -4,6 +4,7 @@
 #include <moveit/robot_state/cartesian_interpolator.h>
 #include <ros/ros.h>
 
+#include <cmath>
 #include <condition_variable>
 #include <mutex>
 
@@ -158,6 +159,35 @@ TEST(Monitor, followsJointStatesAndObjectsAndHandsItsSceneOn)
   ASSERT_TRUE(other->requestPlanningSceneState("scene_of_the_test"));
   EXPECT_TRUE(LockedPlanningSceneRO(other)->getWorld()->hasObject("post"));
   EXPECT_EQ(LockedPlanningSceneRO(other)->getCurrentState().getVariablePosition("joint_6"), 0.5);
+}
+
+// One face of two: move_group's monitor, which is Python, does the same.
+TEST(StateMonitor, ignoresWhatIsNoNumberAndTakesJointStatesWithoutAStamp)
+{
+  planning_scene_monitor::CurrentStateMonitor monitor(loader()->getModel(), nullptr);
+  ros::NodeHandle nh;
+  ros::Publisher joints = nh.advertise<sensor_msgs::JointState>("odd_joint_states", 10, true);
+  monitor.startStateMonitor("odd_joint_states");
+  sensor_msgs::JointState state;
+  state.name = { "joint_1", "joint_2", "joint_3", "joint_4", "joint_5", "joint_6", "finger_joint" };
+  state.position = { 0.3, 0.1, 0.2, 0.3, 0.4, 0.5, 0.01 };
+  const ros::Time before = ros::Time::now();
+  joints.publish(state);  // its stamp is zero
+  ASSERT_TRUE(monitor.waitForCurrentState(before, 20.0));
+  EXPECT_EQ(monitor.getCurrentState()->getVariablePosition("joint_1"), 0.3);
+  for (const double odd : { std::nan(""), HUGE_VAL })
+  {
+    state.position[0] = odd;
+    state.position[1] += 0.1;
+    state.header.stamp = ros::Time::now();
+    joints.publish(state);
+    const ros::WallTime since = ros::WallTime::now();
+    while (monitor.getCurrentState()->getVariablePosition("joint_2") != state.position[1] &&
+           ros::WallTime::now() - since < ros::WallDuration(20))
+      ros::WallDuration(0.01).sleep();
+    EXPECT_EQ(monitor.getCurrentState()->getVariablePosition("joint_2"), state.position[1]);
+    EXPECT_EQ(monitor.getCurrentState()->getVariablePosition("joint_1"), 0.3);
+  }
 }
 
 int main(int argc, char** argv)

@@ -99,10 +99,6 @@ class ControllerManager(ABC):
         """One line: which controllers there are, and where they were looked up."""
         return ", ".join(f"{name} ({', '.join(self.joints(name))})" for name in self.controllers()) or "none"
 
-    def limits(self, controller: str) -> dict[str, float]:
-        """``scaling`` and ``margin`` of the allowed duration, where this controller has its own."""
-        return {}
-
 
 class Completion:
     """A status with an event, for handles that finish in another thread."""

@@ -17,6 +17,7 @@ from moveit_core.errors import PlanningError
 from moveit_msgs.msg import MoveItErrorCodes, PlanningScene, RobotTrajectory
 from trajectory_msgs.msg import JointTrajectoryPoint
 
+from . import _execution  # type: ignore[attr-defined]  # compiled
 from .scene_monitor import GEOMETRY, TRANSFORMS, SceneMonitor
 from .trajectory_execution import ExecutionError, TrajectoryExecution
 
@@ -39,13 +40,6 @@ _SENSING = [
     Parameter("max_cost_sources", int, 100, 1, 10000, "Places on a path that are looked at"),
     Parameter("discard_overlapping_cost_sources", float, 0.8, 0.01, 1.0, "Places that overlap by more count as one"),
 ]
-#: outcomes after which planning again may help
-_AGAIN = (
-    MoveItErrorCodes.PLANNING_FAILED,
-    MoveItErrorCodes.INVALID_MOTION_PLAN,
-    MoveItErrorCodes.UNABLE_TO_AQUIRE_SENSOR_DATA,
-    MoveItErrorCodes.MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE,
-)
 
 
 @dataclass
@@ -130,10 +124,10 @@ class PlanExecution:
             if plan.code == MoveItErrorCodes.SUCCESS:
                 before()
                 self.execute(plan, diff, stop, stops)
-            if plan.code not in _AGAIN or left <= 0 or stop.is_set():
+            if not _execution.may_plan_again(plan.code) or left <= 0 or stop.is_set():
                 return plan
             rospy.loginfo("Planning attempt failed (%s); %d of them are left", plan.message, left)
-            if delay > 0:
+            if delay > 0 and _execution.waits_before_planning(plan.code):
                 rospy.loginfo("Waiting for a %f seconds before attempting a new plan ...", delay)
                 stop.wait(delay)
 
@@ -177,19 +171,23 @@ class _Run:
         self._effect_failed = False
 
     def go(self) -> None:
-        reference = self._monitor.states.state()
-        messages = []
-        for segment in self._plan.segments:
-            if segment.trajectory is not None and len(segment.trajectory):
-                segment.trajectory.unwind(reference)
-                reference = segment.trajectory.state(len(segment.trajectory) - 1)
-            messages.append(states.trajectory_message(segment.trajectory))
+        self._unwind()
+        messages = [states.trajectory_message(segment.trajectory) for segment in self._plan.segments]
         self._monitor.on_change(self._scene_changed)
         try:
             execution = self._execution.start(messages, self._segment_done, self._stops)
             self._watch(execution)
         finally:
             self._monitor.off_change(self._scene_changed)
+
+    def _unwind(self) -> None:
+        """Continuous joints go on from where the trajectory before leaves them, those of the first from where they are."""
+        trajectories = [segment.trajectory if segment.trajectory and len(segment.trajectory) else None for segment in self._plan.segments]
+        groups = [trajectory.group if trajectory else None for trajectory in trajectories]
+        for index, trajectory in enumerate(trajectories):
+            before = _execution.goes_on_from(groups, index)
+            if trajectory:
+                trajectory.unwind(trajectories[before].state(-1) if before >= 0 else self._monitor.states.state())
 
     def _scene_changed(self, kinds: int) -> None:
         if kinds & (GEOMETRY | TRANSFORMS):

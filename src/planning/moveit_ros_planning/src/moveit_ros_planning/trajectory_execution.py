@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import bisect
+import io
 import math
 import threading
 import time
@@ -11,15 +12,16 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
+import genpy
 import rospy
 from dynamic_parameters import Parameter, Server
-from moveit_core import states
 from moveit_core.controller_manager import ControllerHandle, ControllerManager, ExecutionStatus
 from moveit_core.errors import MoveItError
 from moveit_msgs.msg import MoveItErrorCodes, RobotTrajectory
 from std_msgs.msg import String
 
-from .controllers import ControllerChoice, load_manager, share
+from . import _execution  # type: ignore[attr-defined]  # compiled
+from .controllers import ControllerChoice, load_manager
 from .state_monitor import CurrentStateMonitor
 
 _PARAMETERS = [
@@ -62,6 +64,8 @@ _PARAMETERS = [
         level=6,
     ),
 ]
+#: parameters that an entry of controller_list may have for its own controller
+_DURATIONS = ("allowed_execution_duration_scaling", "allowed_goal_duration_margin")
 #: a line about the remaining time is printed this often (s)
 _REPORT = 5.0
 #: wall s: a stop that comes this little before a goal which was stamped no later was meant for it
@@ -77,8 +81,12 @@ class _Step:
     """One trajectory of an execution: its controllers and their shares."""
 
     controllers: list[str]
-    parts: list[RobotTrajectory]
+    parts: list[_execution.Trajectory]
     times: list[float]
+
+    @property
+    def joints(self) -> list[str]:
+        return [name for part in self.parts for name in part.joint_names]
 
 
 class TrajectoryExecution:
@@ -103,13 +111,29 @@ class TrajectoryExecution:
         manage = bool(rospy.get_param(namespace + "moveit_manage_controllers", False))
         rospy.loginfo("MoveIt %s allowed to manage controllers", "is" if manage else "is not")
         self.manager: ControllerManager | None = load_manager(model, namespace)
-        self.choice = ControllerChoice(model, self.manager, manage) if self.manager else None
+        self.choice = ControllerChoice(self.manager, manage) if self.manager else None
+        self._own = self._read_own()
         self._subscriber = rospy.Subscriber("trajectory_execution_event", String, self._on_event, queue_size=100)
         if self.manager:
             rospy.loginfo("Trajectory execution is managing controllers")
 
     def _reconfigure(self, config, _level) -> None:
         self.config = config
+
+    def _read_own(self) -> dict[tuple[str, str], float]:
+        """What entries of ``~controller_list`` allow their own controllers, whatever manager is used."""
+        entries = rospy.get_param(self.namespace + "controller_list", None)
+        return {
+            (str(entry.get("name")), key): float(entry[key])
+            for entry in (entries if isinstance(entries, list) else [])
+            if isinstance(entry, dict)
+            for key in _DURATIONS
+            if _is_number(entry.get(key))
+        }
+
+    def own_or_common(self, controller: str, key: str) -> float:
+        """The parameter ``key`` of :data:`_DURATIONS` as it holds for ``controller``."""
+        return self._own.get((controller, key), float(self.config[key]))
 
     def shutdown(self) -> None:
         """Stop what moves."""
@@ -178,8 +202,12 @@ class TrajectoryExecution:
         execution.begin(self.stops != stops)
         return execution
 
-    def _step(self, trajectory: RobotTrajectory) -> _Step:
-        if states.is_empty_trajectory(trajectory) or self._takes_no_time(trajectory):
+    def _step(self, message: RobotTrajectory) -> _Step:
+        trajectory = _read(message)
+        fault = trajectory.fault(self.model)
+        if fault:
+            raise ExecutionError(fault)
+        if trajectory.takes_no_time:
             return _Step([], [], [])
         if self.manager is None or self.choice is None:
             raise ExecutionError(
@@ -187,8 +215,7 @@ class TrajectoryExecution:
                 f"{rospy.resolve_name(self.namespace + 'moveit_controller_manager')} "
                 "names none that could be used, so nothing can be executed"
             )
-        self._check_points(trajectory)
-        wanted = self.choice.actuated(trajectory)
+        wanted = _execution.actuated([*trajectory.joint_names, *trajectory.multi_dof_joint_names], self.model)
         if not wanted:
             raise ExecutionError("The trajectory to execute specifies no joints that a controller could move")
         chosen = self.choice.choose(wanted)
@@ -202,103 +229,54 @@ class TrajectoryExecution:
                 f"{self.manager.describe()}"
             )
         scaling = float(self.config["execution_velocity_scaling"])
-        parts = [share(trajectory, self.manager.joints(name), scaling) for name in chosen]
-        points = trajectory.joint_trajectory.points or trajectory.multi_dof_joint_trajectory.points
-        return _Step(chosen, parts, [point.time_from_start.to_sec() for point in points])
+        return _Step(chosen, [trajectory.share(set(self.manager.joints(name)), scaling) for name in chosen], trajectory.times)
 
-    def _check_points(self, trajectory: RobotTrajectory) -> None:
-        joints, multi = trajectory.joint_trajectory, trajectory.multi_dof_joint_trajectory
-        for name in (*joints.joint_names, *multi.joint_names):
-            if not self.model.has_joint(name):
-                raise ExecutionError(f"the trajectory moves joint '{name}', which the robot '{self.model.name}' does not have")
-        for number, point in enumerate(joints.points):
-            self._check_numbers(number, joints.joint_names, "positions", point.positions)
-            for what in ("velocities", "accelerations", "effort"):
-                if getattr(point, what):
-                    self._check_numbers(number, joints.joint_names, what, getattr(point, what))
-        for number, point in enumerate(multi.points):
-            places = [
-                value
-                for place in point.transforms
-                for vector in (place.translation, place.rotation)
-                for value in (getattr(vector, axis) for axis in vector.__slots__)
-            ]
-            self._check_numbers(number, multi.joint_names, "transforms", point.transforms, places)
-        for points in (joints.points, multi.points):
-            self._check_times([point.time_from_start.to_sec() for point in points])
-
-    @staticmethod
-    def _check_numbers(number: int, names: Sequence[str], what: str, values: Sequence, numbers: Sequence[float] | None = None) -> None:
-        if len(values) != len(names):
-            raise ExecutionError(f"Wrong trajectory: point {number} has {len(values)} {what} for {len(names)} joints")
-        if not all(map(math.isfinite, values if numbers is None else numbers)):
-            raise ExecutionError(f"Wrong trajectory: point {number} holds a number that is not finite")
-
-    @staticmethod
-    def _check_times(times: Sequence[float]) -> None:
-        for number, (before, now) in enumerate(zip([-1.0, *times], times)):
-            if now <= before:
-                raise ExecutionError(f"Wrong trajectory: point {number} comes at {now:g} s, not after the one before")
-
-    @staticmethod
-    def _takes_no_time(trajectory: RobotTrajectory) -> bool:
-        return trajectory.joint_trajectory.header.stamp.is_zero() and states.duration(trajectory) == 0.0
-
-    def tolerance(self, joint: str, table: dict | None = None) -> float:
-        """Allowed distance of ``joint`` from a trajectory's first point, of ``table`` (None: the parameters'); 0 switches the check off."""
-        table = self._tolerances() if table is None else table
-        return table.get(joint, float(self.config["allowed_start_tolerance"]))
-
-    def _tolerances(self) -> dict[str, float]:
+    def tolerance(self) -> _execution.StartTolerance:
+        """Allowed distances of joints from a trajectory's first point, as the parameters are now."""
         table = rospy.get_param(self.namespace + "trajectory_execution/joints_allowed_start_tolerance", {})
-        result = {}
+        own = {}
         for name, value in table.items() if isinstance(table, dict) else ():
-            if not isinstance(value, (int, float)) or value < 0:
+            if not _is_number(value) or value < 0:
                 rospy.logwarn("joints_allowed_start_tolerance/%s is %r: ignored, a number of 0 or more is expected", name, value)
             else:
-                result[name] = float(value)
-        return result
-
-    @property
-    def checks_start(self) -> bool:
-        return bool(self.config["allowed_start_tolerance"]) or bool(self._tolerances())
+                own[name] = float(value)
+        return _execution.StartTolerance(float(self.config["allowed_start_tolerance"]), own)
 
     def _check_start(self, step: _Step) -> None:
-        table = self._tolerances()
-        if not self.config["allowed_start_tolerance"] and not table:
+        tolerance = self.tolerance()
+        if not tolerance.any():
             return
         now = rospy.Time.now()
-        joints = [name for part in step.parts for name in part.joint_trajectory.joint_names]
-        if not self._heard_of(joints, now):
+        if not self._heard_of(step.joints, now):
             raise ExecutionError(
                 "Failed to validate trajectory: couldn't receive full current joint state within 1s. " + self.monitor.explain(1.0, now)
             )
         state = self.monitor.state()
         for part in step.parts:
-            first = part.joint_trajectory.points[0] if part.joint_trajectory.points else None
-            for name, value in zip(part.joint_trajectory.joint_names, first.positions if first else ()):
-                allowed = self.tolerance(name, table)
-                off = self._distance(name, value, state.get(name))
-                if allowed and not off <= allowed:
-                    raise ExecutionError(
-                        f"Invalid Trajectory: start point deviates from current robot state more than "
-                        f"{allowed:g}: "
-                        f"joint '{name}' is {off:.4f} off (expected: {value:g}, current: "
-                        f"{state.get(name):g}). "
-                        f"Plan again from where the robot is now"
-                    )
+            line = part.start_deviation(state, tolerance)
+            if line:
+                raise ExecutionError(line)
 
     def _heard_of(self, joints: Sequence[str], since: rospy.Time) -> bool:
         self.monitor.wait_for_current(since, 1.0)
         return not set(self.monitor.missing(since)) & set(joints)
 
-    def _distance(self, name: str, a: float, b: float) -> float:
-        joint = self.model.joint(name)
-        difference = abs(a - b)
-        if joint.type == "continuous":
-            difference %= 6.283185307179586
-            return min(difference, 6.283185307179586 - difference)
-        return difference
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _read(message: RobotTrajectory) -> _execution.Trajectory:
+    buffer = io.BytesIO()
+    try:
+        message.serialize(buffer)
+    except genpy.SerializationError as error:
+        raise ExecutionError(f"Wrong trajectory: {error}") from None
+    return _execution.Trajectory(buffer.getvalue())
+
+
+def _message(trajectory: _execution.Trajectory) -> RobotTrajectory:
+    return RobotTrajectory().deserialize(trajectory.bytes())
 
 
 class Execution:
@@ -413,7 +391,7 @@ class Execution:
             if handle is None:
                 self._cancel()
                 return f"No controller handle for controller '{name}'. Aborting. {manager.describe()}"
-            if not handle.send(part):
+            if not handle.send(_message(part)):
                 self._cancel()
                 return f"Failed to send trajectory part {number} of {len(step.parts)} to controller {name}: {handle.reason}"
             self._handles.append(handle)
@@ -422,15 +400,12 @@ class Execution:
     def _allowed(self, step: _Step) -> float:
         longest = 0.0
         for name, part in zip(step.controllers, step.parts):
-            own = self._manager.limits(name)
-            scaling = own.get("scaling", float(self._owner.config["allowed_execution_duration_scaling"]))
-            margin = own.get("margin", float(self._owner.config["allowed_goal_duration_margin"]))
-            delay = max(0.0, (part.joint_trajectory.header.stamp - rospy.Time.now()).to_sec())
-            longest = max(longest, (delay + states.duration(part)) * scaling + margin)
+            scaling, margin = (self._owner.own_or_common(name, key) for key in _DURATIONS)
+            longest = max(longest, part.allowed_duration(rospy.Time.now().to_sec(), scaling, margin))
         return longest
 
     def _watch(self, step: _Step, started: rospy.Time) -> ExecutionStatus:
-        allowed, planned = self._allowed(step), max(states.duration(part) for part in step.parts)
+        allowed, planned = self._allowed(step), max(part.duration for part in step.parts)
         if planned > _REPORT:
             rospy.loginfo("Executing a trajectory of %.1f s", planned)
         told = 0.0
@@ -472,16 +447,16 @@ class Execution:
         stopped = self._stopped.is_set()
         share = 0.1 if stopped else 1.0  # of the tolerance; slowing down is a small motion from state to state
         owner = self._owner
-        if not owner.checks_start or not owner.config["wait_for_trajectory_completion"]:
+        tolerance = owner.tolerance()
+        if not tolerance.any() or not owner.config["wait_for_trajectory_completion"]:
             return
-        joints = [name for part in step.parts for name in part.joint_trajectory.joint_names]
         end, still, before = time.monotonic() + 1.0, 0, owner.monitor.state()
         while still < 3 and time.monotonic() < end and (stopped or not self._stopped.is_set()):
-            if not owner.monitor.wait_for_next(joints, end - time.monotonic()):
+            if not owner.monitor.wait_for_next(step.joints, end - time.monotonic()):
                 return
             now = owner.monitor.state()
-            moved = any(abs(now.get(name) - before.get(name)) > share * owner.tolerance(name, {}) for name in joints)
-            still, before = (0 if moved else still + 1), now
+            still = 0 if _execution.moved(step.joints, before, now, tolerance, share) else still + 1
+            before = now
 
 
 def error_code(status: ExecutionStatus) -> int:

@@ -93,13 +93,6 @@ class SimpleControllerManager(ListedControllers):
             self.add(entry, HANDLES[kind](entry["name"], topic, entry))
         rospy.loginfo("Returned %d controllers in list", len(self._handles))
 
-    def limits(self, controller: str) -> dict[str, float]:
-        entry, result = self._entries[controller], {}
-        for key, short in (("allowed_execution_duration_scaling", "scaling"), ("allowed_goal_duration_margin", "margin")):
-            if isinstance(entry.get(key), (int, float)):
-                result[short] = float(entry[key])
-        return result
-
     def describe(self) -> str:
         if not self._handles:
             return f"none (parameter {rospy.resolve_name(self.namespace + 'controller_list')} has no usable entry)"

@@ -97,14 +97,15 @@ private:
   void initialize();
   void loadControllers();
   Joints jointsOf(const std::string& controller) const;
-  Joints actuated(const std::vector<std::string>& joints) const;
-  std::vector<std::string> select(const Joints& wanted, const std::vector<std::string>& allowed) const;
+  std::vector<std::string> choose(const Joints& wanted, const std::vector<std::string>& allowed) const;
   bool configure(TrajectoryExecutionContext& context, const moveit_msgs::RobotTrajectory& trajectory,
                  const std::vector<std::string>& controllers) const;
   bool startsHere(const TrajectoryExecutionContext& context) const;
+  bool heardOf(const TrajectoryExecutionContext& context) const;
   void run(const ExecutionCompleteCallback& callback, const PathSegmentCompleteCallback& part_callback, bool auto_clear);
   Status executePart(std::size_t index);
   bool send(const TrajectoryExecutionContext& context);
+  double allowedDuration(const TrajectoryExecutionContext& context) const;
   Status watch(const TrajectoryExecutionContext& context, const ros::Time& started);
   void waitForRest(const TrajectoryExecutionContext& context) const;
   void cancelHandles();
@@ -134,5 +135,7 @@ private:
   bool execution_duration_monitoring_ = true, wait_for_trajectory_completion_ = true;
   double allowed_execution_duration_scaling_ = 1.1, allowed_goal_duration_margin_ = 0.5;
   double allowed_start_tolerance_ = 0.01, execution_velocity_scaling_ = 1.0;
+  // Of the controllers and joints that have their own.
+  std::map<std::string, double> controller_duration_scaling_, controller_duration_margin_, joints_allowed_start_tolerance_;
 };
 }  // namespace trajectory_execution_manager

@@ -1,0 +1,96 @@
+// The laws of execution for the Python half.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <ros/serialization.h>
+
+#include "laws/execution.hpp"
+
+namespace py = pybind11;
+using Message = moveit_msgs::RobotTrajectory;
+using execution::StartTolerance;
+
+namespace
+{
+Message read(const std::string& bytes)
+{
+  Message message;
+  ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(const_cast<char*>(bytes.data())), bytes.size());
+  ros::serialization::deserialize(stream, message);
+  return message;
+}
+
+py::bytes written(const Message& message)
+{
+  std::string bytes(ros::serialization::serializationLength(message), '\0');
+  ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(&bytes[0]), bytes.size());
+  ros::serialization::serialize(stream, message);
+  return bytes;
+}
+
+std::vector<double> timesOf(const Message& message)
+{
+  std::vector<double> times;
+  for (const auto& point : message.joint_trajectory.points)
+    times.push_back(point.time_from_start.toSec());
+  if (times.empty())
+    for (const auto& point : message.multi_dof_joint_trajectory.points)
+      times.push_back(point.time_from_start.toSec());
+  return times;
+}
+
+void bindTrajectory(py::module_& m)
+{
+  py::class_<Message>(m, "Trajectory", "A moveit_msgs/RobotTrajectory, read from its bytes.")
+      .def(py::init(&read), py::arg("bytes"))
+      .def("bytes", &written)
+      .def_property_readonly("joint_names", [](const Message& self) { return self.joint_trajectory.joint_names; })
+      .def_property_readonly("multi_dof_joint_names",
+                             [](const Message& self) { return self.multi_dof_joint_trajectory.joint_names; })
+      .def_property_readonly("times", &timesOf, "Of its way points, s after the start.")
+      .def_property_readonly("duration", &execution::duration, "s.")
+      .def_property_readonly("takes_no_time", &execution::takesNoTime, "It has no point, or ends as it starts, now.")
+      .def("fault", &execution::fault, py::arg("robot"),
+           "One line about the first point that cannot be executed; empty when there is none.")
+      .def("share", &execution::share, py::arg("joints"), py::arg("scaling") = 1.0,
+           "The part that moves `joints`, which come in alphabetical order; velocities times `scaling`.")
+      .def(
+          "allowed_duration",
+          [](const Message& self, double now, double scaling, double margin) {
+            return execution::allowedDuration(self, ros::Time(now), scaling, margin);
+          },
+          py::arg("now"), py::arg("scaling"), py::arg("margin"),
+          "How long a controller may take (s): from now (s) to the last point, times `scaling`, and `margin` (s).")
+      .def("start_deviation", &execution::startDeviation, py::arg("state"), py::arg("tolerance"),
+           "One line about the first joint that is not where the trajectory starts; empty when there is none.");
+}
+}  // namespace
+
+PYBIND11_MODULE(_execution, m)
+{
+  m.doc() = "What execution holds of trajectories, controllers and plans: laws/execution.hpp.";
+  py::module_::import("motion");
+  bindTrajectory(m);
+  py::class_<StartTolerance>(m, "StartTolerance", "How far joints may be from a first point: rad or m; 0 is not looked at.")
+      .def(py::init([](double all, const std::map<std::string, double>& joints) {
+             return StartTolerance{ all, joints };
+           }),
+           py::arg("all"), py::arg("joints") = std::map<std::string, double>())
+      .def("of", &StartTolerance::of, py::arg("joint"))
+      .def("any", &StartTolerance::any, "Is any joint looked at?");
+  py::class_<execution::Controller>(m, "Controller",
+                                    "A controller as it is chosen: active (takes trajectories now), preferred.")
+      .def(py::init([](const std::string& name, const execution::Joints& joints, bool active, bool preferred) {
+             return execution::Controller{ name, joints, active, preferred };
+           }),
+           py::arg("name"), py::arg("joints"), py::arg("active") = false, py::arg("preferred") = false);
+  m.def("actuated", &execution::actuated, py::arg("joints"), py::arg("robot"),
+        "Those of `joints` that need a controller: not fixed, passive or mimic.");
+  m.def("choose", &execution::choose, py::arg("wanted"), py::arg("controllers"), py::arg("manage"),
+        "Names of the controllers that together move the joints `wanted`; empty if none do.");
+  m.def("moved", &execution::moved, py::arg("joints"), py::arg("before"), py::arg("now"), py::arg("tolerance"),
+        py::arg("part") = 1.0, "Has a joint moved by more than `part` of its tolerance between two states?");
+  m.def("may_plan_again", &execution::mayPlanAgain, py::arg("code"), "May another plan do better after this MoveItErrorCodes?");
+  m.def("waits_before_planning", &execution::waitsBeforePlanning, py::arg("code"), "Does one wait before that plan?");
+  m.def("goes_on_from", &execution::goesOnFrom, py::arg("groups"), py::arg("index"),
+        "The trajectory from whose end the continuous joints of trajectory `index` go on; -1: from where the robot is.");
+}
