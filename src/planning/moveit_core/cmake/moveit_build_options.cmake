@@ -1,0 +1,16 @@
+# moveit_build_options(): what packages of MoveIt's family are compiled with: C++17, Release where no other type is asked for, and with
+# the option MOVEIT_CI_WARNINGS (ON) warnings. A package that sets any of these before keeps its own.
+macro(moveit_build_options)
+  if(NOT CMAKE_CXX_STANDARD)
+    set(CMAKE_CXX_STANDARD 17)
+  endif()
+  set(CMAKE_CXX_STANDARD_REQUIRED ON)
+  set(CMAKE_CXX_EXTENSIONS OFF)
+  if(NOT CMAKE_CONFIGURATION_TYPES AND NOT CMAKE_BUILD_TYPE)
+    set(CMAKE_BUILD_TYPE Release)
+  endif()
+  option(MOVEIT_CI_WARNINGS "Warnings that MoveIt's own packages are compiled with" ON)
+  if(MOVEIT_CI_WARNINGS)
+    add_compile_options(-Wall -Wextra -Wwrite-strings -Wunreachable-code -Wpointer-arith -Wredundant-decls -Wcast-qual)
+  endif()
+endmacro()
