@@ -24,6 +24,8 @@ public:
     services_ = { root_node_handle_.advertiseService("objects", &Services::objects, this),
                   node_handle_.advertiseService("add_box", &Services::addBox, this),
                   node_handle_.advertiseService("grasp_box", &Services::graspBox, this),
+                  node_handle_.advertiseService("juggle", &Services::juggle, this),
+                  node_handle_.advertiseService("juggle_held", &Services::juggleHeld, this),
                   node_handle_.advertiseService("go_left", &Services::goLeft, this),
                   node_handle_.advertiseService("crash", &Services::crash, this) };
   }
@@ -71,6 +73,41 @@ private:
     change.robot_state.attached_collision_objects[0].object.id = "box";
     response.success = context_->planning_scene_monitor_->newPlanningSceneMessage(change);
     return true;
+  }
+
+  // Takes the box and lets it go, as fast as it can, and looks each time whether it is where it should be.
+  bool juggle(Request&, Response& response) { return juggleFrom(0, response); }
+  bool juggleHeld(Request&, Response& response) { return juggleFrom(1, response); }
+
+  bool juggleFrom(int first, Response& response)
+  {
+    for (int i = first; i < first + 40; ++i)
+    {
+      moveit_msgs::PlanningScene change;
+      change.is_diff = change.robot_state.is_diff = true;
+      change.robot_state.attached_collision_objects.resize(1);
+      moveit_msgs::AttachedCollisionObject& box = change.robot_state.attached_collision_objects[0];
+      box.link_name = "hand";
+      box.object.id = "box";
+      const bool hold = i % 2 == 0;
+      box.object.operation = hold ? moveit_msgs::CollisionObject::ADD : moveit_msgs::CollisionObject::REMOVE;
+      context_->planning_scene_monitor_->newPlanningSceneMessage(change);
+      for (int look = 0; look < 5; ++look)
+      {
+        Request request;
+        Response seen;
+        objects(request, seen);
+        const bool held = seen.message.find("box", seen.message.find('/')) != std::string::npos;
+        const bool lies = seen.message.find("box") < seen.message.find('/');
+        if (held != hold || lies == hold)
+        {
+          response.message = "after change " + std::to_string(i) + ": " + seen.message;
+          return true;
+        }
+        ros::WallDuration(0.002).sleep();
+      }
+    }
+    return response.success = true;
   }
 
   // Plans with the default pipeline, executes, and says which code came of it.

@@ -48,6 +48,15 @@ def scene_of_move_group():
     return objects, {body.object.id for body in scene.robot_state.attached_collision_objects}
 
 
+def brick(name):
+    """A small box far from the robot."""
+    made = CollisionObject(id=name, primitives=[SolidPrimitive(SolidPrimitive.BOX, [0.1, 0.1, 0.1])])
+    made.pose.position.x, made.pose.orientation.w = 3.0, 1.0
+    made.primitive_poses = [Pose(orientation=Quaternion(0, 0, 0, 1))]
+    made.header.frame_id = "base_link"
+    return made
+
+
 class Launched:
     """The arm's launch file, started as by hand, and a wait for a line that it prints."""
 
@@ -95,17 +104,36 @@ class CapabilitiesTest(unittest.TestCase):
     def test_2_what_a_capability_changes_move_group_has(self):
         self.assertTrue(call("/move_group/add_box").success)
         self.assertEqual(scene_of_move_group(), ({"box"}, set()))
+        answer = call("/move_group/juggle")
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(scene_of_move_group(), ({"box"}, set()))
         self.assertTrue(call("/move_group/grasp_box").success)
         self.assertEqual(scene_of_move_group(), (set(), {"box"}))
 
+    def test_2b_what_both_change_at_once_both_have(self):
+        """move_group gets objects from others while a capability takes the box and lets it go."""
+        topic = rospy.Publisher("collision_object", CollisionObject, queue_size=100)
+        while topic.get_num_connections() == 0:
+            threading.Event().wait(0.01)
+        juggling = threading.Thread(target=lambda: answers.append(call("/move_group/juggle_held")))
+        answers = []
+        juggling.start()
+        names = {f"brick_{number}" for number in range(20)}
+        for name in sorted(names):
+            topic.publish(brick(name))
+            threading.Event().wait(0.02)
+        juggling.join()
+        self.assertTrue(answers[0].success, answers[0].message)
+        self.wait_for_objects(" ".join(sorted(names)) + " / box")
+        self.assertEqual(scene_of_move_group(), (names, {"box"}))
+        for name in names:
+            topic.publish(CollisionObject(id=name, operation=CollisionObject.REMOVE))
+        self.wait_for_objects("/ box")
+
     def test_3_what_others_change_a_capability_sees(self):
-        wall = CollisionObject(id="wall", primitives=[SolidPrimitive(SolidPrimitive.BOX, [0.1, 0.1, 0.1])])
-        wall.pose.position.x, wall.pose.orientation.w = 3.0, 1.0
-        wall.primitive_poses = [Pose(orientation=Quaternion(0, 0, 0, 1))]
-        wall.header.frame_id = "base_link"
         diff = PlanningScene(is_diff=True)
         diff.robot_state.is_diff = True
-        diff.world.collision_objects = [wall]
+        diff.world.collision_objects = [brick("wall")]
         heard = Heard("/move_group_capabilities/planning_scene", PlanningScene)
         self.assertTrue(call("apply_planning_scene", ApplyPlanningScene, diff).success)
         heard.wait(lambda scene: any(item.id == "wall" for item in scene.world.collision_objects))

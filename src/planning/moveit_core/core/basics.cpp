@@ -193,8 +193,9 @@ void Transforms::copyTransforms(std::vector<geometry_msgs::TransformStamped>& tr
   for (const auto& item : transforms_map_)
   {
     geometry_msgs::TransformStamped transform = tf2::eigenToTransform(item.second);
-    transform.child_frame_id = item.first;
-    transform.header.frame_id = target_frame_;
+    // As upstream: the wrong way round for TF, the header names the frame.
+    transform.child_frame_id = target_frame_;
+    transform.header.frame_id = item.first;
     transforms.push_back(transform);
   }
 }
@@ -209,11 +210,11 @@ void Transforms::setTransform(const Eigen::Isometry3d& t, const std::string& fro
 
 void Transforms::setTransform(const geometry_msgs::TransformStamped& transform)
 {
-  if (!sameFrame(transform.child_frame_id, target_frame_) && !sameFrame(transform.header.frame_id, target_frame_))
+  if (!sameFrame(transform.child_frame_id, target_frame_))
     ROS_ERROR_NAMED("transforms", "Given transform is to frame '%s', but frame '%s' was expected.",
-                    transform.header.frame_id.c_str(), target_frame_.c_str());
+                    transform.child_frame_id.c_str(), target_frame_.c_str());
   else
-    setTransform(tf2::transformToEigen(transform.transform), transform.child_frame_id);
+    setTransform(tf2::transformToEigen(transform.transform), transform.header.frame_id);
 }
 
 void Transforms::setTransforms(const std::vector<geometry_msgs::TransformStamped>& transforms)

@@ -1,6 +1,6 @@
 // Scenes: into messages.
 #include <geometric_shapes/shapes.h>
-#include <moveit/planning_scene/planning_scene.h>
+#include <moveit/planning_scene/scene_difference.h>
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <moveit/robot_state/conversions.h>
@@ -149,51 +149,21 @@ void PlanningScene::getPlanningSceneMsg(moveit_msgs::PlanningScene& scene, const
     scene.world.octomap = all.world.octomap;
 }
 
-// The whole of what may differ from the parent; of its objects those that do, and the removal of those that are gone.
+// The state, frames and name as they are, of the rest what differs from the parent.
 void PlanningScene::getPlanningSceneDiffMsg(moveit_msgs::PlanningScene& scene) const
 {
-  getPlanningSceneMsg(scene);
-  scene.is_diff = true;
-  scene.robot_state.is_diff = true;
-  scene.world = moveit_msgs::PlanningSceneWorld();
-  for (const auto& item : *world_)
+  if (parent_)
   {
-    if (parent_ && parent_->world_->getObject(item.first) == item.second)
-      continue;
-    if (item.first == OCTOMAP_NS)
-    {
-      getOctomapMsg(scene.world.octomap);
-      continue;
-    }
-    scene.world.collision_objects.emplace_back();
-    getCollisionObjectMsg(scene.world.collision_objects.back(), item.first);
+    scene = difference(*parent_, *this);
+    const auto attached = scene.robot_state.attached_collision_objects;
+    moveit::core::robotStateToRobotStateMsg(*robot_state_, scene.robot_state);
+    scene.robot_state.attached_collision_objects = attached;
+    scene.name = name_;
+    scene.robot_model_name = robot_model_->getName();
+    transforms_->copyTransforms(scene.fixed_frame_transforms);
   }
-  if (!parent_)
-    return;
-  const auto removal = [](const std::string& id) {
-    CollisionObject object;
-    object.id = id;
-    object.operation = CollisionObject::REMOVE;
-    return object;
-  };
-  for (const auto& item : *parent_->world_)
-  {
-    if (world_->hasObject(item.first))
-      continue;
-    if (item.first == OCTOMAP_NS)
-      scene.world.octomap.octomap.id = "OcTree";  // without data: there is none any more
-    else
-      scene.world.collision_objects.push_back(removal(item.first));
-  }
-  std::vector<const moveit::core::AttachedBody*> before;
-  parent_->robot_state_->getAttachedBodies(before);
-  for (const moveit::core::AttachedBody* body : before)
-    if (!robot_state_->hasAttachedBody(body->getName()))
-    {
-      moveit_msgs::AttachedCollisionObject gone;
-      gone.link_name = body->getAttachedLinkName();
-      gone.object = removal(body->getName());
-      scene.robot_state.attached_collision_objects.push_back(gone);
-    }
+  else
+    getPlanningSceneMsg(scene);
+  scene.is_diff = scene.robot_state.is_diff = true;
 }
 }  // namespace planning_scene

@@ -4,7 +4,7 @@
 #include <ros/time.h>
 
 #include <moveit/kinematic_constraints/utils.h>
-#include <moveit/planning_scene/planning_scene.h>
+#include <moveit/planning_scene/scene_difference.h>
 #include <moveit/robot_state/conversions.h>
 #include <moveit/trajectory_processing/iterative_time_parameterization.h>
 #include <moveit/trajectory_processing/time_optimal_trajectory_generation.h>
@@ -292,6 +292,55 @@ TEST(Scene, diffsLeaveTheirParentAlone)
   EXPECT_FALSE(scene->knowsFrameTransform("far"));
 }
 
+// A gripper takes, lets go, takes with another link, and an object vanishes out of it: each step as a message makes the same scene.
+TEST(Scene, theDifferenceOfTwoScenesMakesOneOfTheOther)
+{
+  const PlanningScenePtr scene = readyScene(), copy = readyScene();
+  const auto attach = [](const std::string& link, int operation) {
+    moveit_msgs::AttachedCollisionObject object;
+    object.link_name = link;
+    object.object.id = "cup";
+    object.object.operation = operation;
+    return object;
+  };
+  const auto names = [](const PlanningScene& which) {
+    std::vector<const moveit::core::AttachedBody*> bodies;
+    which.getCurrentState().getAttachedBodies(bodies);
+    std::string text;
+    for (const std::string& id : which.getWorld()->getObjectIds())
+      text += id + " ";
+    for (const moveit::core::AttachedBody* body : bodies)
+      text += body->getName() + "@" + body->getAttachedLinkName();
+    return text;
+  };
+  using Object = moveit_msgs::CollisionObject;
+  const std::vector<std::pair<std::string, std::function<void(PlanningScene&)>>> steps = {
+    { "cup ", [](PlanningScene& s) { s.processCollisionObjectMsg(box("cup", 3, 0, 0, 0.1)); } },
+    { "cup@hand", [&](PlanningScene& s) { s.processAttachedCollisionObjectMsg(attach("hand", Object::ADD)); } },
+    { "cup ", [&](PlanningScene& s) { s.processAttachedCollisionObjectMsg(attach("hand", Object::REMOVE)); } },
+    { "cup@lower", [&](PlanningScene& s) { s.processAttachedCollisionObjectMsg(attach("lower", Object::ADD)); } },
+    { "", [](PlanningScene& s) { s.getCurrentStateNonConst().clearAttachedBodies(); } },
+    { "", [](PlanningScene& s) { s.getAllowedCollisionMatrixNonConst().setEntry("hand", "lower", true); } },
+  };
+  for (const auto& [wanted, step] : steps)
+  {
+    const PlanningScenePtr child = scene->diff();
+    step(*child);
+    moveit_msgs::PlanningScene message;
+    child->getPlanningSceneDiffMsg(message);
+    EXPECT_TRUE(copy->usePlanningSceneMsg(message)) << wanted;
+    EXPECT_EQ(names(*copy), wanted);
+    EXPECT_EQ(names(*child), wanted);
+    step(*scene);
+  }
+  collision_detection::AllowedCollision::Type allowed;
+  ASSERT_TRUE(copy->getAllowedCollisionMatrix().getEntry("hand", "lower", allowed));
+  EXPECT_EQ(allowed, collision_detection::AllowedCollision::ALWAYS);
+  moveit_msgs::PlanningScene nothing;
+  nothing.is_diff = nothing.robot_state.is_diff = true;
+  EXPECT_TRUE(planning_scene::difference(*scene, *PlanningScene::clone(scene)) == nothing);
+}
+
 TEST(Scene, octomapsGoByMessageAndGoAway)
 {
   const PlanningScenePtr scene = readyScene();
@@ -384,6 +433,31 @@ TEST(Scene, feasibilityAndConstraints)
   moveit_msgs::Constraints unknown = goal;
   unknown.position_constraints[0].link_name = "no_such";
   EXPECT_FALSE(kinematic_constraints::KinematicConstraintSet(scene->getRobotModel()).add(unknown, scene->getTransforms()));
+}
+
+// As upstream, and as move_group sends them: the header names the frame, the child is the planning frame.
+TEST(Transforms, aMessageNamesItsFrameInTheHeader)
+{
+  moveit::core::Transforms transforms("world");
+  geometry_msgs::TransformStamped camera;
+  camera.header.frame_id = "camera";
+  camera.child_frame_id = "/world";
+  camera.transform.translation.x = 1.5;
+  camera.transform.rotation.w = 1.0;
+  transforms.setTransform(camera);
+  ASSERT_TRUE(transforms.isFixedFrame("camera"));
+  EXPECT_EQ(transforms.getTransform("camera").translation().x(), 1.5);
+  std::swap(camera.header.frame_id, camera.child_frame_id);  // TF's notation
+  camera.child_frame_id = "lamp";
+  transforms.setTransform(camera);
+  EXPECT_FALSE(transforms.isFixedFrame("lamp"));
+  EXPECT_EQ(transforms.getTransform("world").translation().x(), 0.0);
+  std::vector<geometry_msgs::TransformStamped> messages;
+  transforms.copyTransforms(messages);
+  ASSERT_EQ(messages.size(), 2u);
+  EXPECT_EQ(messages[0].header.frame_id, "camera");
+  EXPECT_EQ(messages[0].child_frame_id, "world");
+  EXPECT_EQ(messages[0].transform.translation.x, 1.5);
 }
 
 TEST(Trajectory, timedWithinTheLimitsAndSentAsAMessage)

@@ -5,7 +5,7 @@ import math
 import motion
 import numpy as np
 import pytest
-from geometry_msgs.msg import Point, Pose, Quaternion
+from geometry_msgs.msg import Point, Pose, Quaternion, TransformStamped
 from moveit_core import convert
 from moveit_core.scene_messages import SceneEditor, acm_from_message, acm_message, octomap_message, scene_message
 from moveit_msgs.msg import (
@@ -34,6 +34,20 @@ def attached(name, link, operation=CollisionObject.ADD, touch=()):
     message = AttachedCollisionObject(link_name=link, touch_links=list(touch))
     message.object.id, message.object.operation = name, operation
     return message
+
+
+def test_a_fixed_frame_is_named_in_the_header_and_ends_at_the_planning_frame(editor, scene, said):
+    """As upstream, and as moveit_core's C++ class has it: the other way round than TF."""
+    camera = TransformStamped(child_frame_id="/" + scene.frame)
+    camera.header.frame_id, camera.transform.translation.x, camera.transform.rotation.w = "camera", 1.5, 1.0
+    as_tf = TransformStamped(child_frame_id="lamp")
+    as_tf.header.frame_id, as_tf.transform.translation.x, as_tf.transform.rotation.w = scene.frame, 0.5, 1.0
+    editor.planning_scene(PlanningScene(is_diff=True, fixed_frame_transforms=[camera, as_tf]))
+    assert scene.frame_pose("camera").position[0] == 1.5 and set(scene.transforms) == {"camera"}
+    assert [(message.header.frame_id, message.child_frame_id) for message in scene_message(scene).fixed_frame_transforms] == [
+        ("camera", scene.frame)
+    ]
+    assert any("Given transform is to frame 'lamp'" in line for line in said)
 
 
 def test_every_shape_goes_in_and_comes_out(editor, scene):

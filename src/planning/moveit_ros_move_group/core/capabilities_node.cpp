@@ -3,11 +3,9 @@
 //   move_group_capabilities --move-group NAME --report FD --default PIPELINE [--pipeline NAME]... [--execute] [--debug] CLASS...
 //
 // What has become of each class is written to the file descriptor, a line each: "+CLASS<tab>TITLE" or "-CLASS<tab>WHY".
-#include <moveit_msgs/ApplyPlanningScene.h>
 #include <ros/ros.h>
 #include <unistd.h>
 
-#include <mutex>
 #include <pluginlib/class_loader.hpp>
 #include <string>
 #include <vector>
@@ -15,10 +13,10 @@
 #include <moveit/move_group/move_group_capability.h>
 #include <moveit/moveit_cpp/moveit_cpp.h>
 
+#include "shared_scene.hpp"
+
 namespace
 {
-using planning_scene_monitor::PlanningSceneMonitor;
-
 struct Arguments
 {
   std::string move_group, default_pipeline;
@@ -71,77 +69,6 @@ private:
   int descriptor_;
 };
 
-// Keeps the scene of the capabilities and move_group's the same.
-class SharedScene
-{
-public:
-  explicit SharedScene(const planning_scene_monitor::PlanningSceneMonitorPtr& monitor) : monitor_(monitor)
-  {
-    // move_group alone listens to objects and publishes the scene.
-    monitor_->stopPublishingPlanningScene();
-    monitor_->stopWorldGeometryMonitor();
-    ros::NodeHandle node("~");
-    to_move_group_ = node.serviceClient<moveit_msgs::ApplyPlanningScene>("apply_planning_scene");
-    monitor_->addUpdateCallback([this](PlanningSceneMonitor::SceneUpdateType type) { changed(type); });
-    from_move_group_ = node.subscribe<moveit_msgs::PlanningScene>(
-        "planning_scene", 1, [this](const moveit_msgs::PlanningSceneConstPtr& scene) { follow(*scene); });
-  }
-
-private:
-  std::vector<std::string> attached() const
-  {
-    std::vector<const moveit::core::AttachedBody*> bodies;
-    const planning_scene_monitor::LockedPlanningSceneRO scene(monitor_);
-    scene->getCurrentState().getAttachedBodies(bodies);
-    std::vector<std::string> names;
-    for (const moveit::core::AttachedBody* body : bodies)
-      names.push_back(body->getName() + "/" + body->getAttachedLinkName());
-    return names;
-  }
-
-  // Whether other bodies are attached than at the last call.
-  bool note()
-  {
-    const std::vector<std::string> now = attached();
-    const std::lock_guard<std::mutex> lock(mutex_);
-    const bool other = now != attached_;
-    attached_ = now;
-    return other;
-  }
-
-  void follow(const moveit_msgs::PlanningScene& scene)
-  {
-    following_ = true;
-    monitor_->newPlanningSceneMessage(scene);
-    following_ = false;
-    note();
-  }
-
-  // Joint states come to both: nobody tells the other of them.
-  void changed(PlanningSceneMonitor::SceneUpdateType type)
-  {
-    if (following_)
-      return;
-    if (!note() && !(type & PlanningSceneMonitor::UPDATE_GEOMETRY))
-      return;
-    moveit_msgs::ApplyPlanningScene call;
-    {
-      const planning_scene_monitor::LockedPlanningSceneRO scene(monitor_);
-      scene->getPlanningSceneMsg(call.request.scene);
-    }
-    if (!to_move_group_.call(call) || !call.response.success)
-      ROS_ERROR("move_group does not take the scene that a capability has changed: %s", to_move_group_.getService().c_str());
-  }
-
-  planning_scene_monitor::PlanningSceneMonitorPtr monitor_;
-  ros::ServiceClient to_move_group_;
-  ros::Subscriber from_move_group_;
-  std::mutex mutex_;
-  std::vector<std::string> attached_;
-  static thread_local bool following_;
-};
-thread_local bool SharedScene::following_ = false;
-
 moveit_cpp::MoveItCppPtr makeMoveItCpp(const Arguments& arguments)
 {
   const ros::NodeHandle node("~");
@@ -184,7 +111,7 @@ int run(const Arguments& arguments)
   spinner.start();
   Loader loader("moveit_ros_move_group", "move_group::MoveGroupCapability");
   move_group::MoveGroupContextPtr context;
-  std::unique_ptr<SharedScene> shared;
+  std::unique_ptr<move_group::SharedScene> shared;
   std::vector<move_group::MoveGroupCapabilityPtr> capabilities;
   {
     const Report report(arguments.report);
@@ -199,7 +126,7 @@ int run(const Arguments& arguments)
         report.line('-', name, error.what());
       return 1;
     }
-    shared.reset(new SharedScene(context->planning_scene_monitor_));
+    shared.reset(new move_group::SharedScene(context->planning_scene_monitor_));
     capabilities = load(loader, arguments, context, report);
   }
   ros::waitForShutdown();

@@ -258,7 +258,8 @@ void PlanningSceneMonitor::updateFrameTransforms()
     {
       continue;  // of another tree
     }
-    transforms.back().child_frame_id = frame;
+    transforms.back().header.frame_id = frame;  // the planning scene's notation, the other way round than TF's
+    transforms.back().child_frame_id = scene_->getPlanningFrame();
   }
   const Lock lock(mutex_);
   scene_->getTransformsNonConst().setTransforms(transforms);

@@ -161,6 +161,31 @@ TEST(Monitor, followsJointStatesAndObjectsAndHandsItsSceneOn)
   EXPECT_EQ(LockedPlanningSceneRO(other)->getCurrentState().getVariablePosition("joint_6"), 0.5);
 }
 
+TEST(Monitor, knowsTheFramesOfTFAndSendsThemAsUpstreamDoes)
+{
+  const auto buffer = std::make_shared<tf2_ros::Buffer>();
+  PlanningSceneMonitor monitor(loader(), buffer);
+  const std::string frame = monitor.getPlanningScene()->getPlanningFrame();
+  geometry_msgs::TransformStamped camera;
+  camera.header.frame_id = frame;
+  camera.child_frame_id = "camera";
+  camera.transform.translation.x = 1.5;
+  camera.transform.rotation.w = 1.0;
+  buffer->setTransform(camera, "test", true);
+  monitor.updateFrameTransforms();
+  ASSERT_TRUE(monitor.getPlanningScene()->knowsFrameTransform("camera"));
+  EXPECT_EQ(monitor.getPlanningScene()->getFrameTransform("camera").translation().x(), 1.5);
+  moveit_msgs::PlanningScene message;
+  monitor.getPlanningScene()->getPlanningSceneMsg(message);
+  bool told = false;
+  for (const auto& transform : message.fixed_frame_transforms)
+    told = told || (transform.header.frame_id == "camera" && transform.child_frame_id == frame);
+  EXPECT_TRUE(told);
+  planning_scene::PlanningScene other(loader()->getModel());
+  ASSERT_TRUE(other.setPlanningSceneMsg(message));
+  EXPECT_EQ(other.getFrameTransform("camera").translation().x(), 1.5);
+}
+
 // One face of two: move_group's monitor, which is Python, does the same.
 TEST(StateMonitor, ignoresWhatIsNoNumberAndTakesJointStatesWithoutAStamp)
 {

@@ -233,6 +233,11 @@ class SceneEditor:
 
     def _settings(self, message: PlanningScene) -> None:
         for transform in message.fixed_frame_transforms:  # upstream's quirk: the header names the frame
+            if convert.strip(transform.child_frame_id) != self._scene.frame:
+                self._warn(
+                    f"Given transform is to frame '{transform.child_frame_id}', but frame '{self._scene.frame}' was expected: left out"
+                )
+                continue
             pose = convert.pose(transform.transform, f"frame '{transform.header.frame_id}'")
             self._scene.set_transform(convert.strip(transform.header.frame_id), pose)
         matrix = message.allowed_collision_matrix

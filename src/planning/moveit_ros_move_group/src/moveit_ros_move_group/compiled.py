@@ -1,7 +1,7 @@
 """Compiled capabilities: they live in a process beside move_group, which is started and ended here.
 
-That process has a scene of its own. Every change of move_group's scene is told to it, and it asks to change move_group's when a
-capability has changed its own (``core/capabilities_node.cpp``).
+That process has a scene of its own. Every change of move_group's scene is told to it, and it tells move_group what a capability has
+changed in its own (``core/shared_scene.hpp``).
 """
 
 from __future__ import annotations
@@ -40,19 +40,27 @@ class CompiledCapability(Capability):
 
 
 class SceneFeed:
-    """Publishes the whole scene after every change, as soon as possible; the newest alone if they come too fast."""
+    """Publishes the whole scene after every change, as soon as possible; the newest alone if they come too fast.
+
+    The process numbers its changes, and each scene says which of them was the last that it holds: in a header that nobody else fills in.
+    """
 
     def __init__(self, monitor: SceneMonitor, node: str):
         self._monitor = monitor
         self._publisher = rospy.Publisher(f"{node}/planning_scene", PlanningScene, queue_size=1, latch=True)
         self._service = serve(f"{node}/apply_planning_scene", ApplyPlanningScene, self._apply)
         self._changed, self._over = threading.Event(), False
+        self._holds = 0
         monitor.on_change(self._on_change)
         self._changed.set()
         threading.Thread(target=self._run, name="scene of compiled capabilities", daemon=True).start()
 
     def _apply(self, request, response) -> None:
+        header = request.scene.robot_state.joint_state.header
+        number, header.seq = header.seq, 0
         response.success = self._monitor.apply(request.scene)
+        self._holds = number
+        self._changed.set()  # what was published meanwhile had the number before
 
     def _on_change(self, kinds: int) -> None:
         if kinds & (GEOMETRY | SCENE):
@@ -61,8 +69,11 @@ class SceneFeed:
     def _run(self) -> None:
         while self._changed.wait() and not self._over:
             self._changed.clear()
+            holds = self._holds
+            scene = self._monitor.message()
+            scene.robot_state.joint_state.header.seq = holds
             with contextlib.suppress(rospy.ROSException):  # shutting down
-                self._publisher.publish(self._monitor.message())
+                self._publisher.publish(scene)
 
     def shutdown(self) -> None:
         self._monitor.off_change(self._on_change)
