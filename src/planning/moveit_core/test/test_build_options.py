@@ -22,7 +22,7 @@ message(STATUS "made: ${CMAKE_CXX_STANDARD} ${CMAKE_BUILD_TYPE} [${options}]")
     [
         ("", "17", "Release", True),
         ("set(CMAKE_CXX_STANDARD 20)\nset(CMAKE_BUILD_TYPE Debug)", "20", "Debug", True),
-        ("option(MOVEIT_CI_WARNINGS \"own\" OFF)", "17", "Release", False),
+        ('option(MOVEIT_CI_WARNINGS "own" OFF)', "17", "Release", False),
     ],
 )
 def test_a_package_of_moveits_family_is_compiled_as_moveit_is(tmp_path, before, standard, kind, warns):
