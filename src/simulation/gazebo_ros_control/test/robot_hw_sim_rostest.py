@@ -141,6 +141,10 @@ class DerivedPluginTest(Robot):
             self.assertTrue(self.step(10))
 
     def test_a_derived_plugin_waits_for_the_description(self):
+        """What it says is said once, by a node that begins with the first such plugin: that one is to be heard by then."""
+        self.spawn("test/None", library="libgazebo_ros_control_test_plugin.so")
+        self.wait(lambda: heard([self.subscriber]))
+        service("/gazebo/delete_model", DeleteModel)("robot")
         if rospy.has_param("/robot_description"):
             rospy.delete_param("/robot_description")
         text = self.spawn("test/Halved", library="libgazebo_ros_control_test_plugin.so", described=False)
