@@ -203,7 +203,7 @@ NO_BUILD = "title: A trap\ntasks:\n  - {name: A file, points: 5, launch: '', exp
 
 
 @pytest.mark.parametrize("link", [".", "report.html", ".job", ".examiner.log", "pictures", ".result.json"])
-def test_reports_are_written_through_no_link(tmp_path, link):
+def test_reports_are_written_through_no_link(tmp_path, walled, link):
     """Of a submission in which they are to lie, as in continuous integration."""
     alice, precious = tmp_path / "alice", tmp_path / "precious"
     for folder in (alice / "marks", precious):
@@ -243,7 +243,7 @@ def test_a_submission_is_called_like_an_option(tmp_path, name, words):
     assert sorted(os.listdir(folder)) == sorted([name, "bob"])
 
 
-def test_results_of_a_class_lie_in_no_submission(tmp_path):
+def test_results_of_a_class_lie_in_no_submission(tmp_path, walled):
     """Whose own class.sqlite would be taken for what is known of the class."""
     for name in ("lab_check", "bob"):
         (tmp_path / "class" / name).mkdir(parents=True)

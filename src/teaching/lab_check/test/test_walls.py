@@ -185,7 +185,7 @@ def words_of(pid: str):
 @pytest.mark.parametrize(
     "name", ["lab_check/examiner.py", "lab_check/cli.py", "yaml.py", "jsonschema/__init__.py", "sitecustomize.py", "numpy.py"]
 )
-def test_the_current_folder_is_nobodys_library(tmp_path, name):
+def test_the_current_folder_is_nobodys_library(tmp_path, walled, name):
     """Whoever examines in the submission's own folder runs none of its modules, whichever of the checker's processes looks for one."""
     folder = tmp_path / "alice"
     module = folder / name

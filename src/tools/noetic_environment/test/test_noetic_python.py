@@ -173,7 +173,7 @@ def test_a_script_runs_as_it_did(script):
 def test_what_is_there_stays():
     """Names are added to NumPy, and those that it has mean what they meant."""
     stricter = {"array", "asarray", "asanyarray", "linspace", "logspace", "geomspace"}
-    show = "import numpy; print({n: repr(v).split(' at 0x')[0] for n, v in vars(numpy).items() if n[0] != '_' and n not in STRICTER})"
+    show = "import numpy; print({n: str(v).split(' at 0x')[0] for n, v in vars(numpy).items() if n[0] != '_' and n not in STRICTER})"
     plain, completed = (eval(run(show.replace("STRICTER", repr(stricter)), *folders).stdout) for folders in ((), (FOLDER,)))
     assert plain.items() < completed.items() and {"float", "product"} & (completed.keys() - plain.keys())
 

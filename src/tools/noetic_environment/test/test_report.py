@@ -56,7 +56,7 @@ def test_the_report_holds_versions_what_draws_and_the_last_logs(tmp_path):
     text = (tmp_path / "noetic_report.txt").read_text()
     release = next(line for line in Path("/etc/os-release").read_text().splitlines() if line.startswith("PRETTY_NAME"))
     assert f"system: {release.split('=')[1].strip(chr(34))}" in text
-    for part in ("libode8: ", f"python: {sys.version.split()[0]}", "OpenGL: ", "ROS_IP: ADDRESS", "line 999 of ~/world", "line 800 of "):
+    for part in ("libode8", f"python: {sys.version.split()[0]}", "OpenGL: ", "ROS_IP: ADDRESS", "line 999 of ~/world", "line 800 of "):
         assert part in text, part
     for part in ("line 799 ", "10.1.2.3", str(tmp_path / "ada"), "never"):
         assert part not in text, part

@@ -110,7 +110,8 @@ class Connection(tornado.websocket.WebSocketHandler):
         """What comes first where clients have to authenticate; in the connection's thread."""
         why = 'authenticate first: {"op": "auth", ...}'
         try:
-            said = bson.decode(frame) if self._shared.settings.bson_only_mode else json.loads(frame)
+            data = frame.encode() if isinstance(frame, str) else frame
+            said = bson.decode(data) if self._shared.settings.bson_only_mode else json.loads(data)
             if isinstance(said, dict) and said.get("op") == "auth":
                 self._known = rospy.ServiceProxy("authenticate", Authentication)(
                     said["mac"], said["client"], said["dest"], said["rand"], rospy.Time(said["t"]), said["level"], rospy.Time(said["end"])

@@ -186,7 +186,7 @@ def decode_rvl(data: bytes) -> np.ndarray:
     nibbles = ((words[:, None] >> np.arange(28, -4, -4, np.uint32)) & 15).ravel()
     ends = np.flatnonzero(nibbles < 8)  # the fourth bit says that the number goes on
     starts = np.concatenate(([0], ends[:-1] + 1))
-    numbers = np.zeros(0, np.int64)
+    numbers: np.ndarray = np.zeros(0, np.int64)
     if len(ends):
         place = np.arange(ends[-1] + 1) - np.repeat(starts, ends - starts + 1)
         numbers = np.add.reduceat((nibbles[: ends[-1] + 1] & 7).astype(np.int64) << np.minimum(3 * place, 60), starts)

@@ -13,8 +13,12 @@ from __future__ import annotations
 import os
 import re
 import select
+from typing import TYPE_CHECKING
 
 import serial
+
+if TYPE_CHECKING:
+    from typing_extensions import Buffer
 
 _LINE = re.compile(rb"t[0-7][0-9A-Fa-f]{2}(?:0|1.{2}|2.{4}|3.{6}|4.{8}|5.{10}|6.{12}|7.{14}|8.{16})$")
 _HEX = re.compile(rb"t[0-9A-Fa-f]+$")
@@ -43,6 +47,12 @@ class LineSerial(serial.Serial):
         self._read_timeout = self._timeout = timeout
 
     @property
+    def _descriptor(self) -> int:
+        """The open device's."""
+        assert self.fd is not None
+        return self.fd
+
+    @property
     def in_waiting(self) -> int:
         """Bytes of valid lines at hand."""
         if self._position == len(self._ready):
@@ -53,22 +63,22 @@ class LineSerial(serial.Serial):
         """Up to ``size`` bytes of valid lines; empty when none came within ``timeout``."""
         if not self.in_waiting:
             if self._read_timeout != 0:
-                select.select([self.fd], [], [], self._read_timeout)
+                select.select([self._descriptor], [], [], self._read_timeout)
             self._fill()
         start, self._position = self._position, min(len(self._ready), self._position + size)
         return self._ready[start : self._position]
 
-    def write(self, data: bytes) -> int:
+    def write(self, data: Buffer) -> int:
         """Write all of ``data``.
 
         :raises serial.SerialTimeoutException: the device takes nothing within ``write_timeout``.
         """
-        sent = 0
+        sent, data = 0, bytes(data)
         while sent < len(data):
             try:
-                sent += os.write(self.fd, data[sent:])
+                sent += os.write(self._descriptor, data[sent:])
             except BlockingIOError:
-                if not select.select([], [self.fd], [], self.write_timeout)[1]:
+                if not select.select([], [self._descriptor], [], self.write_timeout)[1]:
                     raise serial.SerialTimeoutException("the adapter takes no more frames") from None
             except OSError as error:
                 raise serial.SerialException(f"the adapter is gone: {error}") from error
@@ -88,7 +98,7 @@ class LineSerial(serial.Serial):
 
     def _fill(self) -> None:
         try:
-            data = os.read(self.fd, 65536)
+            data = os.read(self._descriptor, 65536)
         except BlockingIOError:
             return
         except OSError as error:

@@ -62,7 +62,7 @@ class _Trapeze:
 
     def times(self) -> np.ndarray:
         """0, every sampling time, and the end; the last interval is never so short that rounding would count in it."""
-        steps = np.arange(0.0, self.duration, SAMPLING)
+        steps: np.ndarray = np.arange(0.0, self.duration, SAMPLING)
         if len(steps) > 1 and self.duration - steps[-1] < 0.2 * SAMPLING:
             steps = steps[:-1]
         return np.append(steps, self.duration)

@@ -231,6 +231,7 @@ def matrix(value, parameter: str) -> np.ndarray:
 
     :raises ValueError: it is neither
     """
+    numbers: np.ndarray
     try:
         numbers = np.array(value, float).ravel()
     except (TypeError, ValueError):

@@ -113,8 +113,8 @@ def _half(size: int) -> float:
 
 def _side(size: int, index: int, shown: np.ndarray, directions: np.ndarray) -> _Side:
     forward, left = _FORWARD[index], _LEFT[index]
-    axes = np.stack([forward, left, np.cross(forward, left)])
+    axes: np.ndarray = np.stack([forward, left, np.cross(forward, left)])
     ahead, aside, upwards = (directions @ axis for axis in axes)
     ahead = np.where(shown, ahead, 1.0)
     columns, rows = (((size - 1) / 2 - size / (2 * _half(size)) * part / ahead).astype(np.float32) for part in (aside, upwards))
-    return _Side(Pose((0.0, 0.0, 0.0), math3.quat_from_matrix(axes.T.tolist())), shown, columns, rows)
+    return _Side(Pose((0.0, 0.0, 0.0), math3.quat_from_matrix([row.tolist() for row in axes.T])), shown, columns, rows)

@@ -77,7 +77,11 @@ def _picture(pixels: np.ndarray) -> Any:
         image.format = "JPEG"  # trimesh names it so
     else:
         image.save(content, "PNG", compress_level=1)
-    image.save = lambda file, format=None: file.write(content.getvalue())
+
+    def save(file, format=None) -> None:
+        file.write(content.getvalue())
+
+    setattr(image, "save", save)  # noqa: B010  an assignment to a method is none to mypy
     return image
 
 
@@ -348,7 +352,7 @@ class Drawing:
         """Put every link where ``frame`` has it; returns how many moved."""
         poses = frame.poses
         if self._shown is None or self._shown.shape != poses.shape:
-            rows = np.arange(len(poses))
+            rows: np.ndarray = np.arange(len(poses))
         else:
             rows = np.flatnonzero((np.abs(poses - self._shown) > _STILL).any(axis=1))
         moved = 0

@@ -198,5 +198,5 @@ def inertia_box(inertial: d.Inertial) -> tuple[Pose, tuple[float, float, float]]
         return None
     if np.linalg.det(axes) < 0.0:
         axes[:, 0] = -axes[:, 0]
-    turned = compose(inertial.pose, Pose(q=quat_from_matrix(axes.tolist())))
+    turned = compose(inertial.pose, Pose(q=quat_from_matrix([row.tolist() for row in axes])))
     return turned, vec3(np.sqrt(squares))

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 from importlib.util import find_spec
-from typing import NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
@@ -59,7 +59,7 @@ class Encoder:
         self._padding = tuple((0, -size % _BLOCK) for size in shape)
         height, width = (size + after for size, (_, after) in zip(shape, self._padding))
         try:
-            self._context = context = av.CodecContext.create("libtheora", "w")
+            self._context = context = cast(Any, av.CodecContext.create("libtheora", "w"))
             context.height, context.width, context.pix_fmt = height, width, "yuv420p"
             context.time_base = Fraction(1, _RATE)
             context.gop_size = settings.keyframe_frequency
@@ -82,7 +82,7 @@ class Encoder:
         :param data: buffer of a picture, rows without gaps. :returns: its packets, usually one.
         :raises ValueError: libtheora refuses it, in one line.
         """
-        picture = np.frombuffer(data, np.uint8).reshape(*self._shape, self._channels)
+        picture: np.ndarray = np.frombuffer(data, np.uint8).reshape(*self._shape, self._channels)
         picture = np.pad(picture, self._padding + ((0, 0),), mode="edge")
         if self._channels == 1:
             picture = picture[..., 0]

@@ -17,7 +17,7 @@ from xml.etree import ElementTree
 import rospkg
 
 PACKAGES = (
-    "libode8",
+    "libode8*",
     "ros-base",
     "rviz",
     "catkin",

@@ -43,7 +43,7 @@ def _turned(points: np.ndarray, x: float, y: float, z: float, w: float) -> np.nd
 def _bounds(geometry: ET.Element | None, packages: rospkg.RosPack) -> tuple[np.ndarray, np.ndarray]:
     """Lowest and highest corner of a shape, (3,) each, m."""
     shape = None if geometry is None else next(iter(geometry), None)
-    half = _POINT
+    half: np.ndarray = _POINT
     if shape is not None and shape.tag == "box":
         half = _numbers(shape.get("size"), (0.0,) * 3) / 2
     elif shape is not None and shape.tag in ("cylinder", "sphere"):

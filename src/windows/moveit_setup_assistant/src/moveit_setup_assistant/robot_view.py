@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 
 import numpy as np
-from ode_sim.math3 import quat_to_matrix
+from ode_sim.math3 import quat_to_matrix, vec3
 from ode_sim_rendering import Camera, Renderer, RenderingUnavailable, look_at
 from ode_sim_rendering.assets import Assets
 from ode_sim_rendering.portrait import Portrait, camera_from, extent
@@ -44,7 +44,8 @@ class RobotView(QWidget):
         self._text = ""  # in place of a picture
         self._poses = np.zeros((0, 7))
         self._image = QImage()
-        self._azimuth, self._elevation, self._distance, self._target = math.pi / 5, 0.4, 2.0, np.zeros(3)
+        self._azimuth, self._elevation, self._distance = math.pi / 5, 0.4, 2.0
+        self._target: np.ndarray = np.zeros(3)
         self._pressed: QPoint | None = None
         self._taken = False  # the camera, by the user
         self._fitted = 0, 0  # the size in pixels for which it stands where it does
@@ -120,7 +121,7 @@ class RobotView(QWidget):
         """Stand where all of the robot is in the picture, and no farther away."""
         corners = self._corners()
         found = camera_from(corners, self._azimuth, self._elevation, width, height, self._hfov(width, height))
-        eye = np.array(found.pose.p)
+        eye: np.ndarray = np.array(found.pose.p)
         middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
         self._distance = max(0.05, float((middle - eye) @ self._towards()))
         self._target = eye + self._distance * self._towards()
@@ -138,7 +139,7 @@ class RobotView(QWidget):
 
     def _placed(self, width: int, height: int) -> Camera:
         near, far = self._distance / 100, self._distance * 20
-        pose = look_at(tuple(self._eye()), tuple(self._target))
+        pose = look_at(vec3(self._eye()), vec3(self._target))
         return Camera("view", width, height, self._hfov(width, height), near=near, far=far, pose=pose)
 
     def _leaves(self, camera: Camera) -> bool:

@@ -26,7 +26,7 @@ class Points(Series):
         """
         :param points: (n, 2). :param x_is_time: then a jump back begins the curve anew.
         """
-        new = np.asarray(points, float).reshape(-1, 2)
+        new: np.ndarray = np.asarray(points, float).reshape(-1, 2)
         if x_is_time and len(new):
             steps = np.diff(new[:, 0], prepend=self.x[-1] if len(self) else new[0, 0])
             jumps = np.flatnonzero(steps < -_CLOCK_SET_BACK)

@@ -129,7 +129,7 @@ def fitted(animation: Animation, skin: Skeleton) -> Animation:
 
 
 def _quat(turn: np.ndarray) -> Quat:
-    x, y, z, w = from_matrices(turn).tolist()
+    x, y, z, w = map(float, from_matrices(turn))
     return x, y, z, w
 
 

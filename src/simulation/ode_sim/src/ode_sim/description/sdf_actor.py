@@ -125,14 +125,14 @@ class SdfActors(SdfModels):
             self.warn(skin, f"actor '{quoted(element.get('name'))}' is not drawn: {error}")
             pieces = {}
         frames = skeleton.model_frames()
-        turned = [tuple(q) for q in from_matrices(frames[:, :3, :3]).tolist()]
-        root = Pose(tuple(frames[0, :3, 3].tolist()), turned[0])
+        turned = [_quat(q) for q in from_matrices(frames[:, :3, :3])]
+        root = Pose(math3.vec3(frames[0, :3, 3]), turned[0])
         links, names = [], set()
         for index, bone in enumerate(skeleton.bones):
             if bone.name in names:
                 continue
             names.add(bone.name)
-            pose = math3.relative(root, Pose(tuple(frames[index, :3, 3].tolist()), turned[index]))
+            pose = math3.relative(root, Pose(math3.vec3(frames[index, :3, 3]), turned[index]))
             visuals: tuple[Visual, ...] = ()
             shapes: list[Collision] = []
             if bone.name in pieces:
@@ -222,6 +222,11 @@ class SdfActors(SdfModels):
         )
 
 
+def _quat(values: np.ndarray) -> math3.Quat:
+    x, y, z, w = map(float, values)
+    return x, y, z, w
+
+
 def _bone_box(
     bone: str, child: str, frame: np.ndarray, child_frame: np.ndarray, turned: math3.Quat, between: np.ndarray
 ) -> list[Collision]:
@@ -232,5 +237,5 @@ def _bone_box(
     if length < 1e-6 or size < 1e-6:
         return []
     upright = math3.quat_from_rpy(0.0, float(np.arccos(np.clip(way[2] / length, -1.0, 1.0))), float(np.arctan2(way[1], way[0])))
-    pose = Pose(tuple((0.5 * between).tolist()), math3.quat_multiply(math3.quat_inverse(turned), upright))
+    pose = Pose(math3.vec3(0.5 * between), math3.quat_multiply(math3.quat_inverse(turned), upright))
     return [Collision(f"{bone}_{child}_collision", pose, Box((_THICK, _THICK, size)), _TOUCHES_NOTHING)]
