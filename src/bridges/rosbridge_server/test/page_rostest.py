@@ -62,9 +62,9 @@ class Page(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         rospy.wait_for_service("/rosapi/get_time", 60)  # the last of them
-        why = missing() and f"{missing()} not installed" or library(folder.name)
-        if why:
-            raise unittest.SkipTest(why)
+        cls.why = missing() and f"{missing()} not installed" or library(folder.name)
+        if cls.why:
+            return
         with open(os.path.join(folder.name, "index.html"), "w") as file:
             file.write(PAGE)
         quiet = type("Quiet", (SimpleHTTPRequestHandler,), {"log_message": lambda *_: None})
@@ -74,6 +74,10 @@ class Page(unittest.TestCase):
         cls.page = Browser(f"http://127.0.0.1:{server.server_port}/index.html", frames=0)
         cls.addClassCleanup(cls.page.close)
         wait_until(lambda: cls.do("return seen.connected"), "the page's connection")
+
+    def setUp(self):
+        if self.why:  # each test by itself, so that it is counted
+            self.skipTest(self.why)
 
     @classmethod
     def do(cls, script, *values):

@@ -10,6 +10,8 @@ from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import PoseStamped
 from moveit_msgs.msg import Grasp, GripperTranslation, MoveItErrorCodes, PlaceActionGoal, PlaceLocation
 from sensor_msgs.msg import JointState
+from test_support.hearing import heard
+from test_support.waiting import wait_until
 from tf.transformations import quaternion_from_euler
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
@@ -94,8 +96,11 @@ class PickPlace(unittest.TestCase):
         """As far back as there is room, be it none."""
         goals = []
         subscriber = rospy.Subscriber("/place/goal", PlaceActionGoal, goals.append)
+        self.assertFalse(self.arm.place("nothing", stamped(0.45, 0.2, 0.251)))  # goals come from a publisher that is made now
+        wait_until(lambda: heard([subscriber]), "the goals' publisher")
         self.assertEqual(self.arm.pick("block", grasp(0.45, 0.0, 0.25)), Codes.SUCCESS)
         self.assertTrue(self.arm.place("block", stamped(0.45, 0.2, 0.251)))
+        wait_until(lambda: goals and goals[-1].goal.attached_object_name == "block", "the goal")
         subscriber.unregister()
         location = goals[-1].goal.place_locations[0]
         down, back = location.pre_place_approach, location.post_place_retreat
