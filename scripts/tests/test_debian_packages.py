@@ -48,6 +48,13 @@ def sections():
 
 
 @functools.cache
+def not_in_this_release():
+    """What is optional and is not there: other releases of Debian have it."""
+    lines = (ROOT / "scripts/debian-packages.txt").read_text().splitlines()
+    return {line.rstrip("?") for line in lines if line.endswith("?")} - known()
+
+
+@functools.cache
 def known():
     """Every name that apt knows."""
     return frozenset(subprocess.run(["apt-cache", "pkgnames"], capture_output=True, text=True, check=True, timeout=120).stdout.split())
@@ -138,7 +145,7 @@ def lacking(names, key_source, kind, have):
     lines = []
     for name in names:
         for key in sorted(set(key_source(name))):
-            if key in workspace() or key == "catkin":
+            if key in workspace() or key == "catkin" or key in not_in_this_release():
                 continue
             found = debian_for(key, kind)
             if found is None:
