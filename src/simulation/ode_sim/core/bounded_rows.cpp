@@ -140,9 +140,13 @@ bool Rows::solve_exactly() {
   for (size_t i = 0; i < n_; ++i) {
     double lo, hi;
     limits(i, force_, &lo, &hi);
-    if (!(couplings_[i * stride_ + i] > 0) && lo < hi) return false;
-    if (force_[i] <= lo) at[i] = At::kLow;
-    else if (force_[i] >= hi) at[i] = At::kHigh;
+    const double own = couplings_[i * stride_ + i];
+    if (!(own > 0) && lo < hi) return false;
+    // Where the row would go by itself. The force alone may stand a little within a bound that has moved since with the row that it
+    // is a multiple of.
+    const double towards = own > 0 ? force_[i] + left_[i] / own : force_[i];
+    if (towards <= lo) at[i] = At::kLow;
+    else if (towards >= hi) at[i] = At::kHigh;
     else place[i] = static_cast<int>(m++);
   }
   std::vector<double> matrix(m * m, 0.0), right(m, 0.0);

@@ -1,6 +1,7 @@
 // Forces of rows with bounds, against statics and against the conditions that define them.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <random>
 #include <vector>
@@ -51,6 +52,39 @@ TEST(BoundedRows, FrictionSlipsAtItsShareOfTheNormalForceAndHoldsBelow) {
       EXPECT_NEAR(rows.force(1), share * rows.force(0), 1e-9);
     }
   }
+}
+
+// A box that slides on its four corners: how they share its weight is left open but for a little compliance, so that Gauss-Seidel
+// alone goes on for ever, and each friction follows a normal force that still moves. Law: mu m g against the motion, nothing aside.
+TEST(BoundedRows, ABoxSlidesOnFourCornersAsOnOne) {
+  const double mass = 10, mu = 0.5, g = 9.81, half = 0.2, height = 0.1, inertia = 0.3, soft = 1e-6;
+  bounded::Rows rows(12);
+  std::vector<std::array<double, 6>> jacobian;  // of each row, by the box's velocity and turning
+  for (int corner = 0; corner < 4; ++corner) {
+    const double x = corner % 2 ? half : -half, y = corner / 2 ? half : -half, z = -height;
+    jacobian.push_back({0, 0, 1, y, -x, 0});
+    jacobian.push_back({1, 0, 0, 0, z, -y});
+    jacobian.push_back({0, 1, 0, -z, 0, x});
+  }
+  for (size_t i = 0; i < 12; ++i) {
+    for (size_t k = 0; k < 12; ++k)
+      for (int axis = 0; axis < 6; ++axis)
+        rows.coupling(i, k) += jacobian[i][axis] * jacobian[k][axis] / (axis < 3 ? mass : inertia);
+    rows.coupling(i, i) += soft;
+    if (i % 3 == 0) rows.set(i, {0, kNone, -1}, g);
+    else rows.set(i, {-mu, mu, static_cast<int>(i - i % 3)}, i % 3 == 1 ? -20 : 0);
+  }
+  rows.solve(60, 1e-12);
+  double weight = 0, ahead = 0, aside = 0, tilt = 0;
+  for (size_t i = 0; i < 12; ++i) {
+    (i % 3 == 0 ? weight : i % 3 == 1 ? ahead : aside) += rows.force(i);
+    tilt += jacobian[i][4] * rows.force(i);
+    if (i % 3 == 1) EXPECT_NEAR(rows.force(i), -mu * rows.force(i - 1), 1e-9) << i;
+  }
+  EXPECT_NEAR(weight, mass * g, 1e-3);
+  EXPECT_NEAR(ahead, -mu * mass * g, 1e-3);
+  EXPECT_NEAR(aside, 0, 1e-6);
+  EXPECT_NEAR(tilt, 0, 1e-3);  // it does not turn over
 }
 
 TEST(BoundedRows, EachMovesAsToldOrIsAtItsBoundAndWouldGoBeyond) {
