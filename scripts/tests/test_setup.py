@@ -104,6 +104,14 @@ class Machine:
             env={"PATH": str(self.bin), "HOME": str(self.folder), **environment},
         )
 
+    def tick(self):
+        """Until what is written now is newer than what the last set-up wrote: a fast machine writes both in one tick of the clock."""
+        ended = max((path.stat().st_mtime_ns for path in (self.folder / "clone").rglob("built*")), default=0)
+        probe = self.folder / "probe"
+        probe.touch()
+        while probe.stat().st_mtime_ns <= ended:
+            probe.touch()
+
     def builds(self):
         return self.seen().count("build")
 
@@ -139,6 +147,7 @@ def test_what_has_not_changed_is_not_built_again(machine, what):
     (clone / "src/arm/__pycache__").mkdir()  # its folder is looked at once more
     assert machine.run().returncode == 0
     before = machine.builds()
+    machine.tick()
     if what == "what Python compiles":
         (clone / "src/arm/__pycache__/robot.pyc").write_text("")
     changes(clone).get(what, lambda: None)()
@@ -296,6 +305,8 @@ def test_a_mirror_that_breaks_off_is_tried_once_more(machine):
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="mounting read-only needs root; others are refused by the same line")
 def test_a_read_only_checkout_is_one_line(machine):
+    if subprocess.run(["/usr/bin/unshare", "-m", "/bin/true"], capture_output=True).returncode:
+        pytest.skip("nothing can be mounted here")
     clone = machine.setup.parent.parent
     ended = machine.run(
         "--demo",
