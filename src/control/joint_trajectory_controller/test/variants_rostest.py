@@ -67,8 +67,12 @@ class PartialGoals(TrajectoryCase):
         self.assertLess(rospy.get_time(), start)
         self.assertEqual(goal.finish()[0], GoalStatus.SUCCEEDED)
         self.assertGreaterEqual(rospy.get_time(), start + 0.3)
-        moving = [s.header.stamp.to_sec() for s in self.state.messages if s.desired.positions[0] > 0.001]
-        self.assertGreaterEqual(moving[0], start - 0.011)
+
+        def moving():
+            return [s.header.stamp.to_sec() for s in self.state.messages if s.desired.positions[0] > 0.001]
+
+        client.wait_until(moving, "states of the motion, which come on a topic of their own", 10)
+        self.assertGreaterEqual(moving()[0], start - 0.011)
         self.assertStates(self.state.next().actual.positions, [0.5, 0.0])
 
 
