@@ -18,6 +18,16 @@ using planning_scene_monitor::PlanningSceneMonitor;
 // The number of the last change of this process that a scene holds: in a header that nobody else fills in.
 std::uint32_t& changesIn(Scene& scene) { return scene.robot_state.joint_state.header.seq; }
 
+std::vector<std::string> attachedTo(const PlanningScene& scene)
+{
+  std::vector<const moveit::core::AttachedBody*> bodies;
+  scene.getCurrentState().getAttachedBodies(bodies);
+  std::vector<std::string> names;
+  for (const moveit::core::AttachedBody* body : bodies)
+    names.push_back(body->getName() + "/" + body->getAttachedLinkName());
+  return names;
+}
+
 bool isNothing(const Scene& change)
 {
   Scene nothing;
@@ -41,11 +51,19 @@ SharedScene::SharedScene(const planning_scene_monitor::PlanningSceneMonitorPtr& 
       node.subscribe<Scene>("planning_scene", 1, [this](const moveit_msgs::PlanningSceneConstPtr& scene) { follow(*scene); });
 }
 
-// Joint states come to both: nobody tells the other of them. What is attached changes with the robot's state.
+// Joint states come to both, often: nobody tells the other of them. What is attached is part of the robot's state, too.
 void SharedScene::changed(PlanningSceneMonitor::SceneUpdateType type)
 {
-  if (!following_ && type != PlanningSceneMonitor::UPDATE_STATE)
+  if (!following_ && (type != PlanningSceneMonitor::UPDATE_STATE || holdsOthers()))
     send();
+}
+
+// Whether other bodies are attached than when both last had the same.
+bool SharedScene::holdsOthers()
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const LockedPlanningSceneRO lock_of_scene(monitor_);
+  return attachedTo(*common_) != attachedTo(*monitor_->getPlanningScene());
 }
 
 // Whether there was something to send.

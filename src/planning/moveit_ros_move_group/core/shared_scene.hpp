@@ -20,6 +20,7 @@ public:
 
 private:
   void changed(planning_scene_monitor::PlanningSceneMonitor::SceneUpdateType type);
+  bool holdsOthers();
   bool send();
   void follow(const moveit_msgs::PlanningScene& scene);
 

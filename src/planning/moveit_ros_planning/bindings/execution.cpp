@@ -1,9 +1,9 @@
 // The laws of execution for the Python half.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
-#include <ros/serialization.h>
 
 #include "laws/execution.hpp"
+#include "message_bytes.hpp"
 
 namespace py = pybind11;
 using Message = moveit_msgs::RobotTrajectory;
@@ -11,22 +11,6 @@ using execution::StartTolerance;
 
 namespace
 {
-Message read(const std::string& bytes)
-{
-  Message message;
-  ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(const_cast<char*>(bytes.data())), bytes.size());
-  ros::serialization::deserialize(stream, message);
-  return message;
-}
-
-py::bytes written(const Message& message)
-{
-  std::string bytes(ros::serialization::serializationLength(message), '\0');
-  ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(&bytes[0]), bytes.size());
-  ros::serialization::serialize(stream, message);
-  return bytes;
-}
-
 std::vector<double> timesOf(const Message& message)
 {
   std::vector<double> times;
@@ -41,8 +25,8 @@ std::vector<double> timesOf(const Message& message)
 void bindTrajectory(py::module_& m)
 {
   py::class_<Message>(m, "Trajectory", "A moveit_msgs/RobotTrajectory, read from its bytes.")
-      .def(py::init(&read), py::arg("bytes"))
-      .def("bytes", &written)
+      .def(py::init(&read<Message>), py::arg("bytes"))
+      .def("bytes", [](const Message& self) { return py::bytes(written(self)); })
       .def_property_readonly("joint_names", [](const Message& self) { return self.joint_trajectory.joint_names; })
       .def_property_readonly("multi_dof_joint_names",
                              [](const Message& self) { return self.multi_dof_joint_trajectory.joint_names; })

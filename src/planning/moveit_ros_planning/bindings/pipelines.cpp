@@ -4,10 +4,10 @@
 #include <moveit_msgs/MotionPlanResponse.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
-#include <ros/serialization.h>
 
 #include <mutex>
 
+#include "message_bytes.hpp"
 #include "motion/robot_model.hpp"
 #include "second_node.hpp"
 
@@ -15,24 +15,6 @@ namespace py = pybind11;
 
 namespace
 {
-template <typename Message>
-Message read(const std::string& bytes)
-{
-  Message message;
-  ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(const_cast<char*>(bytes.data())), bytes.size());
-  ros::serialization::deserialize(stream, message);
-  return message;
-}
-
-template <typename Message>
-std::string written(const Message& message)
-{
-  std::string bytes(ros::serialization::serializationLength(message), '\0');
-  ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(&bytes[0]), bytes.size());
-  ros::serialization::serialize(stream, message);
-  return bytes;
-}
-
 class CompiledPipeline
 {
 public:

@@ -249,16 +249,3 @@ def trajectory_from_message(model, group: str, reference: motion.RobotState, mes
         velocities=velocities if has_velocities else None,
         accelerations=accelerations if has_accelerations else None,
     )
-
-
-def is_empty_trajectory(message: RobotTrajectory) -> bool:
-    """True for a trajectory ``message`` without points."""
-    return not message.joint_trajectory.points and not message.multi_dof_joint_trajectory.points
-
-
-def duration(message: RobotTrajectory) -> float:
-    """Seconds from the start of ``message`` to its last point."""
-    ends = [
-        part.points[-1].time_from_start.to_sec() for part in (message.joint_trajectory, message.multi_dof_joint_trajectory) if part.points
-    ]
-    return max(ends, default=0.0)
