@@ -70,6 +70,8 @@ std::shared_ptr<CollisionShape> make(const ShapePtr& shape, double scale, double
   out->geometry = fclGeometry(*larger);
   out->geometry->computeLocalAABB();
   out->unbounded = !localBounds(*larger, out->centre, out->half);
+  if (larger->type == ShapeType::Mesh && !static_cast<const Mesh&>(*larger).triangles.empty())
+    out->parts = std::make_shared<const MeshParts>(static_cast<const Mesh&>(*larger));
   return out;
 }
 }  // namespace

@@ -4,6 +4,7 @@
 #include <fcl/geometry/collision_geometry.h>
 
 #include "motion/shapes.hpp"
+#include "support.hpp"
 
 namespace motion
 {
@@ -11,6 +12,7 @@ struct CollisionShape
 {
   ShapePtr shape;  // as given; kept so that the cache's key stays valid
   std::shared_ptr<fcl::CollisionGeometryd> geometry;
+  std::shared_ptr<const MeshParts> parts;  // of a mesh
   Vector3 centre = Vector3::Zero(), half = Vector3::Zero();
   bool unbounded = false;
 };

@@ -13,6 +13,8 @@ namespace
 constexpr double RESOLUTION = 5e-4;  // m: shapes that move by less and touch at neither end are believed not to touch
 constexpr double COARSE = 0.01;      // m: the same for shapes whose distance is not known (planes, octrees)
 constexpr double UNKNOWN = -1;
+constexpr double WORTH =
+    0.25;  // part of what a step needs: with that much a smaller step is sooner made than FCL asked for the rest
 constexpr double ENOUGH = 1.2;  // times what a step needs: how much larger a distance is, is not asked
 
 // How far the points of a shape move at most, the way between the two poses being short.
@@ -86,6 +88,13 @@ PathWalk::Verdict PathWalk::look(const Side& a, const Side& b, double boxes, dou
     margin = std::max(margin, boxes);
   if (margin < need)
     margin = std::max(margin, gapOfBoxes(*a.shape, *a.now, *b.shape, *b.now));
+  if (margin < need)
+    margin = std::max(margin, gapOfHulls(*a.shape, *a.now, *b.shape, *b.now, ENOUGH * need));
+  if (margin < need && need > RESOLUTION && margin > WORTH * need)
+  {
+    shrink_ = 0.9 * margin / need;
+    return Verdict::Finer;
+  }
   if (margin < need)
   {
     const double exact = gap(a, b, ENOUGH * need);

@@ -1,6 +1,7 @@
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/util/Console.h>
 
+#include <cstdlib>
 #include <set>
 
 #include "motion/planning.hpp"
@@ -77,5 +78,17 @@ std::string plannerProblem(const std::string& name, const std::map<std::string, 
       return "planner " + known + " has no parameter '" + key.substr(0, 60) + "' (there is: " + listed(keys) + ")";
     }
   return "";
+}
+
+bool hasNoRange(const std::string& name, const std::map<std::string, std::string>& parameters)
+{
+  const auto range = parameters.find("range");
+  return name == "RRTConnect" && (range == parameters.end() || std::strtod(range->second.c_str(), nullptr) == 0);
+}
+
+void stepShort(ob::Planner& planner, double extent)
+{
+  constexpr double PART = 0.06;
+  planner.params().setParam("range", std::to_string(PART * extent));
 }
 }  // namespace motion

@@ -21,6 +21,10 @@ ompl::base::OptimizationObjectivePtr makeObjective(const std::string& name, cons
 ompl::base::PlannerTerminationCondition makeTermination(const std::string& text,
                                                         const ompl::base::ProblemDefinitionPtr& problem,
                                                         const std::function<bool()>& stopped);
+// Is it RRTConnect, and how far its steps go left to OMPL (a range of 0, or none)?
+bool hasNoRange(const std::string& name, const std::map<std::string, std::string>& parameters);
+// OMPL's own range, a fifth of the space, soon crosses what is wide, but seldom gets into what is narrow. `extent`: of the space.
+void stepShort(ompl::base::Planner& planner, double extent);
 // OMPL writes on the console; what matters comes back in the result.
 void quiet();
 }  // namespace motion

@@ -27,8 +27,9 @@ namespace motion
 namespace
 {
 using Clock = std::chrono::steady_clock;
-constexpr int CLOSER = 3;      // times that a path which cuts corners is looked at again; the last time all along
-constexpr double FINER = 4.0;  // how much nearer to each other are the states then, each time
+constexpr int CLOSER = 3;                 // times that a path which cuts corners is looked at again; the last time all along
+constexpr std::size_t LONG_STEPS = 2000;  // states that RRTConnect looks at before its steps become shorter
+constexpr double FINER = 4.0;             // how much nearer to each other are the states then, each time
 
 double since(Clock::time_point started) { return std::chrono::duration<double>(Clock::now() - started).count(); }
 
@@ -208,7 +209,8 @@ private:
         if (c.variable == group_.variables[i] && !c.continuous)
           space_->limit(i, c.position - c.below, c.position + c.above);
     if (request_.has_workspace)
-      limitWorkspace();
+      boundsOfWorkspace(*scene_.model(), group_, start_, goals_, request_.workspace_min, request_.workspace_max,
+                        [this](std::size_t variable, double low, double high) { space_->limit(variable, low, high); });
     if (!path_.positions.empty() || !path_.orientations.empty())
       space_->projectOnto(&path_);
     for (const std::string& problem : space_->setProjection(request_.projection))
@@ -234,30 +236,6 @@ private:
     // Without an objective each planner has its own default; given one, PRM and LazyPRM would use all of their time.
     if (const auto wanted = objective())
       problem_->setOptimizationObjective(wanted);
-  }
-
-  void limitWorkspace()
-  {
-    std::size_t index = 0;
-    for (int j : group_.active_joints)
-    {
-      const JointModel& joint = scene_.model()->joints[j];
-      for (int k = 0; k < lengthsOf(joint); ++k)
-        if (!joint.bounds[k].has_position)
-        {
-          // Start and goals stay inside whatever the workspace says.
-          double low = request_.workspace_min[k], high = request_.workspace_max[k];
-          low = std::min(low, start_.joint(joint)[k]);
-          high = std::max(high, start_.joint(joint)[k]);
-          for (const auto& goal : goals_)
-          {
-            low = std::min(low, goal[index + k]);
-            high = std::max(high, goal[index + k]);
-          }
-          space_->limit(index + k, low, high);
-        }
-      index += joint.variable_count;
-    }
   }
 
   std::string parameter(const std::string& key) const
@@ -356,6 +334,15 @@ private:
     ++result_.attempts;
     const ob::PlannerPtr one = planner();
     one->setup();
+    if (hasNoRange(result_.planner, request_.parameters))
+    {
+      const std::size_t until = validity_->checked + LONG_STEPS;
+      const ob::PlannerStatus status =
+          one->solve(ob::PlannerTerminationCondition([this, &done, until]() { return done() || validity_->checked >= until; }));
+      if (done || status == ob::PlannerStatus::EXACT_SOLUTION)
+        return status;
+      stepShort(*one, space_->getMaximumExtent());
+    }
     return one->solve(done);
   }
 
@@ -370,15 +357,17 @@ private:
       made += batch;
       if (batch == 1)
       {
-        ++result_.attempts;
-        const ob::PlannerPtr one = planner();
-        one->setup();
-        status = one->solve(done);
+        status = solveOnce(done);
         continue;
       }
       ompl::tools::ParallelPlan parallel(problem_);
       for (int i = 0; i < batch; ++i)
-        parallel.addPlanner(planner());
+      {
+        const ob::PlannerPtr one = planner();
+        if (i % 2 && hasNoRange(result_.planner, request_.parameters))
+          stepShort(*one, space_->getMaximumExtent());
+        parallel.addPlanner(one);
+      }
       status = parallel.solve(done, 1, batch, false);
       result_.attempts += batch;
     }

@@ -68,4 +68,28 @@ std::vector<std::vector<double>> nearestFirst(const RobotState& start, const Joi
     sorted.push_back(goals[index]);
   return sorted;
 }
+
+void boundsOfWorkspace(const RobotModel& model, const JointModelGroup& group, const RobotState& start,
+                       const std::vector<std::vector<double>>& goals, const Vector3& low, const Vector3& high,
+                       const std::function<void(std::size_t, double, double)>& limit)
+{
+  std::size_t index = 0;
+  for (int j : group.active_joints)
+  {
+    const JointModel& joint = model.joints[j];
+    for (int k = 0; k < lengthsOf(joint); ++k)
+    {
+      if (joint.bounds[k].has_position)
+        continue;
+      double least = std::min(low[k], start.joint(joint)[k]), most = std::max(high[k], start.joint(joint)[k]);
+      for (const auto& goal : goals)
+      {
+        least = std::min(least, goal[index + k]);
+        most = std::max(most, goal[index + k]);
+      }
+      limit(index + k, least, most);
+    }
+    index += joint.variable_count;
+  }
+}
 }  // namespace motion

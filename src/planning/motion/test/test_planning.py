@@ -223,6 +223,61 @@ OPTIMISING = [
 
 
 @pytest.mark.slow
+def caged(model):
+    """The goal AWAY behind a round fence whose posts let little more than the arm through."""
+    scene = motion.PlanningScene(model)
+    state = scene.state
+    state.set_group("arm", AWAY)
+    x, y, z = state.pose("tool").position
+    radius = 0.28
+    for post, turn in enumerate(np.arange(14) * 2 * np.pi / 14):
+        place = (x + radius * np.cos(turn), y + radius * np.sin(turn), z)
+        scene.add_object(f"post{post}", [motion.Box(0.04, 0.04, 0.8)], pose=(place, (0, 0, 0, 1)))
+    for side, rails in enumerate((-0.3, 0.3)):
+        for rail, (dx, dy) in enumerate(((1, 0), (-1, 0), (0, 1), (0, -1))):
+            size = (0.04 if dx else 2 * radius, 0.04 if dy else 2 * radius, 0.04)
+            scene.add_object(f"rail{side}{rail}", [motion.Box(*size)], pose=((x + radius * dx, y + radius * dy, z + rails), (0, 0, 0, 1)))
+    state.set_group("arm", HOME)
+    scene.set_state(state)
+    return scene
+
+
+def searched(scene, model, seed, **params):
+    result = motion.plan(
+        scene, request(model, seed=seed, longest_valid_segment_fraction=0.005, planner_params=params, simplify=False, interpolate=False)
+    )
+    assert result
+    return result
+
+
+@pytest.mark.parametrize("wanted", [0.5, 3.0])
+def test_a_range_that_was_asked_for_is_kept(model, wanted):
+    """OMPL's range: how far apart (here the sum over the joints) two states of a tree are at most."""
+    scene = caged(model)
+    for seed in range(1, 4):
+        steps = np.abs(np.diff(searched(scene, model, seed, range=str(wanted)).path, axis=0)).sum(axis=1)
+        assert steps.max() <= wanted * (1 + 1e-9)
+
+
+def test_without_a_range_steps_become_shorter_where_it_is_narrow(scene, model):
+    """At first a fifth of the space, as OMPL has it; what that does not reach, shorter ones do."""
+    fifth = str(0.2 * np.diff(model.group("arm").position_limits(), axis=0).sum())
+    for seed in (1, 2, 3):
+        easy = [searched(scene, model, seed, **params) for params in ({}, {"range": "0"}, {"range": fifth})]
+        assert easy[0].states == easy[1].states == easy[2].states < 2000
+    narrow = caged(model)
+    seeds = range(1, 13)
+    assert sum(searched(narrow, model, seed).states for seed in seeds) < 0.8 * sum(
+        searched(narrow, model, seed, range=fifth).states for seed in seeds
+    )
+
+
+@pytest.mark.slow
+def test_attempts_side_by_side_take_turns_with_long_and_short_steps(model):
+    result = motion.plan(caged(model), request(model, seed=None, attempts=4, longest_valid_segment_fraction=0.005))
+    assert result and result.attempts == 4
+
+
 @pytest.mark.parametrize("planner", FAST + OPTIMISING)
 def test_every_planner_of_the_tables(model, planner):
     """An easy problem. The optimising ones use all their time: there is little of it."""

@@ -96,3 +96,82 @@ def test_touching_is_where_the_distance_ends():
             assert touching == (distance <= 0), (i, pose, distance)
         free += not touching
     assert 100 < free < 300
+
+
+def block(size, centre, cuts=3):
+    """Corners and triangles of a box whose sides are cut into squares, as one of a mesh's parts."""
+    corners, triangles = [], []
+    grid = np.linspace(-0.5, 0.5, cuts + 1)
+    for axis in range(3):
+        u, v = (axis + 1) % 3, (axis + 2) % 3
+        for side in (-0.5, 0.5):
+            for i in range(cuts):
+                for k in range(cuts):
+                    first = len(corners)
+                    for a, b in ((i, k), (i + 1, k), (i + 1, k + 1), (i, k + 1)):
+                        corner = np.zeros(3)
+                        corner[axis], corner[u], corner[v] = side, grid[a], grid[b]
+                        corners.append(corner * size + centre)
+                    triangles += [[first, first + 1, first + 2], [first, first + 2, first + 3]]
+    return corners, triangles
+
+
+def joined(*blocks):
+    corners, triangles = [], []
+    for some, others in blocks:
+        triangles += [[index + len(corners) for index in triangle] for triangle in others]
+        corners += some
+    return corners, triangles
+
+
+#: three prongs of 0.04 m, 0.1 m from middle to middle, on a bar
+FORK = joined(block((0.3, 0.04, 0.04), (0, 0, 0)), *(block((0.04, 0.04, 0.3), (x, 0, 0.16)) for x in (-0.1, 0, 0.1)))
+
+
+def fork_robot(tmp_path):
+    """A robot whose one link is a fork, in a file."""
+    lines = ["solid fork"]
+    for triangle in FORK[1]:
+        lines += [
+            "facet normal 0 0 0",
+            "outer loop",
+            *("vertex {:.9g} {:.9g} {:.9g}".format(*FORK[0][i]) for i in triangle),
+            "endloop",
+            "endfacet",
+        ]
+    file = tmp_path / "fork.stl"
+    file.write_text("\n".join([*lines, "endsolid fork"]))
+    return robot(f'<mesh filename="file://{file}"/>')
+
+
+@pytest.mark.parametrize("thing", ["box", "cylinder", "ball", "fork"])
+def test_between_the_prongs_of_a_fork_it_is_free(tmp_path, thing):
+    """Between two prongs are 0.06 m; the hull of the fork fills them."""
+    scene = motion.PlanningScene(fork_robot(tmp_path))
+    half = 0.02
+    shape, turned, shift = {
+        "box": (motion.Box(2 * half, 1.0, 0.05), (0, 0, 0, 1), 0.0),
+        "cylinder": (motion.Cylinder(half, 1.0), turn((1, 0, 0), math.pi / 2), 0.0),
+        "ball": (motion.Sphere(half), (0, 0, 0, 1), 0.0),
+        "fork": (motion.Mesh(*FORK), turn((1, 0, 0), math.pi), 0.3),  # upside down: its outer prongs beside the others
+    }[thing]
+    for side in (-1, 1):
+        for off, wanted in ((0.0, False), (0.03 - half - 1e-4, False), (0.03 - half + 1e-4, True)):
+            assert touches(scene, shape, ((0.05 + side * off, 0, 0.2 + shift), turned)) == wanted, (thing, side, off)
+
+
+def test_meshes_touch_where_their_distance_ends(tmp_path):
+    """Forks in each other at random: distances, which FCL finds by itself, say the same."""
+    scene = motion.PlanningScene(fork_robot(tmp_path))
+    chance = np.random.default_rng(7)
+    shapes = [motion.Mesh(*FORK), motion.Box(0.03, 0.3, 0.05), motion.Cylinder(0.02, 0.3), motion.Cone(0.03, 0.2), motion.Sphere(0.025)]
+    free = 0
+    for i in range(500):
+        q = chance.normal(size=4)
+        pose = (tuple(chance.uniform(-0.2, 0.2, 3) + (0, 0, 0.15)), tuple(q / np.linalg.norm(q)))
+        touching = touches(scene, shapes[i % len(shapes)], pose)
+        distance = scene.distance(scene.state).distance
+        if abs(distance) > 1e-6 or not touching:
+            assert touching == (distance <= 0), (i, pose, distance)
+        free += not touching
+    assert 100 < free < 400
