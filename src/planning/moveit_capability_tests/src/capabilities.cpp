@@ -27,6 +27,7 @@ public:
                   node_handle_.advertiseService("juggle", &Services::juggle, this),
                   node_handle_.advertiseService("juggle_held", &Services::juggleHeld, this),
                   node_handle_.advertiseService("go_left", &Services::goLeft, this),
+                  node_handle_.advertiseService("go_left_slowly", &Services::goLeftSlowly, this),
                   node_handle_.advertiseService("crash", &Services::crash, this) };
   }
 
@@ -111,12 +112,15 @@ private:
   }
 
   // Plans with the default pipeline, executes, and says which code came of it.
-  bool goLeft(Request&, Response& response)
+  bool goLeft(Request&, Response& response) { return goLeftAt(1.0, response); }
+  bool goLeftSlowly(Request&, Response& response) { return goLeftAt(0.1, response); }
+
+  bool goLeftAt(double speed, Response& response)
   {
     if (!context_->plan_execution_)
       throw std::runtime_error("nothing is to be executed");
     plan_execution::PlanExecution::Options options;
-    options.plan_callback_ = [this](plan_execution::ExecutableMotionPlan& plan) { return planLeft(plan); };
+    options.plan_callback_ = [=](plan_execution::ExecutableMotionPlan& plan) { return planLeft(plan, speed); };
     plan_execution::ExecutableMotionPlan plan;
     context_->plan_execution_->planAndExecute(plan, options);
     response.success = plan.error_code_.val == moveit_msgs::MoveItErrorCodes::SUCCESS;
@@ -124,7 +128,7 @@ private:
     return true;
   }
 
-  bool planLeft(plan_execution::ExecutableMotionPlan& plan)
+  bool planLeft(plan_execution::ExecutableMotionPlan& plan, double speed)
   {
     const planning_scene::PlanningScenePtr scene = plan.copyPlanningScene();
     moveit::core::RobotState goal(scene->getCurrentState());
@@ -134,7 +138,7 @@ private:
     request.group_name = group->getName();
     request.allowed_planning_time = 5.0;
     request.num_planning_attempts = 1;
-    request.max_velocity_scaling_factor = request.max_acceleration_scaling_factor = 1.0;
+    request.max_velocity_scaling_factor = request.max_acceleration_scaling_factor = speed;
     request.goal_constraints.push_back(kinematic_constraints::constructGoalConstraints(goal, group));
     planning_interface::MotionPlanResponse planned;
     resolvePlanningPipeline("")->generatePlan(scene, request, planned);

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Compiled capabilities of another package, in a move_group that is launched with their names."""
 
+import math
 import os
 import queue
 import signal
@@ -12,7 +13,7 @@ import roslib.packages
 import rospy
 import rostest
 from geometry_msgs.msg import Pose, Quaternion
-from moveit_msgs.msg import CollisionObject, PlanningScene, PlanningSceneComponents
+from moveit_msgs.msg import AttachedCollisionObject, CollisionObject, PlanningScene, PlanningSceneComponents
 from moveit_msgs.srv import ApplyPlanningScene, GetPlanningScene
 from sensor_msgs.msg import JointState
 from shape_msgs.msg import SolidPrimitive
@@ -55,6 +56,10 @@ def brick(name):
     made.primitive_poses = [Pose(orientation=Quaternion(0, 0, 0, 1))]
     made.header.frame_id = "base_link"
     return made
+
+
+def joint_1_of(state):
+    return dict(zip(state.name, state.position)).get("joint_1", 0.0)
 
 
 class Launched:
@@ -131,13 +136,37 @@ class CapabilitiesTest(unittest.TestCase):
         self.wait_for_objects("/ box")
 
     def test_3_what_others_change_a_capability_sees(self):
-        diff = PlanningScene(is_diff=True)
-        diff.robot_state.is_diff = True
-        diff.world.collision_objects = [brick("wall")]
         heard = Heard("/move_group_capabilities/planning_scene", PlanningScene)
-        self.assertTrue(call("apply_planning_scene", ApplyPlanningScene, diff).success)
+        self.change_scene(world=[brick("wall")])
         heard.wait(lambda scene: any(item.id == "wall" for item in scene.world.collision_objects))
         self.wait_for_objects("wall / box")
+
+    def test_3b_what_is_grasped_on_the_way_counts_for_the_rest_of_it(self):
+        """A long bar is put on the turning arm; at the end of the turn it would meet a post."""
+        post = brick("post")
+        post.pose.position.x, post.pose.position.y, post.pose.position.z = math.cos(1.1), math.sin(1.1), 0.15
+        self.change_scene(world=[post])
+        states, answers = Heard("/joint_states", JointState), []
+        going = threading.Thread(target=lambda: answers.append(call("/move_group/go_left_slowly")))
+        going.start()
+        states.wait(lambda state: joint_1_of(state) > 0.05)
+        bar = brick("bar")
+        bar.header.frame_id, bar.primitives[0].dimensions = "link_1", [1.0, 0.04, 0.04]
+        bar.pose.position.x, bar.pose.position.z = 0.8, 0.05
+        self.change_scene(attached=[AttachedCollisionObject(link_name="link_1", object=bar, touch_links=["base_link"])])
+        going.join()
+        self.assertEqual(answers[0].message, "Solution found but the environment changed during execution and the path was aborted")
+        self.assertLess(joint_1_of(rospy.wait_for_message("/joint_states", JointState, PATIENCE)), 1.0)
+        put_down = AttachedCollisionObject(link_name="link_1", object=CollisionObject(id="bar", operation=CollisionObject.REMOVE))
+        self.change_scene(attached=[put_down])
+        self.change_scene(world=[CollisionObject(id=name, operation=CollisionObject.REMOVE) for name in ("bar", "post")])
+        self.wait_for_objects("wall / box")
+
+    def change_scene(self, world=(), attached=()):
+        diff = PlanningScene(is_diff=True)
+        diff.robot_state.is_diff = True
+        diff.world.collision_objects, diff.robot_state.attached_collision_objects = list(world), list(attached)
+        self.assertTrue(call("apply_planning_scene", ApplyPlanningScene, diff).success)
 
     def wait_for_objects(self, text):
         ended, over = rospy.Time.now() + rospy.Duration(PATIENCE), threading.Event()
@@ -149,7 +178,7 @@ class CapabilitiesTest(unittest.TestCase):
         states = Heard("/joint_states", JointState)
         answer = call("/move_group/go_left")
         self.assertEqual((answer.success, answer.message), (True, "Solution was found and executed."))
-        states.wait(lambda state: abs(dict(zip(state.name, state.position)).get("joint_1", 0.0) - 1.2) < 1e-3)
+        states.wait(lambda state: abs(joint_1_of(state) - 1.2) < 1e-3)
 
     def test_5_a_crash_leaves_move_group_alive(self):
         with self.assertRaises(rospy.ServiceException):

@@ -47,8 +47,10 @@ SharedScene::SharedScene(const planning_scene_monitor::PlanningSceneMonitorPtr& 
   ros::NodeHandle node("~");
   to_move_group_ = node.serviceClient<moveit_msgs::ApplyPlanningScene>("apply_planning_scene");
   monitor_->addUpdateCallback([this](PlanningSceneMonitor::SceneUpdateType type) { changed(type); });
+  node.setCallbackQueue(&queue_);
   from_move_group_ =
       node.subscribe<Scene>("planning_scene", 1, [this](const moveit_msgs::PlanningSceneConstPtr& scene) { follow(*scene); });
+  spinner_.start();
 }
 
 // Joint states come to both, often: nobody tells the other of them. What is attached is part of the robot's state, too.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <moveit_msgs/PlanningScene.h>
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
 #include <mutex>
@@ -26,10 +27,12 @@ private:
 
   planning_scene_monitor::PlanningSceneMonitorPtr monitor_;
   ros::ServiceClient to_move_group_;
+  ros::CallbackQueue queue_;  // its own: a scene comes also while a capability is at work in the thread of all others
   ros::Subscriber from_move_group_;
   std::mutex mutex_;                         // of the two below
   planning_scene::PlanningScenePtr common_;  // the scene when both last had the same
   std::uint32_t changes_ = 0;                // that this process has sent
   static thread_local bool following_;
+  ros::AsyncSpinner spinner_{ 1, &queue_ };  // last: it ends before what it uses
 };
 }  // namespace move_group

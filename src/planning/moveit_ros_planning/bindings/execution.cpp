@@ -1,4 +1,5 @@
 // The laws of execution for the Python half.
+#include <pybind11/functional.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -77,4 +78,7 @@ PYBIND11_MODULE(_execution, m)
   m.def("waits_before_planning", &execution::waitsBeforePlanning, py::arg("code"), "Does one wait before that plan?");
   m.def("goes_on_from", &execution::goesOnFrom, py::arg("groups"), py::arg("index"),
         "The trajectory from whose end the continuous joints of trajectory `index` go on; -1: from where the robot is.");
+  m.def("first_invalid", &execution::firstInvalid, py::arg("way_points"), py::arg("expected"), py::arg("way_point"),
+        py::arg("now"), py::arg("valid"),
+        "The first way point, from the one before `expected` on, that is not valid with what is attached in `now`; -1: none.");
 }

@@ -1,7 +1,6 @@
 // Execution of plans under the eyes of a scene monitor.
 #include <moveit/plan_execution/plan_execution.h>
 
-#include <algorithm>
 #include <optional>
 
 #include <moveit/utils/message_checks.h>
@@ -206,18 +205,20 @@ bool PlanExecution::isRemainingPathValid(const ExecutableMotionPlan& plan, const
   if (!part.trajectory_monitoring_ || !part.trajectory_)
     return true;
   const LockedPlanningSceneRO lock(plan.planning_scene_monitor_);
+  const planning_scene::PlanningScene& scene = *plan.planning_scene_;
   collision_detection::CollisionRequest request;
   request.group_name = part.trajectory_->getGroupName();
-  const auto& acm =
-      part.allowed_collision_matrix_ ? *part.allowed_collision_matrix_ : plan.planning_scene_->getAllowedCollisionMatrix();
-  for (std::size_t i = std::max(place.second - 1, 0); i < part.trajectory_->getWayPointCount(); ++i)
-  {
+  const auto& acm = part.allowed_collision_matrix_ ? *part.allowed_collision_matrix_ : scene.getAllowedCollisionMatrix();
+  moveit::core::RobotState state(scene.getCurrentState());
+  const auto valid = [&](const motion::RobotState& way_point) {
+    state.setCore(way_point);
     collision_detection::CollisionResult result;
-    plan.planning_scene_->checkCollisionUnpadded(request, result, part.trajectory_->getWayPoint(i), acm);
-    if (result.collision || !plan.planning_scene_->isStateFeasible(part.trajectory_->getWayPoint(i)))
-      return false;
-  }
-  return true;
+    scene.checkCollisionUnpadded(request, result, state, acm);
+    return !result.collision && scene.isStateFeasible(state);
+  };
+  const auto at = [&](std::size_t i) { return part.trajectory_->getWayPoint(i).core(); };
+  return execution::firstInvalid(part.trajectory_->getWayPointCount(), place.second, at, scene.getCurrentState().core(),
+                                 valid) < 0;
 }
 
 void PlanExecution::succeeded(const ExecutableMotionPlan& plan, std::size_t index)

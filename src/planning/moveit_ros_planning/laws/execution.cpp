@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
-#include <functional>
 #include <tuple>
 
 namespace execution
@@ -459,5 +458,22 @@ int goesOnFrom(const std::vector<std::optional<std::string>>& groups, std::size_
       same = groups[i] == groups[index];
     }
   return last;
+}
+
+// ---------------------------------------------------------------- what is left of a path
+
+int firstInvalid(std::size_t way_points, int expected, const std::function<motion::RobotState(std::size_t)>& way_point,
+                 const motion::RobotState& now, const std::function<bool(const motion::RobotState&)>& valid)
+{
+  for (std::size_t i = std::max(expected - 1, 0); i < way_points; ++i)
+  {
+    motion::RobotState state = way_point(i);
+    state.clearAttached();
+    for (const auto& body : now.attached())
+      state.attach(body.second);
+    if (!valid(state))
+      return static_cast<int>(i);
+  }
+  return -1;
 }
 }  // namespace execution

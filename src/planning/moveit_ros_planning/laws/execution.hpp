@@ -5,6 +5,7 @@
 
 #include <moveit_msgs/RobotTrajectory.h>
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -84,4 +85,11 @@ bool waitsBeforePlanning(int code);
 // The trajectory from whose end the continuous joints of trajectory `index` go on: the last one before it of the same group, else the
 // last; -1: there is none, they go on from where the robot is. `groups`: each one's, none where there is no trajectory or no point.
 int goesOnFrom(const std::vector<std::optional<std::string>>& groups, std::size_t index);
+
+// ---------------------------------------------------------------- what is left of a path
+
+// The first of a trajectory's way points, from the one before `expected` on, that is not `valid`; -1: there is none. Each is looked at
+// with the bodies that are attached in the state `now`: what was attached since the plan was made counts, what was put down does not.
+int firstInvalid(std::size_t way_points, int expected, const std::function<motion::RobotState(std::size_t)>& way_point,
+                 const motion::RobotState& now, const std::function<bool(const motion::RobotState&)>& valid);
 }  // namespace execution

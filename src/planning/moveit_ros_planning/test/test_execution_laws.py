@@ -280,3 +280,64 @@ def test_another_plan_is_tried_after_what_it_may_mend():
 )
 def test_continuous_joints_go_on_from_the_trajectory_of_their_group(groups, befores):
     assert [_execution.goes_on_from(groups, index) for index in range(len(groups))] == befores
+
+
+def _turned(robot, elbow: float, *bodies: str):
+    state = motion.RobotState(robot)
+    state.set("elbow", elbow)
+    for name in bodies:
+        state.attach(motion.AttachedBody(name, "elbow_link", [motion.Box(0.1, 0.1, 0.1)]))
+    return state
+
+
+@pytest.mark.parametrize(
+    "expected, seen",
+    [(0, [0, 1, 2, 3]), (1, [0, 1, 2, 3]), (3, [2, 3]), (4, [3]), (-1, [0, 1, 2, 3]), (9, [])],
+    ids=["start", "leaving_the_first", "on_its_way", "reached", "not_begun", "gone"],
+)
+def test_a_path_is_looked_at_from_the_way_point_that_is_being_left(robot, expected, seen):
+    looked = []
+
+    def valid(state) -> bool:
+        looked.append(round(state.get("elbow") * 10))
+        return True
+
+    def way_point(index: int):
+        return _turned(robot, index / 10)
+
+    assert _execution.first_invalid(4, expected, way_point, _turned(robot, 0), valid) == -1
+    assert looked == seen
+
+
+def test_the_first_way_point_that_is_not_valid_is_told_and_none_after_it_looked_at(robot):
+    looked = []
+
+    def valid(state) -> bool:
+        looked.append(state.get("elbow"))
+        return state.get("elbow") < 0.15
+
+    assert _execution.first_invalid(4, 0, lambda index: _turned(robot, index / 10), _turned(robot, 0), valid) == 2
+    assert looked == pytest.approx([0, 0.1, 0.2])
+
+
+def test_a_path_is_looked_at_with_what_is_attached_now(robot):
+    """What was put down since the plan was made does not count any more, what was grasped since does."""
+    carried = []
+
+    def valid(state) -> bool:
+        carried.append({body.id for body in state.attached})
+        return True
+
+    assert (
+        _execution.first_invalid(2, 0, lambda index: _turned(robot, 0, "put_down", "kept"), _turned(robot, 0, "kept", "grasped"), valid)
+        == -1
+    )
+    assert carried == [{"kept", "grasped"}] * 2
+
+
+def test_a_test_of_states_that_fails_is_not_swallowed(robot):
+    def valid(_state) -> bool:
+        raise KeyError("scene")
+
+    with pytest.raises(KeyError, match="scene"):
+        _execution.first_invalid(1, 0, lambda index: _turned(robot, 0), _turned(robot, 0), valid)

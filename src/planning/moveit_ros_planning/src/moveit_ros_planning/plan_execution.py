@@ -202,7 +202,7 @@ class _Run:
             if self._changed.is_set():
                 self._changed.clear()
                 index, point = execution.expected_index()
-                if index >= 0 and self._invalid(index, max(point - 1, 0)):
+                if index >= 0 and self._invalid(index, point):
                     execution.stop()
                     break
         self._judge(execution)
@@ -232,8 +232,8 @@ class _Run:
         following = index + 1
         return following >= len(self._plan.segments) or not self._invalid(following, 0)
 
-    def _invalid(self, index: int, first: int) -> bool:
-        """Whether the rest of the plan collides in the present scene; says where."""
+    def _invalid(self, index: int, expected: int) -> bool:
+        """Whether the rest of a segment, from about the way point ``expected`` on, collides in the present scene; says where."""
         segment = self._plan.segments[index]
         trajectory = segment.trajectory
         if trajectory is None or len(trajectory) == 0 or not segment.monitor:
@@ -243,20 +243,19 @@ class _Run:
         if segment.allowed is not None:
             segment.allowed(matrix)
             scene.set_acm(matrix)
-        for number in range(min(first, len(trajectory) - 1), len(trajectory)):
-            state = self._monitor.with_attached(scene, self._plain(trajectory.state(number)))
-            found = scene.check(state, trajectory.group, contacts=1, padded=False)
-            if found.collision:
-                self._bad = self._describe(segment, number, len(trajectory), found)
-                rospy.logwarn("%s", self._bad)
-                return True
-        return False
+        found = None
 
-    @staticmethod
-    def _plain(state: motion.RobotState) -> motion.RobotState:
-        """Bodies that are attached now count, not those that were when the plan was made."""
-        state.clear_attached()
-        return state
+        def valid(state: motion.RobotState) -> bool:
+            nonlocal found
+            found = scene.check(state, trajectory.group, contacts=1, padded=False)
+            return not found.collision
+
+        number = _execution.first_invalid(len(trajectory), expected, trajectory.state, scene.state, valid)
+        if number < 0:
+            return False
+        self._bad = self._describe(segment, number, len(trajectory), found)
+        rospy.logwarn("%s", self._bad)
+        return True
 
     @staticmethod
     def _describe(segment: Segment, number: int, count: int, found) -> str:
