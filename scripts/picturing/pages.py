@@ -1,12 +1,9 @@
-"""Pictures of the documentation, each by its name: what is run, clicked and kept."""
+"""Pictures of the simulator's window, by clicks in a browser, and README's film."""
 
 from __future__ import annotations
 
-import argparse
 import contextlib
 import io
-import os
-import signal
 import subprocess
 import sys
 import tempfile
@@ -14,10 +11,9 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "scripts" / "benchmarks"), str(ROOT / "src" / "windows" / "gzclient" / "test")]
-from browser import Browser, missing, wait  # noqa: E402
-from run import master  # noqa: E402
+from .common import QUALITY, ROOT, Options, Trouble, launched, master, running
+
+from browser import Browser, missing, wait  # isort: skip  # beside gzclient's tests, where common looks
 
 SIZE = (1280, 900)  # of the browser's window, bars included
 WIDTH = 1000  # pixels of a picture
@@ -25,24 +21,12 @@ FIELD = 0.9  # rad, of the page's eye
 HOUSE = "aws-robomaker-small-house-world"
 # of mbot_gazebo's room.world, between the middles of its walls
 CORNERS = ((-2.75, -2.45), (5.6, -2.45), (5.6, 2.4), (-0.75, 2.4), (-0.75, 0.05), (-5.6, 0.05), (-5.6, -1.8), (-5.6, -2.4))
-
-
-class Trouble(Exception):
-    """One line for who called."""
-
-
-@contextlib.contextmanager
-def running(environment: dict[str, str], *words: str, **options: Any) -> Iterator[subprocess.Popen]:
-    process = subprocess.Popen(words, env=environment, text=True, start_new_session=True, stderr=subprocess.DEVNULL, **options)
-    try:
-        yield process
-    finally:
-        os.killpg(process.pid, signal.SIGINT)
-        process.wait(60)
+ROOM = ("roslaunch", "mbot_gazebo", "view_mbot_gazebo_room.launch", "gui:=false")
+PICK = ("roslaunch", "myur5_pick_place", "pick_place.launch", "gui:=false", "rviz:=false")
 
 
 @contextlib.contextmanager
-def window(*launched: str, models: str = "") -> Iterator[Any]:
+def window(*command: str, models: str = "") -> Iterator[Any]:
     """The simulator's window over what is launched, in a home folder of its own.
 
     :param models: a folder of models for it
@@ -50,7 +34,7 @@ def window(*launched: str, models: str = "") -> Iterator[Any]:
     with master() as found, tempfile.TemporaryDirectory() as home, contextlib.ExitStack() as stack:
         environment = {name: value for name, value in found.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
         environment.update(HOME=home, GAZEBO_MODEL_PATH=models)
-        stack.enter_context(running(environment, *launched, stdout=subprocess.DEVNULL))
+        stack.enter_context(running(environment, *command, stdout=subprocess.DEVNULL))
         client = stack.enter_context(running(environment, "gzclient", "--port", "0", "--shadows", stdout=subprocess.PIPE))
         assert client.stdout is not None
         page = stack.enter_context(Browser(client.stdout.readline().split()[-1], size=SIZE, frames=0))
@@ -98,23 +82,11 @@ def gzclient_house(page: Any) -> None:
 
 
 #: name -> what is launched, what is clicked
-NAMES: dict[str, tuple[tuple[str, ...], Callable[[Any], None]]] = {
-    "gzclient": (("roslaunch", "mbot_gazebo", "view_mbot_gazebo_room.launch", "gui:=false"), gzclient),
-    "gzclient_building": (("roslaunch", "mbot_gazebo", "view_mbot_gazebo_room.launch", "gui:=false"), gzclient_building),
+PAGES: dict[str, tuple[tuple[str, ...], Callable[[Any], None]]] = {
+    "gzclient": (ROOM, gzclient),
+    "gzclient_building": (ROOM, gzclient_building),
     "gzclient_house": (("rosrun", "gazebo_ros", "gzserver", "worlds/small_house.world"), gzclient_house),
 }
-
-
-def pick(file: Path) -> None:
-    """A film: a UR5 with a gripper plans round a post, picks a block and puts it down behind it."""
-    with master() as environment, running(environment, "roslaunch", *PICK, stdout=subprocess.DEVNULL):
-        done = subprocess.run([sys.executable, str(ROOT / "scripts" / "film.py"), str(file)], env=environment, stdout=subprocess.DEVNULL)
-    if done.returncode:
-        raise Trouble("what film.py said is above")
-
-
-PICK = ("myur5_pick_place", "pick_place.launch", "gui:=false", "rviz:=false")
-FILMS: dict[str, Callable[[Path], None]] = {"pick": pick}
 
 
 def shot(page: Any) -> Any:
@@ -138,51 +110,32 @@ def at_rest(page: Any) -> Any:
     return wait(still, "a page on which nothing moves any more", 120.0)
 
 
-def make(name: str, house: Path | None, out: Path) -> Path:
-    """:raises Trouble: it cannot be made here."""
+def make(name: str, options: Options) -> Path:
+    """:raises Trouble: it cannot be made here. :raises AssertionError: something did not appear."""
     from PIL import Image
 
-    if name in FILMS:
-        file = out / f"{name}.webp"
-        FILMS[name](file)
-        return file
-    launched, act = NAMES[name]
+    if missing():
+        raise Trouble(f"not installed: {missing()}")
+    command, act = PAGES[name]
     models = ""
     if act is gzclient_house:
-        if house is None or not (house / launched[-1]).is_file():
+        house = options.house
+        if house is None or not (house / command[-1]).is_file():
             raise Trouble(f"{name} shows a world of others: give its folder with --house (git clone .../aws-robotics/{HOUSE})")
-        launched, models = (*launched[:-1], str(house / launched[-1])), str(house / "models")
-    with window(*launched, models=models) as page:
+        command, models = (*command[:-1], str(house / command[-1])), str(house / "models")
+    with window(*command, models=models) as page:
         act(page)
         picture = at_rest(page)
-    file = out / f"{name}.jpg"
-    picture.resize((WIDTH, round(WIDTH * picture.height / picture.width)), Image.Resampling.LANCZOS).save(file, quality=88)
+    file = options.out / f"{name}.jpg"
+    picture.resize((WIDTH, round(WIDTH * picture.height / picture.width)), Image.Resampling.LANCZOS).save(file, quality=QUALITY)
     return file
 
 
-def main() -> int:
-    does = {**{name: act for name, (_, act) in NAMES.items()}, **FILMS}
-    listed = "\n".join(f"  {name:20} {act.__doc__}" for name, act in does.items())
-    parser = argparse.ArgumentParser(
-        prog="scripts/pictures", description=f"{__doc__}\n\n{listed}", formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("names", nargs="*", metavar="NAME", help="default: all that need nothing from outside")
-    parser.add_argument("--house", type=Path, help=f"folder of {HOUSE}")
-    parser.add_argument("--out", type=Path, default=ROOT / "docs" / "pictures", help="folder (default docs/pictures)")
-    options = parser.parse_args()
-    unknown = [name for name in options.names if name not in does]
-    if unknown or missing():
-        why = f"there is no picture {unknown[0]}; there are {', '.join(does)}" if unknown else f"not installed: {missing()}"
-        print(f"scripts/pictures: {why}", file=sys.stderr)
-        return 2
-    for name in options.names or [name for name in does if name != "gzclient_house" or options.house]:
-        try:
-            print(make(name, options.house, options.out))
-        except (Trouble, AssertionError) as error:
-            print(f"scripts/pictures: {name}: {error}", file=sys.stderr)
-            return 1
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+def film(name: str, options: Options) -> Path:
+    """A film: a UR5 with a gripper plans round a post, picks a block and puts it down behind it."""
+    file = options.out / f"{name}.webp"
+    with launched(PICK) as environment:
+        done = subprocess.run([sys.executable, str(ROOT / "scripts" / "film.py"), str(file)], env=environment, stdout=subprocess.DEVNULL)
+    if done.returncode:
+        raise Trouble("what film.py said is above")
+    return file

@@ -41,6 +41,14 @@ def test_links_lead_somewhere(page):
             assert anchor in anchors(path.read_text()), f"[{title}]({target})"
 
 
+def test_every_picture_is_shown():
+    shown = set()
+    for page in READ_ON_GITHUB:
+        shown |= {((ROOT / page).parent / target).resolve() for _, target in docs_pages.links((ROOT / page).read_text())}
+    pictures = {path for path in (ROOT / "docs" / "pictures").rglob("*") if path.is_file()}
+    assert {str(path.relative_to(ROOT)) for path in pictures - shown} == set()
+
+
 def test_every_page_of_docs_is_on_the_site():
     assert set(docs_pages.pages()) >= {path for path in READ_ON_GITHUB if path.parts[0] == "docs" and "examples" not in path.parts}
 

@@ -251,9 +251,8 @@ def searched(scene, model, seed, **params):
 
 
 @pytest.mark.parametrize("wanted", [0.5, 3.0])
-def test_a_range_that_was_asked_for_is_kept(model, wanted):
+def test_a_range_that_was_asked_for_is_kept(scene, model, wanted):
     """OMPL's range: how far apart (here the sum over the joints) two states of a tree are at most."""
-    scene = caged(model)
     for seed in range(1, 4):
         steps = np.abs(np.diff(searched(scene, model, seed, range=str(wanted)).path, axis=0)).sum(axis=1)
         assert steps.max() <= wanted * (1 + 1e-9)

@@ -132,7 +132,7 @@ def click_through(student, urdf, folder):
     student.window.window("Incomplete")  # there is no end effector: it asks
     student.picture("question")
     student.window.click_text("Yes")
-    student.said("Wrote 4")
+    student.said("files to ~/catkin_ws/src/myur5_moveit_config. Build your workspace")
     student.picture("files")
 
 

@@ -129,4 +129,6 @@ class FilesScreen(Screen):
         self.session.package = package
         self.session.kept()
         self._plan()
-        self.session.say(f"Wrote {len(written)} files to {package}. Build your workspace, then: roslaunch {package.name} demo.launch")
+        typed = self._folder.text().strip()
+        shown = typed if typed.startswith("~") else package
+        self.session.say(f"Wrote {len(written)} files to {shown}. Build your workspace, then: roslaunch {package.name} demo.launch")

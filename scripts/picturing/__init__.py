@@ -1,0 +1,1 @@
+"""Pictures of the documentation, made anew from this tree: see scripts/pictures --help."""
