@@ -157,7 +157,7 @@ bool CollisionChecker::test(const CollisionShape& a, const Transform& pose_a, in
     addCosts(a, pose_a, b, pose_b, search.most_costs, *search.costs);
     return false;
   }
-  if (gapOfBoxes(a, pose_a, b, pose_b) > TOUCHING || gapOfHulls(a, pose_a, b, pose_b, TOUCHING) > TOUCHING)
+  if (gapOfBoxes(a, pose_a, b, pose_b) > TOUCHING || areApart(a, pose_a, b, pose_b))
     return false;
   std::size_t want = 0;
   std::size_t* have = nullptr;

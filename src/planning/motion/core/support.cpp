@@ -21,11 +21,12 @@ constexpr int TRIES = 8;        // directions; where hulls are apart, three or f
 constexpr int PAIRS = 40;       // of parts, that are looked at before it is left to FCL
 constexpr int LUCK = 2;         // times in vain before parts are left out
 constexpr int SELDOM = 8;       // of so many times one
+constexpr double CLEAR = 1e-5;  // m: what is farther apart FCL calls free as well, whatever its tolerances
 constexpr int KNOWN = 512;      // pairs of shapes whose last direction is kept, of each thread
 constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
-// What was seen of two shapes the last times. It decides what is tried first, not what comes of it.
-struct Direction
+// What was seen of two shapes the last times.
+struct Seen
 {
   const CollisionShape *a = nullptr, *b = nullptr;
   Vector3 way;            // in a's frame
@@ -33,9 +34,9 @@ struct Direction
   unsigned overlaps = 0;  // of their hulls
 };
 
-Direction& lastOf(const CollisionShape& a, const CollisionShape& b)
+Seen& lastOf(const CollisionShape& a, const CollisionShape& b)
 {
-  static thread_local std::array<Direction, KNOWN> known;
+  static thread_local std::array<Seen, KNOWN> known;
   const auto one = reinterpret_cast<std::uintptr_t>(&a), other = reinterpret_cast<std::uintptr_t>(&b);
   return known[((one >> 5) * 31 + (other >> 5)) % KNOWN];
 }
@@ -314,15 +315,28 @@ double gapOfHulls(const CollisionShape& a, const Transform& at_a, const Collisio
     return -INFINITE;
   const Beside pair(at_a, at_b, enough);
   const Portion one{&a}, other{&b};
-  Direction& last = lastOf(a, b);
-  if (last.a != &a || last.b != &b)
-    last = {&a, &b, pair.between(one, other)};
-  const double gap = pair.gapOf(one, other, last.way, TRIES);
-  if (gap > 0 || (last.luck < 0 && ++last.overlaps % SELDOM != 0))
-    return gap;
+  Vector3 way = pair.between(one, other);
+  const double gap = pair.gapOf(one, other, way, TRIES);
   int pairs = PAIRS;
-  const double of_parts = pair.gapOfParts(one, other, pairs);
-  last.luck = of_parts > 0 ? LUCK : last.luck - 1;
-  return std::max(gap, of_parts);
+  return gap > 0 ? gap : std::max(gap, pair.gapOfParts(one, other, pairs));
+}
+
+bool areApart(const CollisionShape& a, const Transform& at_a, const CollisionShape& b, const Transform& at_b)
+{
+  if (a.unbounded || b.unbounded)
+    return false;
+  const Beside pair(at_a, at_b, CLEAR);
+  const Portion one{&a}, other{&b};
+  Seen& seen = lastOf(a, b);
+  if (seen.a != &a || seen.b != &b)
+    seen = {&a, &b, pair.between(one, other)};
+  if (pair.gapOf(one, other, seen.way, TRIES) > CLEAR)
+    return true;
+  if (seen.luck < 0 && ++seen.overlaps % SELDOM != 0)
+    return false;
+  int pairs = PAIRS;
+  const bool apart = pair.gapOfParts(one, other, pairs) > CLEAR;
+  seen.luck = apart ? LUCK : seen.luck - 1;
+  return apart;
 }
 }  // namespace motion

@@ -53,7 +53,11 @@ private:
 // A lower bound of the distance of two shapes, m: the gap between the shadows of their convex hulls in the best of some directions (Chung
 // and Wang, Quick elimination of non-interference polytopes in virtual environments, 1996; once one parts them, Gilbert, 1966), and where
 // the hulls overlap, the least of those of the meshes' parts. Not positive where none was found. Once it is more than `enough`, nothing
-// better is looked for. The best direction of two shapes is where it begins the next time.
+// better is looked for.
 double gapOfHulls(const CollisionShape& a, const Transform& at_a, const CollisionShape& b, const Transform& at_b,
                   double enough);
+
+// Is such a gap found? Sooner: what parted the same two shapes the last time, in this thread, is tried first, and their parts only where
+// they were of use. So what was asked before decides whether a gap is found, but only of shapes that FCL calls free too.
+bool areApart(const CollisionShape& a, const Transform& at_a, const CollisionShape& b, const Transform& at_b);
 }  // namespace motion
