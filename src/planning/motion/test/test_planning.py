@@ -250,6 +250,15 @@ def searched(scene, model, seed, **params):
     return result
 
 
+def test_seeded_runs_repeat_whatever_was_planned_before(scene, model):
+    scenes = [scene, caged(model)]
+    first = [motion.plan(one, request(model, seed=4, longest_valid_segment_fraction=0.005)).path for one in scenes]
+    again = [motion.plan(one, request(model, seed=4, longest_valid_segment_fraction=0.005)).path for one in reversed(scenes)]
+    for path, other in zip(first, reversed(again)):
+        assert len(path) > 2
+        np.testing.assert_array_equal(path, other)
+
+
 @pytest.mark.parametrize("wanted", [0.5, 3.0])
 def test_a_range_that_was_asked_for_is_kept(scene, model, wanted):
     """OMPL's range: how far apart (here the sum over the joints) two states of a tree are at most."""
