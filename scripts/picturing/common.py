@@ -17,6 +17,7 @@ sys.path[:0] = [str(ROOT / "scripts" / "benchmarks"), str(ROOT / "src" / "window
 from run import master  # noqa: E402
 
 QUALITY = 88  # of JPEG
+PICK = ("roslaunch", "myur5_pick_place", "pick_place.launch", "gui:=false", "rviz:=false")
 
 
 class Trouble(Exception):
@@ -53,3 +54,16 @@ def launched(*commands: tuple[str, ...]) -> Iterator[dict[str, str]]:
         for command in commands:
             stack.enter_context(running(environment, *command, stdout=subprocess.DEVNULL))
         yield environment
+
+
+def of_ros(environment: dict[str, str]) -> dict[str, str]:
+    """What of an environment leads programs on another screen to the same master."""
+    return {name: value for name, value in environment.items() if name.startswith("ROS_")}
+
+
+def save(picture: Any, file: Path, width: int) -> None:
+    """Write ``picture``, an image of PIL, as JPEG of ``width`` pixels."""
+    from PIL import Image
+
+    height = round(width * picture.height / picture.width)
+    picture.convert("RGB").resize((width, height), Image.Resampling.LANCZOS).save(file, quality=QUALITY)

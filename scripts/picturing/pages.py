@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from .common import QUALITY, ROOT, Options, Trouble, launched, master, running
+from .common import PICK, ROOT, Options, Trouble, launched, master, running, save
 
 from browser import Browser, missing, wait  # isort: skip  # beside gzclient's tests, where common looks
 
@@ -22,7 +22,6 @@ HOUSE = "aws-robomaker-small-house-world"
 # of mbot_gazebo's room.world, between the middles of its walls
 CORNERS = ((-2.75, -2.45), (5.6, -2.45), (5.6, 2.4), (-0.75, 2.4), (-0.75, 0.05), (-5.6, 0.05), (-5.6, -1.8), (-5.6, -2.4))
 ROOM = ("roslaunch", "mbot_gazebo", "view_mbot_gazebo_room.launch", "gui:=false")
-PICK = ("roslaunch", "myur5_pick_place", "pick_place.launch", "gui:=false", "rviz:=false")
 
 
 @contextlib.contextmanager
@@ -112,8 +111,6 @@ def at_rest(page: Any) -> Any:
 
 def make(name: str, options: Options) -> Path:
     """:raises Trouble: it cannot be made here. :raises AssertionError: something did not appear."""
-    from PIL import Image
-
     if missing():
         raise Trouble(f"not installed: {missing()}")
     command, act = PAGES[name]
@@ -127,7 +124,7 @@ def make(name: str, options: Options) -> Path:
         act(page)
         picture = at_rest(page)
     file = options.out / f"{name}.jpg"
-    picture.resize((WIDTH, round(WIDTH * picture.height / picture.width)), Image.Resampling.LANCZOS).save(file, quality=QUALITY)
+    save(picture, file, WIDTH)
     return file
 
 

@@ -14,14 +14,13 @@ from pathlib import Path
 
 from rqt_testing.desktop import Desktop
 
-from .common import QUALITY, ROOT, Options, Trouble, launched, master
+from .common import PICK, ROOT, Options, Trouble, launched, master, of_ros, save
 
 PANEL = ROOT / "src" / "planning" / "moveit_ros_visualization" / "test"
 ASSISTANT = ROOT / "src" / "windows" / "moveit_setup_assistant" / "test"
 sys.path.insert(0, str(PANEL))
 from rviz_desktop import run_rviz  # noqa: E402  # beside the panel's tests
 
-PICK = ("roslaunch", "myur5_pick_place", "pick_place.launch", "gui:=false", "rviz:=false")
 SIZE = "1280x940x24"
 PICK_CONFIG = ROOT / "src" / "labs" / "myur5sim" / "myur5_moveit_config" / "launch" / "moveit.rviz"
 WIDTH = 800  # pixels of a picture
@@ -31,8 +30,7 @@ def _shown(seen: Path, file: Path) -> None:
     """A picture of a screen, as pages have it."""
     from PIL import Image
 
-    picture = Image.open(seen).convert("RGB")
-    picture.resize((WIDTH, round(WIDTH * picture.height / picture.width)), Image.Resampling.LANCZOS).save(file, quality=QUALITY)
+    save(Image.open(seen), file, WIDTH)
 
 
 def _kept(folder: Path, out: Path, names: Sequence[str]) -> None:
@@ -57,7 +55,7 @@ def assistant(out: Path) -> None:
     """The Setup Assistant's screens, filled in for the UR5 on its pedestal."""
     names = ("start", "collisions", "virtual_joints", "groups", "poses", "controllers", "author", "files")
     test = f"{ASSISTANT / 'test_tutorial.py'}::test_clicks_and_the_command_make_the_same_package"
-    _tested(out, names, "/usr/bin/python3", "-m", "pytest", "-q", "-p", "no:cacheprovider", test)
+    _tested(out, names, sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", test)
 
 
 def panel(out: Path) -> None:
@@ -70,7 +68,7 @@ def manipulation(out: Path) -> None:
     with launched(PICK) as environment, Desktop(SIZE) as desktop:
         config = Path(desktop.home) / "moveit.rviz"
         shutil.copy(PICK_CONFIG, config)
-        desktop.environment.update({name: value for name, value in environment.items() if name.startswith("ROS_")})
+        desktop.environment.update(of_ros(environment))
         rviz = run_rviz(desktop, str(config), "1270x900")
 
         def status() -> str:

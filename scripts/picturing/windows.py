@@ -1,9 +1,10 @@
-"""Pictures of rqt's windows and of RViz, on a private screen with real clicks."""
+"""Pictures of rqt's windows, on a private screen with real clicks."""
 
 from __future__ import annotations
 
 import contextlib
 import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -11,15 +12,14 @@ from pathlib import Path
 from rqt_multiplot.config import Curve, FieldType, Plot, ScaleType, Table, write
 from rqt_testing.desktop import Desktop, Program
 
-from .common import ROOT, Options, Trouble, launched
+from .common import ROOT, Options, Trouble, launched, of_ros
 
 ARM = ("roslaunch", "arm_gazebo", "arm_gazebo.launch", "gui:=false", "rviz:=false")
-WAVES = ("/usr/bin/python3", str(ROOT / "scripts" / "picturing" / "waves.py"))
+WAVES = (sys.executable, str(ROOT / "scripts" / "picturing" / "waves.py"))
 MBOT = ("roslaunch", "mbot_gazebo", "view_mbot_with_camera_gazebo.launch", "gui:=false")
 CIRCLE = ("rostopic", "pub", "-r", "10", "/cmd_vel", "geometry_msgs/Twist", "{linear: {x: 0.2}, angular: {z: 0.5}}")
 SHOWN = 14.0  # s of curves in a plot
 TITLE = 22  # pixels of a window's title bar
-_ENVIRONMENT = ("ROS_MASTER_URI", "ROS_LOG_DIR", "ROS_HOME", "ROS_IP", "ROS_HOSTNAME", "GAZEBO_MASTER_URI")
 
 
 class Screen:
@@ -27,7 +27,7 @@ class Screen:
 
     def __init__(self, desktop: Desktop, environment: dict[str, str], size: tuple[int, int]):
         self.desktop, self.size = desktop, size
-        desktop.environment.update((name, environment[name]) for name in _ENVIRONMENT if name in environment)
+        desktop.environment.update(of_ros(environment))
 
     def run(self, *command: str, title: str, part: tuple[float, float] = (0.0, 1.0)) -> Program:
         """Start ``command``; its window, with ``title`` in its title, gets the screen from ``part[0]`` to ``part[1]`` of the width."""
@@ -45,9 +45,9 @@ class Screen:
 def screen(size: tuple[int, int], topic: str, *commands: tuple[str, ...]) -> Iterator[Screen]:
     """A screen of ``size`` pixels beside what ``commands`` launch, once ``topic`` comes."""
     with launched(*commands) as environment, Desktop(f"{size[0]}x{size[1]}x24") as desktop:
-        heard = subprocess.run(["rostopic", "echo", "-n", "1", topic], env=environment, stdout=subprocess.DEVNULL, timeout=60)
-        if heard.returncode:
-            raise Trouble(f"nothing comes on {topic}")
+        echo = ["timeout", "60", "rostopic", "echo", "-n", "1", topic]
+        if subprocess.run(echo, env=environment, stdout=subprocess.DEVNULL).returncode:
+            raise Trouble(f"nothing comes on {topic} within 60 s")
         time.sleep(3.0)  # the spawners end
         yield Screen(desktop, environment, size)
 

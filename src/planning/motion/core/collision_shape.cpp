@@ -108,10 +108,7 @@ double gapOfBoxes(const CollisionShape& a, const Transform& at_a, const Collisio
     return -std::numeric_limits<double>::infinity();
   const Eigen::Matrix3d turn = at_a.linear().transpose() * at_b.linear(), size = turn.cwiseAbs();  // of b's axes in a's
   const Vector3 off = at_a.linear().transpose() * (at_b * b.centre - at_a * a.centre);
-  double gap = (off.cwiseAbs() - a.half - size * b.half).maxCoeff();
-  if (gap > 0)
-    return gap;
-  gap = std::max(gap, ((turn.transpose() * off).cwiseAbs() - b.half - size.transpose() * a.half).maxCoeff());
+  double gap = gapByFaces(turn, size, off, a.half, b.half, 0);
   if (gap > 0)
     return gap;
   for (int i = 0; i < 3; ++i)

@@ -49,6 +49,15 @@ inline Aabb boundsOf(const CollisionShape& shape, const Transform& pose)
   return {centre - half, centre + half};
 }
 
+// The widest gap between the shadows of two boxes on the axes of both, m; once it is more than `enough` on those of the first, it is that.
+// `turn`: of the second one's axes in the first one's, `size` its absolute values; `off`: from middle to middle; `a`, `b`: half edges.
+inline double gapByFaces(const Eigen::Matrix3d& turn, const Eigen::Matrix3d& size, const Vector3& off, const Vector3& a,
+                         const Vector3& b, double enough)
+{
+  const double gap = (off.cwiseAbs() - a - size * b).maxCoeff();
+  return gap > enough ? gap : std::max(gap, ((turn.transpose() * off).cwiseAbs() - b - size.transpose() * a).maxCoeff());
+}
+
 // A lower bound of the distance of two shapes, m, by the boxes that turn with them: the widest gap between their shadows on the axes of
 // both boxes and on those at right angles to one of each (Gottschalk, Lin and Manocha, OBBTree, 1996). Not positive where none is known.
 double gapOfBoxes(const CollisionShape& a, const Transform& at_a, const CollisionShape& b, const Transform& at_b);

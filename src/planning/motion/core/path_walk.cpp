@@ -13,8 +13,8 @@ namespace
 constexpr double RESOLUTION = 5e-4;  // m: shapes that move by less and touch at neither end are believed not to touch
 constexpr double COARSE = 0.01;      // m: the same for shapes whose distance is not known (planes, octrees)
 constexpr double UNKNOWN = -1;
-constexpr double WORTH =
-    0.25;  // part of what a step needs: with that much a smaller step is sooner made than FCL asked for the rest
+// Part of what a step needs: where that much is known to be free, a smaller step is sooner made than FCL asked for the rest.
+constexpr double WORTH = 0.25;
 constexpr double ENOUGH = 1.2;  // times what a step needs: how much larger a distance is, is not asked
 
 // How far the points of a shape move at most, the way between the two poses being short.

@@ -53,7 +53,7 @@ struct Portion
   bool divisible() const { return node() && node()->first >= 0; }
   Portion child(int which) const { return {shape, node()->first + which}; }
 
-  // In the shape's own frame. Of a cone, that of its box.
+  // In the shape's own frame. Of a cone or an octree, that of its box.
   Vector3 farthest(const Vector3& direction) const
   {
     if (shape->parts)
@@ -138,7 +138,7 @@ public:
     {
       const Portion one = first ? a.child(which) : a, other = first ? b : b.child(which);
       Vector3 way = between(one, other);
-      double gap = gapOfBoxes(way, one.half(), other.half());
+      double gap = gapByFaces(turn_, size_, way, one.half(), other.half(), enough_);
       if (gap <= enough_)
       {
         if (--pairs < 0)
@@ -155,12 +155,6 @@ public:
   }
 
 private:
-  double gapOfBoxes(const Vector3& way, const Vector3& a, const Vector3& b) const
-  {
-    const double gap = (way.cwiseAbs() - a - size_ * b).maxCoeff();
-    return gap > enough_ ? gap : std::max(gap, ((turn_.transpose() * way).cwiseAbs() - b - size_.transpose() * a).maxCoeff());
-  }
-
   Eigen::Matrix3d turn_, size_;
   Vector3 off_;
   double enough_;
