@@ -114,12 +114,12 @@ apt_step() {  # LOG WHAT ARGUMENT...: apt-get, which waits for another process's
   done
 }
 
-catkin_once() {  # LOG COUNT ARGUMENT...: catkin build with packages done of COUNT (0: as many as catkin finds). Unbuffered, or the
-  # lines of a small build would come at its end.
+build_once() {  # LOG COUNT COMMAND...: one that runs catkin build, with packages done of COUNT (0: as many as catkin finds). Unbuffered,
+  # or the lines of a small build would come at its end.
   local log=$1 count=$2
   shift 2
   : > "$log"
-  PYTHONUNBUFFERED=1 catkin build --no-notify --no-status --no-color --summarize "$@" < /dev/null 2>&1 | {
+  PYTHONUNBUFFERED=1 "$@" < /dev/null 2>&1 | {
     finished=0
     while next_line; do
       printf '%s\n' "$line" >> "$log"
@@ -136,13 +136,13 @@ catkin_once() {  # LOG COUNT ARGUMENT...: catkin build with packages done of COU
   return "${PIPESTATUS[0]}"
 }
 
-catkin_step() {  # LOG COUNT ARGUMENT...: the build; a compiler that the kernel ended for want of memory is tried again, one at a time
+build_step() {  # LOG COUNT COMMAND WORD...: the build; a compiler that the kernel ended for want of memory is tried again, one at a time
   local log=$1 count=$2 failed where
   shift 2
-  catkin_once "$log" "$count" "$@" && return
+  build_once "$log" "$count" "$@" && return
   if grep -q 'Killed signal terminated program' "$log"; then
     say "building: a compiler was ended for want of memory; trying again, one at a time"
-    catkin_once "$log" "$count" -p 1 -j 1 "$@" && return
+    build_once "$log" "$count" "$1" "$2" -p 1 -j 1 "${@:3}" && return
   fi
   # "Errors << PACKAGE:JOB LOG": what failed first, and its own log
   failed=$(grep -m 1 -E '^Errors +<< ' "$log" | sed -E 's/^Errors +<< +//' || true)
@@ -150,5 +150,5 @@ catkin_step() {  # LOG COUNT ARGUMENT...: the build; a compiler that the kernel 
   if [ -n "$failed" ] && [ -s "$where" ]; then
     fail_step "catkin build, package ${failed%%:*}" "$where"
   fi
-  fail_step "catkin build" "$log"
+  fail_step "$1 $2" "$log"
 }

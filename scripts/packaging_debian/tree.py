@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 #: Stands in an installed prefix that scripts/package made.
@@ -100,11 +101,12 @@ def _same(one: Path, other: Path) -> bool:
     return one.stat().st_mode == other.stat().st_mode and filecmp.cmp(one, other, shallow=False)
 
 
-def build(root: Path, prefix: Path) -> Path:
+def build(root: Path, prefix: Path, side_by_side: Sequence[str] = ()) -> Path:
     """Build and install for ``prefix``.
 
     :param root: top of the clone
     :param prefix: absolute path from which the tree will be used; it is not touched
+    :param side_by_side: options of ``catkin build``: how many packages and compilers are at work at a time
     :return: folder whose content belongs into ``prefix``
     :raises PackagingError: a step failed
     """
@@ -120,34 +122,9 @@ def build(root: Path, prefix: Path) -> Path:
         if key not in ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "PYTHONPATH", "CPLUS_INCLUDE_PATH")
     }
     environment["PATH"] = f"{sources}/src/tools/noetic_environment/debian_python:/usr/sbin:/usr/bin:/sbin:/bin"
-    run(
-        [
-            "catkin",
-            "config",
-            "--init",
-            "--workspace",
-            workspace,
-            "--install",
-            "--install-space",
-            prefix,
-            "--cmake-args",
-            # catkin reads the one name on Debian 12, the other on 13; else it takes the first python3 of this build's own PATH
-            "-DPYTHON_EXECUTABLE=/usr/bin/python3",
-            "-DPython_EXECUTABLE=/usr/bin/python3",
-            "-DCMAKE_BUILD_TYPE=Release",
-            "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG",
-            "-DCATKIN_ENABLE_TESTING=OFF",
-        ],
-        "catkin config",
-        {**environment, "DESTDIR": str(stage)},
-    )
+    environment["DESTDIR"] = str(stage)
     run([sys.executable, root / "scripts/forget_moved.py", workspace / "build"], "scripts/forget_moved.py", environment)
-    run(
-        # on a terminal catkin says how many packages of how many are done, and for how long it has been at work
-        ["catkin", "build", "--workspace", workspace, "--no-notify", *([] if sys.stdout.isatty() else ["--no-status"]), "--summarize"],
-        "catkin build",
-        {**environment, "DESTDIR": str(stage)},
-    )
+    _catkin_build(workspace, prefix, environment, side_by_side)
     tree = stage / prefix.relative_to("/")
     _install_add_ons(tree / "share/noetic_environment/python", sources / "scripts/requirements.txt")
     clean(tree)
@@ -158,6 +135,22 @@ def build(root: Path, prefix: Path) -> Path:
             + (" ..." if len(missing) > 5 else "")
         )
     return tree
+
+
+def _catkin_build(workspace: Path, prefix: Path, environment: dict[str, str], side_by_side: Sequence[str]) -> None:
+    options = (
+        # catkin reads the one name on Debian 12, the other on 13; else it takes the first python3 of this build's own PATH
+        "-DPYTHON_EXECUTABLE=/usr/bin/python3",
+        "-DPython_EXECUTABLE=/usr/bin/python3",
+        "-DCMAKE_BUILD_TYPE=Release",
+        "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG",
+        "-DCATKIN_ENABLE_TESTING=OFF",
+    )
+    made = ["catkin", "config", "--init", "--workspace", workspace, "--install", "--install-space", prefix, "--cmake-args", *options]
+    run(made, "catkin config", environment)
+    # on a terminal catkin says how many packages of how many are done, and for how long it has been at work
+    status = [] if sys.stdout.isatty() else ["--no-status"]
+    run(["catkin", "build", "--workspace", workspace, "--no-notify", *status, "--summarize", *side_by_side], "catkin build", environment)
 
 
 def _lay_out(workspace: Path, sources: Path) -> None:

@@ -187,8 +187,61 @@ def test_the_demo_is_built_with_the_workspaces_options_but_without_compiled_plug
     machine.run("--demo")
     words = (machine.folder / "words").read_text().split()
     assert words[words.index("--cmake-args") + 1 :] == ["-DX=1", "-DNOETIC_LABS_COMPILED_PLUGINS=OFF", "-DCATKIN_ENABLE_TESTING=OFF"]
-    machine.run()  # the whole build has the profile's own
+    machine.run()  # the whole build has them too, but for the tests
+    words = (machine.folder / "words").read_text().split()
+    assert words[words.index("--cmake-args") + 1 :] == own[:2] + ["-DCATKIN_ENABLE_TESTING=OFF"]
+    machine.run("--tests")  # with tests it has the profile's own
     assert "--cmake-args" not in (machine.folder / "words").read_text()
+
+
+def test_tests_are_compiled_once_they_are_asked_for_and_from_then_on(machine):
+    clone = machine.folder / "clone"
+    (clone / "src").mkdir()
+    (clone / ".catkin_tools/profiles/default/config.yaml").write_text("cmake_args:\n- -DCATKIN_ENABLE_TESTING=ON\n")
+    machine.play(
+        "catkin",
+        f"""
+        echo "$*" >> {machine.events}
+        mkdir -p {clone}/devel {clone}/build/arm
+        case "$*" in *TESTING=OFF*) value=OFF ;; *) value=ON ;; esac
+        echo "CATKIN_ENABLE_TESTING:BOOL=$value" > {clone}/build/arm/CMakeCache.txt""",
+    )
+    for options in ((), (), ("--tests",), ("--tests",), ()):
+        assert machine.run(*options).returncode == 0
+    without, with_tests = (event for event in machine.events.read_text().splitlines() if event.startswith("build"))
+    assert without.endswith("-DCATKIN_ENABLE_TESTING=OFF")
+    assert "--force-cmake" in with_tests and "OFF" not in with_tests
+    (clone / "src/robot.cpp").write_text("int i;")
+    machine.tick()
+    machine.run()
+    assert "OFF" not in machine.events.read_text().splitlines()[-1]
+
+
+def test_with_a_prefix_the_platform_alone_is_built(machine):
+    package = machine.folder / "clone/scripts/package"
+    package.write_text(f'#!/bin/bash\necho "package $*" >> {machine.events}\n')
+    package.chmod(0o755)
+    ended = machine.run("--prefix", "/opt/x")
+    assert ended.returncode == 0, ended.stderr
+    assert "build" not in machine.seen()
+    assert [event for event in machine.seen() if event.startswith("package")] == [
+        "package --prefix /opt/x --check",
+        "package --prefix=/opt/x",
+    ]
+    assert ended.stdout.splitlines()[-1].endswith("source /opt/x/setup.bash")
+    package.write_text(
+        """#!/bin/bash
+        case "$*" in
+          *--check) ;;
+          "--prefix=/opt/x -p 1 -j 1") echo 'Errors     << arm:make '"$HOME/arm.log"; exit 1 ;;
+          *) echo 'c++: fatal error: Killed signal terminated program cc1plus'; exit 1 ;;
+        esac"""
+    )
+    (machine.folder / "arm.log").write_text("robot.cpp:1:1: error: what is this\n")
+    ended = machine.run("--prefix=/opt/x")
+    assert ended.returncode == 1 and "one at a time" in ended.stdout
+    told = ended.stderr.splitlines()
+    assert len(told) == 4 and "package arm" in told[0] and "what is this" in told[1] and "arm.log" in told[2]
 
 
 @pytest.mark.parametrize("arguments", [["--demo"], []])
