@@ -87,7 +87,7 @@ std::vector<IkSolver::Chain> IkSolver::chains(const RobotState& seed, const std:
         constant = constant * joint.transform(seed.joint(joint));
         continue;
       }
-      const Eigen::Matrix3d to_axis = Quaternion::FromTwoVectors(Vector3::UnitZ(), joint.axis).toRotationMatrix();
+      const Eigen::Matrix3d to_axis = turnBetween(Vector3::UnitZ(), joint.axis).toRotationMatrix();
       Step step;
       step.before = constant * joint.origin;
       step.before.linear() = step.before.linear() * to_axis;

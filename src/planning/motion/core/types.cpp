@@ -36,6 +36,20 @@ Vector3 rotationVector(const Eigen::Matrix3d& R)
   return (2.0 * std::atan2(length, q.w()) / length) * q.vec();
 }
 
+Quaternion turnBetween(const Vector3& a, const Vector3& b)
+{
+  const Vector3 from = a.normalized(), to = b.normalized();
+  const double cosine = from.dot(to);
+  if (cosine < -1.0 + 1e-12)
+  {
+    const Vector3 across = from.unitOrthogonal();
+    return {0.0, across.x(), across.y(), across.z()};
+  }
+  const double twice_w = std::sqrt(2.0 * (1.0 + cosine));
+  const Vector3 axis = from.cross(to) * (1.0 / twice_w);
+  return {0.5 * twice_w, axis.x(), axis.y(), axis.z()};
+}
+
 Eigen::Matrix<double, 6, 1> poseError(const Transform& from, const Transform& to)
 {
   Eigen::Matrix<double, 6, 1> error;

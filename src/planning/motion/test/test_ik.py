@@ -45,6 +45,26 @@ def test_all_eight_families_of_a_ur5():
     assert len(wrists) == 4
 
 
+def test_joints_that_turn_the_other_way_have_the_angles_with_the_other_sign():
+    """An axis that is turned round, the one of the frame's z among them, changes an angle's sign and nothing else."""
+    axes = {"0.0 0.0 1.0": "0 0 -3", "0.0 1.0 0.0": "0 -1e-4 0"}  # lengths do not matter
+    urdf, srdf = robots.arm("ur5")
+    turned = urdf
+    for axis, other in axes.items():
+        assert axis in urdf
+        turned = turned.replace(f'<axis xyz="{axis}"/>', f'<axis xyz="{other}"/>')
+    values = np.array([0.3, -1.2, 1.4, -0.9, 1.1, 0.5])
+    models = [motion.load_model(text, srdf) for text in (urdf, turned)]
+    states = [model.state() for model in models]
+    for state, sign in zip(states, (1, -1)):
+        state.set_group("arm", sign * values)
+    goal = states[0].pose("tool")
+    np.testing.assert_allclose(states[1].pose("tool").matrix(), goal.matrix(), atol=1e-12)
+    found = motion.ik(models[1], "arm", goal, seed=states[1], solutions=8, timeout=1.0, max_restarts=2000, random_seed=1)
+    assert len(found.solutions) == 8
+    np.testing.assert_allclose(found.solutions[0], -values, atol=1e-9)
+
+
 def test_position_only_leaves_the_rest_free():
     model = motion.load_model(*robots.arm("panda"))
     goal = ((0.4, 0.2, 0.5), (0, 0, 0, 1))

@@ -75,7 +75,7 @@ void ShapeView::make(const shapes::Shape& shape, const VoxelStyle& style) {
       make(rviz::Shape::Cube, PLANE_EDGE, PLANE_EDGE, PLANE_THICKNESS, false);
       if (normal.norm() < 1e-9) return;
       shape_->setPosition(toOgre(-plane.d * normal / normal.squaredNorm()));
-      shape_->setOrientation(toOgre(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal)));
+      shape_->setOrientation(Ogre::Vector3::UNIT_Z.getRotationTo(toOgre(normal)));
       return;
     }
     case shapes::MESH: return makeMesh(static_cast<const shapes::Mesh&>(shape));

@@ -50,6 +50,10 @@ inline double wrapAngle(double angle) { return std::remainder(angle, 2.0 * M_PI)
 // Rotation vector (rad) of a rotation matrix; exact near zero and near pi.
 Vector3 rotationVector(const Eigen::Matrix3d& rotation);
 
+// The rotation that turns direction a into direction b the short way; opposite ones half a turn about some axis across them. Lengths do
+// not matter, but neither is zero. As Eigen's FromTwoVectors, whose templates take a compiler four seconds wherever they are named.
+Quaternion turnBetween(const Vector3& a, const Vector3& b);
+
 // (position error in m, rotation error in rad), both in the frame in which the two poses are given.
 Eigen::Matrix<double, 6, 1> poseError(const Transform& from, const Transform& to);
 
