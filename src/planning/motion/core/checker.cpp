@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "triangles.hpp"
+
 namespace motion
 {
 struct CollisionChecker::Search
@@ -18,8 +20,6 @@ struct CollisionChecker::Search
 
 namespace
 {
-constexpr double TOUCHING = 1e-9;  // m: whether what is nearer than this touches is FCL's to say
-
 void addCosts(const CollisionShape& a, const Transform& pose_a, const CollisionShape& b, const Transform& pose_b,
               std::size_t most, std::vector<CostSource>& costs)
 {
@@ -157,8 +157,11 @@ bool CollisionChecker::test(const CollisionShape& a, const Transform& pose_a, in
     addCosts(a, pose_a, b, pose_b, search.most_costs, *search.costs);
     return false;
   }
-  if (gapOfBoxes(a, pose_a, b, pose_b) > TOUCHING || areApart(a, pose_a, b, pose_b))
+  const Touch known = knownTouch(a, pose_a, b, pose_b);
+  if (known == Touch::No)
     return false;
+  if (known == Touch::Yes && !search.request)
+    return search.result->collision = true;
   std::size_t want = 0;
   std::size_t* have = nullptr;
   if (search.request && search.request->contacts > search.result->contacts.size())

@@ -71,7 +71,7 @@ std::shared_ptr<CollisionShape> make(const ShapePtr& shape, double scale, double
   out->geometry->computeLocalAABB();
   out->unbounded = !localBounds(*larger, out->centre, out->half);
   if (larger->type == ShapeType::Mesh && !static_cast<const Mesh&>(*larger).triangles.empty())
-    out->parts = std::make_shared<const MeshParts>(static_cast<const Mesh&>(*larger));
+    out->parts = std::make_shared<const MeshParts>(std::static_pointer_cast<const Mesh>(larger));
   return out;
 }
 }  // namespace

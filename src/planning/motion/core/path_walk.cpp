@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "triangles.hpp"
+
 namespace motion
 {
 namespace
@@ -68,6 +70,9 @@ double PathWalk::go(const At& at, double step_size)
 
 bool PathWalk::touch(const CollisionShape& a, const Transform& at_a, const CollisionShape& b, const Transform& at_b) const
 {
+  const Touch known = knownTouch(a, at_a, b, at_b);
+  if (known != Touch::Unsure)
+    return known == Touch::Yes;
   fcl::CollisionResultd result;
   return fcl::collide(a.geometry.get(), at_a, b.geometry.get(), at_b, fcl::CollisionRequestd(1, false), result) != 0;
 }
@@ -90,6 +95,8 @@ PathWalk::Verdict PathWalk::look(const Side& a, const Side& b, double boxes, dou
     margin = std::max(margin, gapOfBoxes(*a.shape, *a.now, *b.shape, *b.now));
   if (margin < need)
     margin = std::max(margin, gapOfHulls(*a.shape, *a.now, *b.shape, *b.now, ENOUGH * need));
+  if (margin < need)
+    margin = std::fmax(margin, gapOfTriangles(*a.shape, *a.now, *b.shape, *b.now, ENOUGH * need));
   if (margin < need && need > RESOLUTION && margin > WORTH * need)
   {
     shrink_ = 0.9 * margin / need;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "collision_shape.hpp"
@@ -12,17 +13,18 @@ namespace motion
 {
 namespace
 {
-constexpr int FEW = 8;          // points that are looked at one by one
-constexpr int SMALL = 16;       // triangles of a part that is not cut
-constexpr double FLAT = 1e-4;   // m that corners of a convex mesh may stand out
-constexpr int DEEP = 6;         // times that a mesh is cut
-constexpr int FEWER_TRIES = 4;  // of parts
-constexpr int TRIES = 8;        // directions; where hulls are apart, three or four are enough as a rule
-constexpr int PAIRS = 40;       // of parts, that are looked at before it is left to FCL
-constexpr int LUCK = 2;         // times in vain before parts are left out
-constexpr int SELDOM = 8;       // of so many times one
-constexpr double CLEAR = 1e-5;  // m: what is farther apart FCL calls free as well, whatever its tolerances
-constexpr int KNOWN = 512;      // pairs of shapes whose last direction is kept, of each thread
+constexpr std::size_t MANY = 200;  // points of which most are inside
+constexpr int COARSE = 2;          // cells along an edge of the cube of directions, to leave those out
+constexpr int SMALL = 16;          // triangles of a part that is not cut
+constexpr double FLAT = 1e-4;      // m that corners of a convex mesh may stand out
+constexpr int DEEP = 14;           // times that a mesh is cut
+constexpr int FEWER_TRIES = 4;     // of parts
+constexpr int TRIES = 8;           // directions; where hulls are apart, three or four are enough as a rule
+constexpr int PAIRS = 40;          // of parts, that are looked at before it is left to FCL
+constexpr int LUCK = 2;            // times in vain before parts are left out
+constexpr int SELDOM = 8;          // of so many times one
+constexpr double CLEAR = 1e-5;     // m: what is farther apart FCL calls free as well, whatever its tolerances
+constexpr int KNOWN = 512;         // pairs of shapes whose last direction is kept, of each thread
 constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
 // What was seen of two shapes the last times.
@@ -57,7 +59,7 @@ struct Portion
   Vector3 farthest(const Vector3& direction) const
   {
     if (shape->parts)
-      return node()->corners.along(direction);
+      return shape->parts->corners(part).along(direction);
     Vector3 out = shape->half;
     for (int k = 0; k < 3; ++k)
       if (direction[k] < 0)
@@ -187,120 +189,173 @@ bool convex(const Mesh& mesh)
 
 FarthestPoint::FarthestPoint(std::vector<Vector3> points) : points_(std::move(points))
 {
-  nodes_.reserve(2 * points_.size() / FEW + 2);
-  nodes_.emplace_back();
-  split(0, 0, static_cast<int>(points_.size()));
+  if (points_.size() > MANY)
+    sort(COARSE);  // leaves out nearly all that are inside
+  const std::size_t count = points_.size();
+  sort(count <= 12 ? 1 : count <= 60 ? 2 : count <= 400 ? 4 : 8);
 }
 
-void FarthestPoint::split(int node, int first, int last)
+void FarthestPoint::sort(int side)
 {
-  Vector3 low = Vector3::Constant(INFINITE), high = -low;
-  for (int i = first; i < last; ++i)
+  side_ = side;
+  first_.assign(1, 0);
+  of_cell_.clear();
+  const int edge = side + 1, count = static_cast<int>(points_.size());
+  std::vector<double> far(static_cast<std::size_t>(edge) * edge * count);  // along each corner of a face's cells
+  std::vector<std::pair<double, int>> near;
+  std::vector<char> wanted(count, 0);
+  for (int face = 0; face < 6; ++face)
   {
-    low = low.cwiseMin(points_[i]);
-    high = high.cwiseMax(points_[i]);
-  }
-  nodes_[node] = {0.5 * (low + high), 0.5 * (high - low), first, last - first};
-  if (last - first <= FEW)
-    return;
-  int axis;
-  (high - low).maxCoeff(&axis);
-  const int middle = (first + last) / 2;
-  std::nth_element(points_.begin() + first, points_.begin() + middle, points_.begin() + last,
-                   [axis](const Vector3& a, const Vector3& b) { return a[axis] < b[axis]; });
-  const int children = static_cast<int>(nodes_.size());
-  nodes_[node].first = children;
-  nodes_[node].count = 0;
-  nodes_.resize(nodes_.size() + 2);
-  split(children, first, middle);
-  split(children + 1, middle, last);
-}
-
-Vector3 FarthestPoint::along(const Vector3& direction) const
-{
-  const Vector3 size = direction.cwiseAbs();
-  const auto most = [&](int i) { return direction.dot(nodes_[i].centre) + size.dot(nodes_[i].half); };
-  std::array<std::pair<int, double>, 64> stack;  // halves of halves: no tree is deeper than 32
-  int top = 0, best = 0;
-  double farthest = -INFINITE;
-  stack[top++] = {0, INFINITE};
-  while (top)
-  {
-    const auto [here, bound] = stack[--top];
-    if (bound <= farthest)
-      continue;
-    const Node& node = nodes_[here];
-    if (node.count == 0)
+    const int axis = face / 2;
+    for (int corner = 0; corner < edge * edge; ++corner)
     {
-      std::pair<int, double> near(node.first, most(node.first)), far(node.first + 1, most(node.first + 1));
-      if (near.second > far.second)
-        std::swap(near, far);
-      stack[top++] = near;
-      stack[top++] = far;
-      continue;
+      Vector3 way;
+      way[axis] = face % 2 ? -1.0 : 1.0;
+      way[(axis + 1) % 3] = 2.0 * (corner / edge) / side - 1.0;
+      way[(axis + 2) % 3] = 2.0 * (corner % edge) / side - 1.0;
+      for (int i = 0; i < count; ++i)
+        far[static_cast<std::size_t>(corner) * count + i] = way.dot(points_[i]);
     }
-    for (int i = node.first; i < node.first + node.count; ++i)
+    for (int cell = 0; cell < side * side; ++cell)
     {
-      const double there = direction.dot(points_[i]);
-      if (there > farthest)
-      {
-        farthest = there;
-        best = i;
-      }
+      const int corner = cell / side * edge + cell % side;
+      const double* at[4];
+      for (int k = 0; k < 4; ++k)
+        at[k] = &far[static_cast<std::size_t>(corner + k / 2 * edge + k % 2) * count];
+      const auto sum = [&](int i) { return at[0][i] + at[1][i] + at[2][i] + at[3][i]; };
+      const auto asFar = [&](int i, int j) {
+        return at[0][i] >= at[0][j] && at[1][i] >= at[1][j] && at[2][i] >= at[2][j] && at[3][i] >= at[3][j];
+      };
+      int best = 0;
+      for (int i = 1; i < count; ++i)
+        if (sum(i) > sum(best))
+          best = i;
+      near.clear();
+      for (int i = 0; i < count; ++i)
+        if (i == best || !asFar(best, i))
+          near.emplace_back(-sum(i), i);
+      std::sort(near.begin(), near.end());  // what no earlier one is as far as, no later one is
+      const std::size_t begin = of_cell_.size();
+      for (const auto& [less, i] : near)
+        if (std::none_of(of_cell_.begin() + begin, of_cell_.end(), [&, i = i](int j) { return asFar(j, i); }))
+        {
+          of_cell_.push_back(i);
+          wanted[i] = 1;
+        }
+      first_.push_back(static_cast<int>(of_cell_.size()));
+    }
+  }
+  std::vector<int> becomes(count, -1);
+  int kept = 0;
+  for (int i = 0; i < count; ++i)
+    if (wanted[i])
+    {
+      becomes[i] = kept;
+      points_[kept++] = points_[i];
+    }
+  points_.resize(kept);
+  points_.shrink_to_fit();
+  for (int& i : of_cell_)
+    i = becomes[i];
+}
+
+const Vector3& FarthestPoint::along(const Vector3& direction) const
+{
+  int axis;
+  const double scale = 0.5 * side_ / direction.cwiseAbs().maxCoeff(&axis);
+  const auto cell = [&](int k) {
+    return std::clamp(static_cast<int>(direction[(axis + k) % 3] * scale + 0.5 * side_), 0, side_ - 1);
+  };
+  const int here = (2 * axis + (direction[axis] < 0)) * side_ * side_ + cell(1) * side_ + cell(2);
+  int best = of_cell_[first_[here]];
+  double farthest = direction.dot(points_[best]);
+  for (int k = first_[here] + 1; k < first_[here + 1]; ++k)
+  {
+    const double there = direction.dot(points_[of_cell_[k]]);
+    if (there > farthest)
+    {
+      farthest = there;
+      best = of_cell_[k];
     }
   }
   return points_[best];
 }
 
-MeshParts::MeshParts(const Mesh& mesh)
+MeshParts::MeshParts(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)), order_(mesh_->triangles.size())
 {
-  std::vector<int> order(mesh.triangles.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    order[i] = static_cast<int>(i);
-  const int count = static_cast<int>(order.size());
-  parts_.push_back(made(mesh, order, 0, count));
-  if (!convex(mesh))  // else it is its own hull
-    split(mesh, order, 0, 0, count, 0);
+  for (std::size_t i = 0; i < order_.size(); ++i)
+    order_[i] = static_cast<int>(i);
+  parts_.push_back(made(0, static_cast<int>(order_.size())));
+  if (!convex(*mesh_))  // else it is its own hull
+    split(0, 0);
+  corners_ = std::make_unique<std::atomic<const FarthestPoint*>[]>(parts_.size());
 }
 
-MeshParts::Part MeshParts::made(const Mesh& mesh, const std::vector<int>& order, int first, int last) const
+MeshParts::~MeshParts()
+{
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    delete corners_[i].load();
+}
+
+const FarthestPoint& MeshParts::corners(int part) const
+{
+  std::atomic<const FarthestPoint*>& place = corners_[part];
+  if (const FarthestPoint* known = place.load(std::memory_order_acquire))
+    return *known;
+  auto found = std::make_unique<const FarthestPoint>(cornersOf(parts_[part]));
+  const FarthestPoint* before = nullptr;
+  if (place.compare_exchange_strong(before, found.get(), std::memory_order_acq_rel))
+    return *found.release();
+  return *before;  // another thread was sooner
+}
+
+FarthestPoint MeshParts::cornersOf(const Part& part) const
 {
   std::vector<int> indices;
-  for (int i = first; i < last; ++i)
+  for (int i = part.begin; i < part.end; ++i)
     for (int k = 0; k < 3; ++k)
-      indices.push_back(mesh.triangles[order[i]][k]);
+      indices.push_back(mesh_->triangles[order_[i]][k]);
   std::sort(indices.begin(), indices.end());
   indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
-  std::vector<Vector3> corners;
-  Vector3 low = Vector3::Constant(INFINITE), high = -low;
+  std::vector<Vector3> points;
+  points.reserve(indices.size());
   for (int index : indices)
-  {
-    corners.push_back(mesh.vertices[index]);
-    low = low.cwiseMin(corners.back());
-    high = high.cwiseMax(corners.back());
-  }
-  return {0.5 * (low + high), 0.5 * (high - low), FarthestPoint(std::move(corners))};
+    points.push_back(mesh_->vertices[index]);
+  return FarthestPoint(std::move(points));
 }
 
-void MeshParts::split(const Mesh& mesh, std::vector<int>& order, int part, int first, int last, int depth)
+MeshParts::Part MeshParts::made(int begin, int end) const
 {
-  if (last - first <= SMALL || depth == DEEP)
+  Vector3 low = Vector3::Constant(INFINITE), high = -low;
+  for (int i = begin; i < end; ++i)
+    for (const Vector3* corner : triangle(i))
+    {
+      low = low.cwiseMin(*corner);
+      high = high.cwiseMax(*corner);
+    }
+  return {0.5 * (low + high), 0.5 * (high - low), begin, end};
+}
+
+void MeshParts::split(int part, int depth)
+{
+  const auto [centre, half, begin, end, first] = parts_[part];
+  if (end - begin <= SMALL || depth == DEEP)
     return;
   int axis;
-  parts_[part].half.maxCoeff(&axis);
-  const auto along = [&](int i) {
-    const Eigen::Vector3i& t = mesh.triangles[i];
-    return mesh.vertices[t[0]][axis] + mesh.vertices[t[1]][axis] + mesh.vertices[t[2]][axis];
+  half.maxCoeff(&axis);
+  const auto along = [this, axis](int i) {
+    const Eigen::Vector3i& t = mesh_->triangles[i];
+    return mesh_->vertices[t[0]][axis] + mesh_->vertices[t[1]][axis] + mesh_->vertices[t[2]][axis];
   };
-  const int middle = (first + last) / 2;
-  std::nth_element(order.begin() + first, order.begin() + middle, order.begin() + last,
+  const int middle = (begin + end) / 2;
+  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
                    [&](int a, int b) { return along(a) < along(b); });
   const int children = static_cast<int>(parts_.size());
   parts_[part].first = children;
-  parts_.push_back(made(mesh, order, first, middle));
-  parts_.push_back(made(mesh, order, middle, last));
-  split(mesh, order, children, first, middle, depth + 1);
-  split(mesh, order, children + 1, middle, last, depth + 1);
+  parts_.push_back(made(begin, middle));
+  parts_.push_back(made(middle, end));
+  split(children, depth + 1);
+  split(children + 1, depth + 1);
 }
 
 double gapOfHulls(const CollisionShape& a, const Transform& at_a, const CollisionShape& b, const Transform& at_b, double enough)

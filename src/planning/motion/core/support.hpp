@@ -1,6 +1,9 @@
 // The farthest points of shapes in a direction, and directions in which two shapes, or all of their parts, are apart.
 #pragma once
 
+#include <array>
+#include <atomic>
+#include <memory>
 #include <vector>
 
 #include "motion/shapes.hpp"
@@ -9,45 +12,57 @@ namespace motion
 {
 struct CollisionShape;
 
-// Points in a tree of boxes, so that the farthest of many is found soon.
+// The farthest of some points in any direction. Directions are sorted into the cells of a cube's faces; each cell knows the points of which
+// no other is as far at all four of its corners, and so at none between these. They are few, and the others are never looked at.
 class FarthestPoint
 {
 public:
   explicit FarthestPoint(std::vector<Vector3> points);
-  Vector3 along(const Vector3& direction) const;
+  const Vector3& along(const Vector3& direction) const;
 
 private:
-  struct Node
-  {
-    Vector3 centre, half;
-    int first;  // a leaf's point, or the first of two nodes
-    int count;  // of a leaf's points; 0: it is none
-  };
-  void split(int node, int first, int last);
+  // Which points each cell has, with `side` cells along an edge of the cube.
+  void sort(int side);
 
+  int side_ = 1;
   std::vector<Vector3> points_;
-  std::vector<Node> nodes_;
+  std::vector<int> first_, of_cell_;  // cell k has the points of_cell_[first_[k]] to before first_[k + 1]
 };
 
-// A mesh cut into halves, and these again. Immutable after its making, for any number of threads.
+// A mesh cut into halves, and these again. For any number of threads; what a part's corners are is found out when it is first asked.
 class MeshParts
 {
 public:
   struct Part
   {
     Vector3 centre, half;  // of its box along the mesh's axes
-    FarthestPoint corners;
-    int first = -1;  // of the two parts that it has; -1: none
+    int begin, end;        // its triangles
+    int first = -1;        // of the two parts that it has; -1: none
   };
 
-  explicit MeshParts(const Mesh& mesh);
+  explicit MeshParts(std::shared_ptr<const Mesh> mesh);
+  ~MeshParts();
+  MeshParts(const MeshParts&) = delete;
+  MeshParts& operator=(const MeshParts&) = delete;
+
   const Part& part(int index) const { return parts_[index]; }  // 0: all of it
+  using Triangle = std::array<const Vector3*, 3>;
+  Triangle triangle(int i) const  // i: from a part's begin to before its end
+  {
+    const Eigen::Vector3i& t = mesh_->triangles[order_[i]];
+    return {&mesh_->vertices[t[0]], &mesh_->vertices[t[1]], &mesh_->vertices[t[2]]};
+  }
+  const FarthestPoint& corners(int part) const;
 
 private:
-  Part made(const Mesh& mesh, const std::vector<int>& order, int first, int last) const;
-  void split(const Mesh& mesh, std::vector<int>& order, int part, int first, int last, int depth);
+  Part made(int begin, int end) const;
+  void split(int part, int depth);
+  FarthestPoint cornersOf(const Part& part) const;
 
+  std::shared_ptr<const Mesh> mesh_;
+  std::vector<int> order_;  // of the triangles, so that those of a part stand together
   std::vector<Part> parts_;
+  std::unique_ptr<std::atomic<const FarthestPoint*>[]> corners_;
 };
 
 // A lower bound of the distance of two shapes, m: the gap between the shadows of their convex hulls in the best of some directions (Chung

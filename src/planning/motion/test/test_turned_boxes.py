@@ -160,6 +160,56 @@ def test_between_the_prongs_of_a_fork_it_is_free(tmp_path, thing):
             assert touches(scene, shape, ((0.05 + side * off, 0, 0.2 + shift), turned)) == wanted, (thing, side, off)
 
 
+def test_a_triangle_passes_an_edge_of_a_box():
+    """One triangle, far larger than the box, none of its corners near; the box's corner at (0.1, 0.1) is 0.1 sqrt 2 from the middle."""
+    scene = motion.PlanningScene(robot(CUBE))
+    diagonal = np.array([1, 1, 0]) / math.sqrt(2)
+    along = np.array([1, -1, 0]) / math.sqrt(2)
+    for upright in (np.array([0, 0, 1.0]), np.array([0.3, 0.3, 1.0])):  # its plane holds the box's edge, or leans out over it
+        for gap, wanted in ((1e-4, False), (-1e-4, True)):
+            foot = diagonal * (0.1 * math.sqrt(2) + gap) + (0, 0, 0.05)
+            corners = [foot - 3 * along, foot + 3 * along, foot + 4 * upright]
+            assert touches(scene, motion.Mesh(corners, [[0, 1, 2]]), ((0, 0, 0), (0, 0, 0, 1))) == wanted, (upright, gap)
+
+
+def test_a_mesh_is_a_surface_and_a_box_is_solid(tmp_path):
+    """What stands inside a mesh touches none of its triangles; what is around it touches all; a triangle without area is a line."""
+    scene = motion.PlanningScene(fork_robot(tmp_path))
+    assert not touches(scene, motion.Box(0.02, 0.02, 0.1), ((0, 0, 0.15), (0, 0, 0, 1)))
+    assert touches(scene, motion.Box(0.02, 0.06, 0.1), ((0, 0, 0.15), (0, 0, 0, 1)))
+    assert touches(scene, motion.Box(2, 2, 2), ((0, 0, 0.15), (0, 0, 0, 1)))
+    scene = motion.PlanningScene(robot(CUBE))
+    for x, wanted in ((0.0999, True), (0.1001, False)):
+        line = motion.Mesh([[x, -5, 0.02], [x, 5, 0.02], [x, 1, 0.02]], [[0, 1, 2]])
+        assert touches(scene, line, ((0, 0, 0), (0, 0, 0, 1))) == wanted
+
+
+@pytest.mark.parametrize("pieces", [1, 4, 12])
+def test_boxes_touch_meshes_of_the_world_where_their_distance_ends(pieces):
+    """The mesh is the world's, coarse or fine, and stands anywhere beside the robot's box."""
+    scene = motion.PlanningScene(robot(BOX))
+    chance = np.random.default_rng(pieces)
+    mesh = motion.Mesh(
+        *joined(
+            *(
+                block(np.array(size), np.array(at), pieces)
+                for size, at in (((0.3, 0.05, 0.05), (0, 0, 0)), ((0.02, 0.3, 0.1), (0.1, 0.1, 0)))
+            )
+        )
+    )
+    free = 0
+    for i in range(300):
+        q = chance.normal(size=4)
+        pose = (tuple(chance.uniform(-0.3, 0.3, 3)), tuple(q / np.linalg.norm(q)))
+        touching = touches(scene, mesh, pose)
+        distance = scene.distance(scene.state).distance
+        if abs(distance) > 1e-6 or not touching:
+            assert touching == (distance <= 0), (i, pose, distance)
+        assert not touching or scene.check(contacts=1).contacts
+        free += not touching
+    assert 60 < free < 240
+
+
 def test_meshes_touch_where_their_distance_ends(tmp_path):
     """Forks in each other at random: distances, which FCL finds by itself, say the same."""
     scene = motion.PlanningScene(fork_robot(tmp_path))
