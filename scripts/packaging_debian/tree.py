@@ -173,7 +173,7 @@ def _install_add_ons(folder: Path, requirements: Path) -> None:
 
 
 def clean(tree: Path) -> None:
-    """Take out what a build leaves beside the product, and strip libraries."""
+    """Take out what a build leaves beside the product and where it was made, and strip libraries."""
     shutil.rmtree(tree / "share/catkin_tools_prebuild", ignore_errors=True)
     shutil.rmtree(tree / "share/noetic_environment/python/bin", ignore_errors=True)
     for path in list(tree.rglob("*")):
@@ -183,6 +183,9 @@ def clean(tree: Path) -> None:
             path.unlink()
         elif path.suffix == ".so" and path.is_file() and not path.is_symlink():
             run(["strip", "--strip-unneeded", path], f"stripping {path.name}")
+        elif path.suffix in (".cmake", ".py", ".sh") and path.is_file() and str(tree) in (text := path.read_text(encoding="utf-8")):
+            # catkin has sourced this tree for the packages that came later, and would look into it again
+            path.write_text(text.replace(f";{tree}/lib", "").replace(str(tree), ""), encoding="utf-8")
 
 
 #: Folders of a package that are not installed as they stand: tests, C++ sources, stand-ins for libraries, what CMake and catkin handle.

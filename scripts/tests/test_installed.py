@@ -21,6 +21,19 @@ def install(package: Path, stage: Path) -> str:
     return f"{package.name}: {ended.stdout}{ended.stderr}" if ended.returncode else ""
 
 
+def test_where_it_was_built_is_not_looked_into_from_where_it_is_installed(tmp_path):
+    (tmp_path / "lib").mkdir()
+    files = {
+        "_setup_util.py": (f"CMAKE_PREFIX_PATH = r'{tmp_path}'.split(';')\n", "CMAKE_PREFIX_PATH = r''.split(';')\n"),
+        "lib/armConfig.cmake": (f"foreach(path /opt/x/lib;{tmp_path}/lib)\n", "foreach(path /opt/x/lib)\n"),
+        "setup.sh": ("export A=/opt/x\n", "export A=/opt/x\n"),
+    }
+    for name, (before, _) in files.items():
+        (tmp_path / name).write_text(before)
+    tree.clean(tmp_path)
+    assert {name: (tmp_path / name).read_text() for name in files} == {name: after for name, (_, after) in files.items()}
+
+
 @pytest.mark.slow
 def test_every_file_that_a_package_needs_where_it_is_installed_has_an_install_rule(tmp_path):
     packages = tree.platform_packages(ROOT)
