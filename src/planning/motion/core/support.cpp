@@ -187,6 +187,32 @@ bool convex(const Mesh& mesh)
 }
 }  // namespace
 
+namespace
+{
+// The points of which no other is as far at all four corners of a cell; at[k][i]: how far point i is along corner k.
+std::vector<int> farthestAt(const std::array<const double*, 4>& at, int count)
+{
+  const auto sum = [&](int i) { return at[0][i] + at[1][i] + at[2][i] + at[3][i]; };
+  const auto asFar = [&](int i, int j) {
+    return at[0][i] >= at[0][j] && at[1][i] >= at[1][j] && at[2][i] >= at[2][j] && at[3][i] >= at[3][j];
+  };
+  int best = 0;
+  for (int i = 1; i < count; ++i)
+    if (sum(i) > sum(best))
+      best = i;
+  std::vector<std::pair<double, int>> near;
+  for (int i = 0; i < count; ++i)
+    if (i == best || !asFar(best, i))
+      near.emplace_back(-sum(i), i);
+  std::sort(near.begin(), near.end());  // what no earlier one is as far as, no later one is
+  std::vector<int> found;
+  for (const auto& [less, i] : near)
+    if (std::none_of(found.begin(), found.end(), [&, i = i](int j) { return asFar(j, i); }))
+      found.push_back(i);
+  return found;
+}
+}  // namespace
+
 FarthestPoint::FarthestPoint(std::vector<Vector3> points) : points_(std::move(points))
 {
   if (points_.size() > MANY)
@@ -202,7 +228,6 @@ void FarthestPoint::sort(int side)
   of_cell_.clear();
   const int edge = side + 1, count = static_cast<int>(points_.size());
   std::vector<double> far(static_cast<std::size_t>(edge) * edge * count);  // along each corner of a face's cells
-  std::vector<std::pair<double, int>> near;
   std::vector<char> wanted(count, 0);
   for (int face = 0; face < 6; ++face)
   {
@@ -219,29 +244,14 @@ void FarthestPoint::sort(int side)
     for (int cell = 0; cell < side * side; ++cell)
     {
       const int corner = cell / side * edge + cell % side;
-      const double* at[4];
+      std::array<const double*, 4> at;
       for (int k = 0; k < 4; ++k)
         at[k] = &far[static_cast<std::size_t>(corner + k / 2 * edge + k % 2) * count];
-      const auto sum = [&](int i) { return at[0][i] + at[1][i] + at[2][i] + at[3][i]; };
-      const auto asFar = [&](int i, int j) {
-        return at[0][i] >= at[0][j] && at[1][i] >= at[1][j] && at[2][i] >= at[2][j] && at[3][i] >= at[3][j];
-      };
-      int best = 0;
-      for (int i = 1; i < count; ++i)
-        if (sum(i) > sum(best))
-          best = i;
-      near.clear();
-      for (int i = 0; i < count; ++i)
-        if (i == best || !asFar(best, i))
-          near.emplace_back(-sum(i), i);
-      std::sort(near.begin(), near.end());  // what no earlier one is as far as, no later one is
-      const std::size_t begin = of_cell_.size();
-      for (const auto& [less, i] : near)
-        if (std::none_of(of_cell_.begin() + begin, of_cell_.end(), [&, i = i](int j) { return asFar(j, i); }))
-        {
-          of_cell_.push_back(i);
-          wanted[i] = 1;
-        }
+      for (int i : farthestAt(at, count))
+      {
+        of_cell_.push_back(i);
+        wanted[i] = 1;
+      }
       first_.push_back(static_cast<int>(of_cell_.size()));
     }
   }
