@@ -133,6 +133,8 @@ def figures_of(title, runs):
 
 def robot_figures(folder, count):
     model = robot_model(folder)
+    kept = motion.PlanningScene(model)  # as move_group does: what is known of the robot's shapes stays from one plan to the next
+    kept.check()
     runs, blocked = collections.defaultdict(list), 0
     for name, scene_file, request_file in problems(folder):
         if len(runs[name]) >= count:

@@ -13,8 +13,9 @@ namespace motion
 {
 namespace
 {
-constexpr std::size_t MANY = 200;  // points of which most are inside
-constexpr int COARSE = 2;          // cells along an edge of the cube of directions, to leave those out
+constexpr int FINEST = 16;         // cells along an edge of the cube of directions
+constexpr int POINTS_A_CELL = 12;  // more are worth smaller cells
+constexpr int LARGE = 512;         // triangles of a part whose corners are not worth knowing: its halves' are
 constexpr int SMALL = 16;          // triangles of a part that is not cut
 constexpr double FLAT = 1e-4;      // m that corners of a convex mesh may stand out
 constexpr int DEEP = 14;           // times that a mesh is cut
@@ -53,6 +54,7 @@ struct Portion
   const Vector3& centre() const { return node() ? node()->centre : shape->centre; }
   const Vector3& half() const { return node() ? node()->half : shape->half; }
   bool divisible() const { return node() && node()->first >= 0; }
+  bool small() const { return !node() || node()->end - node()->begin <= LARGE; }
   Portion child(int which) const { return {shape, node()->first + which}; }
 
   // In the shape's own frame. Of a cone or an octree, that of its box.
@@ -145,7 +147,8 @@ public:
       {
         if (--pairs < 0)
           return 0;
-        gap = std::max(gap, gapOf(one, other, way, FEWER_TRIES));
+        if (one.small() && other.small())
+          gap = std::max(gap, gapOf(one, other, way, FEWER_TRIES));
         if (gap <= 0)
           gap = gapOfParts(one, other, pairs);
       }
@@ -187,86 +190,114 @@ bool convex(const Mesh& mesh)
 }
 }  // namespace
 
-namespace
-{
-// The points of which no other is as far at all four corners of a cell; at[k][i]: how far point i is along corner k.
-std::vector<int> farthestAt(const std::array<const double*, 4>& at, int count)
-{
-  const auto sum = [&](int i) { return at[0][i] + at[1][i] + at[2][i] + at[3][i]; };
-  const auto asFar = [&](int i, int j) {
-    return at[0][i] >= at[0][j] && at[1][i] >= at[1][j] && at[2][i] >= at[2][j] && at[3][i] >= at[3][j];
-  };
-  int best = 0;
-  for (int i = 1; i < count; ++i)
-    if (sum(i) > sum(best))
-      best = i;
-  std::vector<std::pair<double, int>> near;
-  for (int i = 0; i < count; ++i)
-    if (i == best || !asFar(best, i))
-      near.emplace_back(-sum(i), i);
-  std::sort(near.begin(), near.end());  // what no earlier one is as far as, no later one is
-  std::vector<int> found;
-  for (const auto& [less, i] : near)
-    if (std::none_of(found.begin(), found.end(), [&, i = i](int j) { return asFar(j, i); }))
-      found.push_back(i);
-  return found;
-}
-}  // namespace
-
 FarthestPoint::FarthestPoint(std::vector<Vector3> points) : points_(std::move(points))
 {
-  if (points_.size() > MANY)
-    sort(COARSE);  // leaves out nearly all that are inside
   const std::size_t count = points_.size();
-  sort(count <= 12 ? 1 : count <= 60 ? 2 : count <= 400 ? 4 : 8);
+  while (side_ < FINEST && count > static_cast<std::size_t>(POINTS_A_CELL * side_ * side_))
+    side_ *= 2;
+  cells_.resize(6 * side_ * side_);
+  std::vector<int> all(count);
+  for (std::size_t i = 0; i < count; ++i)
+    all[i] = static_cast<int>(i);
+  for (int face = 0; face < 6; ++face)
+    sort({face, 0, 0, side_}, all);
+  keepWanted();
 }
 
-void FarthestPoint::sort(int side)
+// Of the points those of which none, among some, is as far at all four corners of the square; the farthest in its middle first.
+std::vector<int> FarthestPoint::candidates(const Square& square, const std::vector<int>& points) const
 {
-  side_ = side;
-  first_.assign(1, 0);
-  of_cell_.clear();
-  const int edge = side + 1, count = static_cast<int>(points_.size());
-  std::vector<double> far(static_cast<std::size_t>(edge) * edge * count);  // along each corner of a face's cells
-  std::vector<char> wanted(count, 0);
-  for (int face = 0; face < 6; ++face)
+  const int axis = square.face / 2;
+  const auto along = [&](int i, int j) {
+    Vector3 way;
+    way[axis] = square.face % 2 ? -1.0 : 1.0;
+    way[(axis + 1) % 3] = 2.0 * i / side_ - 1.0;
+    way[(axis + 2) % 3] = 2.0 * j / side_ - 1.0;
+    return way;
+  };
+  const int i = square.i, j = square.j, size = square.size;
+  const Vector3 corners[4] = {along(i, j), along(i + size, j), along(i, j + size), along(i + size, j + size)};
+  const auto far = [&](int point) {
+    Eigen::Vector4d out;
+    for (int k = 0; k < 4; ++k)
+      out[k] = corners[k].dot(points_[point]);
+    return out;
+  };
+  // The farthest in the middle, at the corners and in the middle of the sides leave few others.
+  constexpr int SHARES[9][4] = {{1, 1, 1, 1}, {1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1},
+                                {1, 1, 0, 0}, {0, 0, 1, 1}, {1, 0, 1, 0}, {0, 1, 0, 1}};
+  std::vector<Eigen::Vector4d> fars(points.size());
+  std::array<std::size_t, 9> best{};
+  std::array<double, 9> most;
+  most.fill(-INFINITE);
+  for (std::size_t p = 0; p < points.size(); ++p)
   {
-    const int axis = face / 2;
-    for (int corner = 0; corner < edge * edge; ++corner)
+    fars[p] = far(points[p]);
+    for (int k = 0; k < 9; ++k)
     {
-      Vector3 way;
-      way[axis] = face % 2 ? -1.0 : 1.0;
-      way[(axis + 1) % 3] = 2.0 * (corner / edge) / side - 1.0;
-      way[(axis + 2) % 3] = 2.0 * (corner % edge) / side - 1.0;
-      for (int i = 0; i < count; ++i)
-        far[static_cast<std::size_t>(corner) * count + i] = way.dot(points_[i]);
-    }
-    for (int cell = 0; cell < side * side; ++cell)
-    {
-      const int corner = cell / side * edge + cell % side;
-      std::array<const double*, 4> at;
-      for (int k = 0; k < 4; ++k)
-        at[k] = &far[static_cast<std::size_t>(corner + k / 2 * edge + k % 2) * count];
-      for (int i : farthestAt(at, count))
+      const double there =
+          SHARES[k][0] * fars[p][0] + SHARES[k][1] * fars[p][1] + SHARES[k][2] * fars[p][2] + SHARES[k][3] * fars[p][3];
+      if (there > most[k])
       {
-        of_cell_.push_back(i);
-        wanted[i] = 1;
+        most[k] = there;
+        best[k] = p;
       }
-      first_.push_back(static_cast<int>(of_cell_.size()));
     }
   }
-  std::vector<int> becomes(count, -1);
+  const auto asFar = [&](std::size_t a, std::size_t b) { return (fars[a].array() >= fars[b].array()).all(); };
+  std::vector<std::pair<double, std::size_t>> left;
+  for (std::size_t p = 0; p < points.size(); ++p)
+    if (std::none_of(best.begin(), best.end(),
+                     [&](std::size_t other) { return other != p && asFar(other, p) && !asFar(p, other); }))
+      left.emplace_back(-fars[p].sum(), p);
+  std::vector<int> found;
+  if (size > 1)  // its quarters will leave out more
+  {
+    for (const auto& [less, p] : left)
+      found.push_back(points[p]);
+    return found;
+  }
+  std::sort(left.begin(), left.end());  // what no earlier one is as far as, no later one is
+  std::vector<std::size_t> kept;
+  for (const auto& [less, p] : left)
+    if (std::none_of(kept.begin(), kept.end(), [&, p = p](std::size_t other) { return asFar(other, p); }))
+      kept.push_back(p);
+  for (std::size_t p : kept)
+    found.push_back(points[p]);
+  return found;
+}
+
+void FarthestPoint::sort(const Square& square, const std::vector<int>& points)
+{
+  const std::vector<int> left = candidates(square, points);
+  if (square.size == 1)
+  {
+    const int begin = static_cast<int>(of_cell_.size());
+    of_cell_.insert(of_cell_.end(), left.begin(), left.end());
+    cells_[(square.face * side_ + square.i) * side_ + square.j] = {begin, static_cast<int>(of_cell_.size())};
+    return;
+  }
+  const int half = square.size / 2;
+  for (int quarter = 0; quarter < 4; ++quarter)
+    sort({square.face, square.i + quarter / 2 * half, square.j + quarter % 2 * half, half}, left);
+}
+
+void FarthestPoint::keepWanted()
+{
+  std::vector<int> becomes(points_.size(), -1);
+  for (int point : of_cell_)
+    becomes[point] = 0;
   int kept = 0;
-  for (int i = 0; i < count; ++i)
-    if (wanted[i])
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (becomes[i] == 0)
     {
       becomes[i] = kept;
       points_[kept++] = points_[i];
     }
   points_.resize(kept);
   points_.shrink_to_fit();
-  for (int& i : of_cell_)
-    i = becomes[i];
+  for (int& point : of_cell_)
+    point = becomes[point];
 }
 
 const Vector3& FarthestPoint::along(const Vector3& direction) const
@@ -276,10 +307,10 @@ const Vector3& FarthestPoint::along(const Vector3& direction) const
   const auto cell = [&](int k) {
     return std::clamp(static_cast<int>(direction[(axis + k) % 3] * scale + 0.5 * side_), 0, side_ - 1);
   };
-  const int here = (2 * axis + (direction[axis] < 0)) * side_ * side_ + cell(1) * side_ + cell(2);
-  int best = of_cell_[first_[here]];
+  const auto& [begin, end] = cells_[((2 * axis + (direction[axis] < 0)) * side_ + cell(1)) * side_ + cell(2)];
+  int best = of_cell_[begin];
   double farthest = direction.dot(points_[best]);
-  for (int k = first_[here] + 1; k < first_[here + 1]; ++k)
+  for (int k = begin + 1; k < end; ++k)
   {
     const double there = direction.dot(points_[of_cell_[k]]);
     if (there > farthest)

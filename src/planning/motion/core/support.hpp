@@ -21,12 +21,19 @@ public:
   const Vector3& along(const Vector3& direction) const;
 
 private:
-  // Which points each cell has, with `side` cells along an edge of the cube.
-  void sort(int side);
+  // Cells of a face of the cube: size times size of them, from the one in row i and column j.
+  struct Square
+  {
+    int face, i, j, size;
+  };
+  std::vector<int> candidates(const Square& square, const std::vector<int>& points) const;
+  void sort(const Square& square, const std::vector<int>& points);
+  void keepWanted();
 
-  int side_ = 1;
+  int side_ = 1;  // cells along an edge of the cube
   std::vector<Vector3> points_;
-  std::vector<int> first_, of_cell_;  // cell k has the points of_cell_[first_[k]] to before first_[k + 1]
+  std::vector<std::pair<int, int>> cells_;  // from where to before where in of_cell_ their points stand
+  std::vector<int> of_cell_;
 };
 
 // A mesh cut into halves, and these again. For any number of threads; what a part's corners are is found out when it is first asked.
