@@ -247,7 +247,8 @@ class _Conversion:
             joint = link.parent_joint
             if joint is None or not self._lumps(joint):
                 continue
-            for sensor in self.extensions.sensors_of(joint.name):
+            # of a link of the same name it is a sensor, whatever becomes of the joint
+            for sensor in () if joint.name in self.links else self.extensions.sensors_of(joint.name):
                 self.reader.warn(
                     sensor,
                     f"sensor '{quoted(sensor.get('name'))}' is left out: its joint '{quoted(joint.name)}' is fixed, "
@@ -365,7 +366,7 @@ class _Conversion:
         child(element, "child", joint.child.name)
         if kind != "fixed" or as_revolute:
             self._write_axis(child(element, "axis"), joint, as_revolute)
-        self.extensions.insert_in_joint(element, joint.name)
+        self.extensions.insert_in_joint(element, joint.name, joint.name in self.links)
 
     def _write_axis(self, axis: Element, joint: _UrdfJoint, as_revolute: bool) -> None:
         limit = child(axis, "limit")

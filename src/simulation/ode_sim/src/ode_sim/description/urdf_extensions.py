@@ -200,11 +200,16 @@ class Extensions:
         """The ``<sensor>``s that are said to be of ``joint``."""
         return [element for block in self._blocks.get(joint, ()) for element in block.others if element.tag == "sensor"]
 
-    def insert_in_joint(self, element: Element, joint: str) -> None:
-        """Put what is said about ``joint`` into ``element``, its SDF."""
+    def insert_in_joint(self, element: Element, joint: str, also_link: bool) -> None:
+        """Put what is said about ``joint`` into ``element``, its SDF.
+
+        :param also_link: a link has the same name; it has the sensors that only a link can have
+        """
         for block in self._blocks.get(joint, ()):
             self._insert(element, block, _JOINT_TAGS)
-            element.extend(block.others)
+            for other in block.others:
+                if not (also_link and other.tag == "sensor" and other.get("type") != "force_torque"):
+                    element.append(other)
 
     def _blocks_for(self, element: Element, link: str, suffix: str) -> list[_Extension]:
         """Those of the link that the shape was written in: its name tells, as in sdformat."""
