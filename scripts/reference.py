@@ -145,8 +145,9 @@ def write(packages, out):
 
 def main(arguments):
     if any(argument.startswith("-") for argument in arguments):
-        print(__doc__.strip(), file=sys.stderr)
-        return 2
+        asked = arguments[0] in ("-h", "--help")
+        print(__doc__.strip(), file=sys.stdout if asked else sys.stderr)
+        return 0 if asked else 2
     missing = write(arguments or PACKAGES, OUT)
     for line in missing:
         print(f"left out: {line}", file=sys.stderr)
