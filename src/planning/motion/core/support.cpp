@@ -204,6 +204,31 @@ FarthestPoint::FarthestPoint(std::vector<Vector3> points) : points_(std::move(po
   keepWanted();
 }
 
+namespace
+{
+// Which are the farthest in the middle of a square, at its corners and in the middle of its sides: they leave few others.
+std::array<std::size_t, 9> champions(const std::vector<Eigen::Vector4d>& fars)
+{
+  constexpr int SHARES[9][4] = {{1, 1, 1, 1}, {1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1},
+                                {1, 1, 0, 0}, {0, 0, 1, 1}, {1, 0, 1, 0}, {0, 1, 0, 1}};
+  std::array<std::size_t, 9> best{};
+  std::array<double, 9> most;
+  most.fill(-INFINITE);
+  for (std::size_t p = 0; p < fars.size(); ++p)
+    for (int k = 0; k < 9; ++k)
+    {
+      const double there =
+          SHARES[k][0] * fars[p][0] + SHARES[k][1] * fars[p][1] + SHARES[k][2] * fars[p][2] + SHARES[k][3] * fars[p][3];
+      if (there > most[k])
+      {
+        most[k] = there;
+        best[k] = p;
+      }
+    }
+  return best;
+}
+}  // namespace
+
 // Of the points those of which none, among some, is as far at all four corners of the square; the farthest in its middle first.
 std::vector<int> FarthestPoint::candidates(const Square& square, const std::vector<int>& points) const
 {
@@ -223,27 +248,10 @@ std::vector<int> FarthestPoint::candidates(const Square& square, const std::vect
       out[k] = corners[k].dot(points_[point]);
     return out;
   };
-  // The farthest in the middle, at the corners and in the middle of the sides leave few others.
-  constexpr int SHARES[9][4] = {{1, 1, 1, 1}, {1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1},
-                                {1, 1, 0, 0}, {0, 0, 1, 1}, {1, 0, 1, 0}, {0, 1, 0, 1}};
   std::vector<Eigen::Vector4d> fars(points.size());
-  std::array<std::size_t, 9> best{};
-  std::array<double, 9> most;
-  most.fill(-INFINITE);
   for (std::size_t p = 0; p < points.size(); ++p)
-  {
     fars[p] = far(points[p]);
-    for (int k = 0; k < 9; ++k)
-    {
-      const double there =
-          SHARES[k][0] * fars[p][0] + SHARES[k][1] * fars[p][1] + SHARES[k][2] * fars[p][2] + SHARES[k][3] * fars[p][3];
-      if (there > most[k])
-      {
-        most[k] = there;
-        best[k] = p;
-      }
-    }
-  }
+  const auto best = champions(fars);
   const auto asFar = [&](std::size_t a, std::size_t b) { return (fars[a].array() >= fars[b].array()).all(); };
   std::vector<std::pair<double, std::size_t>> left;
   for (std::size_t p = 0; p < points.size(); ++p)

@@ -215,7 +215,9 @@ def test_the_sensor_of_a_joint_that_is_lumped_is_one_line():
 def test_a_link_and_its_joint_of_one_name_and_the_link_s_sensor(kind, holder):
     """As sdformat does for Gazebo 11.1 (gz sdf -p): the link has it, lumped or not."""
     ray = '<sensor name="eye" type="ray"><update_rate>5</update_rate></sensor>'
-    model, problems = convert(link("base"), link("cam"), joint("cam", "base", "cam", kind, body=LIMIT), f'<gazebo reference="cam">{ray}</gazebo>')
+    model, problems = convert(
+        link("base"), link("cam"), joint("cam", "base", "cam", kind, body=LIMIT), f'<gazebo reference="cam">{ray}</gazebo>'
+    )
     assert {each.name: names(each.sensors) for each in model.links if each.sensors} == {holder: ["eye"]}
     assert not any(each.sensors for each in model.joints) and not problems
 
