@@ -291,12 +291,14 @@ public:
   }
   ~Controller() { over_ = true; }
   int goals() const { return goals_; }
+  double velocity() const { return velocity_; }
 
 private:
   void move(const control_msgs::FollowJointTrajectoryGoal& goal)
   {
-    ++goals_;
     const auto& last = goal.trajectory.points.back();
+    velocity_ = last.velocities.empty() ? 0.0 : last.velocities[0];
+    ++goals_;
     const ros::Time end = ros::Time::now() + last.time_from_start;
     while (ros::Time::now() < end)
     {
@@ -312,7 +314,8 @@ private:
       server_.setSucceeded();
   }
   std::atomic<bool> over_{ false };
-  std::atomic<int> goals_{ 0 };  // that it has begun
+  std::atomic<int> goals_{ 0 };          // that it has begun
+  std::atomic<double> velocity_{ 0.0 };  // at the end of the last one
   Server server_;
 };
 
@@ -346,6 +349,7 @@ void pushMotion(TrajectoryExecutionManager& execution, double position, double d
   trajectory.joint_trajectory.joint_names = { "joint_1" };
   trajectory.joint_trajectory.points.resize(2);
   trajectory.joint_trajectory.points[0].positions = { 0.0 };
+  trajectory.joint_trajectory.points[0].velocities = trajectory.joint_trajectory.points[1].velocities = { 0.2 };
   trajectory.joint_trajectory.points[1].positions = { position };
   trajectory.joint_trajectory.points[1].time_from_start = ros::Duration(duration);
   EXPECT_TRUE(execution.push(trajectory));
@@ -396,6 +400,28 @@ TEST(Execution, aControllerMayHaveItsOwnAllowedDuration)
     pushMotion(execution, 0.5, 1.0);
     EXPECT_EQ(execution.executeAndWait(), own ? ExecutionStatus::SUCCEEDED : ExecutionStatus::TIMED_OUT);
   }
+}
+
+// As upstream's dynamic_reconfigure does: scaling of velocities is at most 10.
+TEST(Execution, aParameterOutsideItsBoundsIsTheBoundAndOneOfAnotherKindIsIgnored)
+{
+  const Controller controller;
+  useLateController();
+  const std::string scaling = "~trajectory_execution/execution_velocity_scaling";
+  const auto velocity = [&controller] {
+    TrajectoryExecutionManager execution(loader().getModel(), nullptr);
+    pushMotion(execution, 0.5, 0.1);
+    EXPECT_EQ(execution.executeAndWait(), ExecutionStatus::SUCCEEDED);
+    return controller.velocity();
+  };
+  EXPECT_DOUBLE_EQ(velocity(), 0.2);
+  ros::param::set(scaling, 100.0);
+  EXPECT_DOUBLE_EQ(velocity(), 2.0);
+  ros::param::set(scaling, 3);
+  EXPECT_DOUBLE_EQ(velocity(), 3 * 0.2);
+  ros::param::set(scaling, "fast");
+  EXPECT_DOUBLE_EQ(velocity(), 0.2);
+  ros::param::del(scaling);
 }
 
 // As upstream: a trajectory begins where the robot is, so the robot must be heard of.

@@ -68,6 +68,16 @@ PYBIND11_MODULE(_execution, m)
              return execution::Controller{ name, joints, active, preferred };
            }),
            py::arg("name"), py::arg("joints"), py::arg("active") = false, py::arg("preferred") = false);
+  py::class_<execution::Parameter>(m, "Parameter", "One of <ns>/trajectory_execution: its own value and its bounds.")
+      .def_readonly("name", &execution::Parameter::name)
+      .def_readonly("description", &execution::Parameter::description)
+      .def_readonly("flag", &execution::Parameter::flag, "true or false; its value is 1 or 0")
+      .def_readonly("value", &execution::Parameter::value)
+      .def_readonly("low", &execution::Parameter::low)
+      .def_readonly("high", &execution::Parameter::high)
+      .def("within", &execution::Parameter::within, py::arg("given"),
+           "What is given, inside the bounds; the own value where that is not a number.");
+  m.def("parameters", &execution::parameters, "Those of <ns>/trajectory_execution, in the order in which tools show them.");
   m.def("actuated", &execution::actuated, py::arg("joints"), py::arg("robot"),
         "Those of `joints` that need a controller: not fixed, passive or mimic.");
   m.def("choose", &execution::choose, py::arg("wanted"), py::arg("controllers"), py::arg("manage"),

@@ -49,12 +49,13 @@ TrajectoryExecutionManager::~TrajectoryExecutionManager()
 void TrajectoryExecutionManager::initialize()
 {
   const ros::NodeHandle settings(node_handle_, "trajectory_execution");
-  settings.getParam("execution_duration_monitoring", execution_duration_monitoring_);
-  settings.getParam("allowed_execution_duration_scaling", allowed_execution_duration_scaling_);
-  settings.getParam("allowed_goal_duration_margin", allowed_goal_duration_margin_);
-  settings.getParam("execution_velocity_scaling", execution_velocity_scaling_);
-  settings.getParam("allowed_start_tolerance", allowed_start_tolerance_);
-  settings.getParam("wait_for_trajectory_completion", wait_for_trajectory_completion_);
+  const std::map<std::string, double> given = readExecution(settings);
+  execution_duration_monitoring_ = given.at("execution_duration_monitoring") != 0.0;
+  allowed_execution_duration_scaling_ = given.at("allowed_execution_duration_scaling");
+  allowed_goal_duration_margin_ = given.at("allowed_goal_duration_margin");
+  execution_velocity_scaling_ = given.at("execution_velocity_scaling");
+  allowed_start_tolerance_ = given.at("allowed_start_tolerance");
+  wait_for_trajectory_completion_ = given.at("wait_for_trajectory_completion") != 0.0;
   joints_allowed_start_tolerance_ = readStartTolerances(settings);
   controller_duration_scaling_ = readOfControllers(node_handle_, "allowed_execution_duration_scaling");
   controller_duration_margin_ = readOfControllers(node_handle_, "allowed_goal_duration_margin");

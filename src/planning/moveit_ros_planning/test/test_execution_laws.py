@@ -13,6 +13,30 @@ from moveit_ros_planning import _execution
 from moveit_ros_planning._execution import Controller, StartTolerance
 from trajectory_msgs.msg import JointTrajectoryPoint, MultiDOFJointTrajectoryPoint
 
+#: Of MoveIt's TrajectoryExecutionDynamicReconfigure.cfg, by level.
+_PARAMETERS = [
+    ("execution_duration_monitoring", True, 1, 0, 1),
+    ("allowed_execution_duration_scaling", False, 1.1, 1, 10),
+    ("allowed_goal_duration_margin", False, 0.5, 0.1, 30),
+    ("execution_velocity_scaling", False, 1, 0.1, 10),
+    ("allowed_start_tolerance", False, 0.01, 0, math.inf),
+    ("wait_for_trajectory_completion", True, 1, 0, 1),
+]
+
+
+def test_parameters_are_those_of_upstream_in_its_order():
+    assert [(each.name, each.flag, each.value, each.low, each.high) for each in _execution.parameters()] == _PARAMETERS
+    assert all(each.description for each in _execution.parameters())
+
+
+@pytest.mark.parametrize("name, _flag, own, low, high", [row for row in _PARAMETERS if not row[1]])
+def test_a_parameter_outside_its_bounds_is_the_bound_beside_it(name, _flag, own, low, high):
+    (parameter,) = (each for each in _execution.parameters() if each.name == name)
+    assert parameter.within(low - 5) == low == parameter.within(-math.inf)
+    assert parameter.within(math.inf) == high and parameter.within(low + 1) == low + 1
+    assert parameter.within(math.nan) == own
+
+
 _JOINTS = (
     ("lift", "prismatic", '<limit lower="0" upper="0.4" velocity="1" effort="9"/>'),
     ("elbow", "revolute", '<limit lower="-1" upper="1" velocity="1" effort="9"/>'),

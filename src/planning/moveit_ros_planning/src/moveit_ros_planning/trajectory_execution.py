@@ -25,44 +25,10 @@ from .controllers import ControllerChoice, load_manager
 from .state_monitor import CurrentStateMonitor
 
 _PARAMETERS = [
-    Parameter(
-        "execution_duration_monitoring",
-        bool,
-        True,
-        description="Monitor the execution duration of a trajectory. If expected duration is exceeded, the trajectory is canceled.",
-        level=1,
-    ),
-    Parameter(
-        "allowed_execution_duration_scaling", float, 1.1, 1.0, 10.0, "Accept durations that take a little more time than specified", 2
-    ),
-    Parameter(
-        "allowed_goal_duration_margin",
-        float,
-        0.5,
-        0.1,
-        30.0,
-        "Allow more than the expected execution time before triggering a trajectory cancel (applied after scaling)",
-        3,
-    ),
-    Parameter("execution_velocity_scaling", float, 1.0, 0.1, 10.0, "Multiplicative factor for execution speed", 4),
-    Parameter(
-        "allowed_start_tolerance",
-        float,
-        0.01,
-        0.0,
-        None,
-        "Allowed joint-value tolerance for validation of trajectory's start point against current robot state",
-        5,
-    ),
-    Parameter(
-        "wait_for_trajectory_completion",
-        bool,
-        True,
-        description="Wait for trajectory completion. If set to "
-        "false, do not "
-        "wait for controllers to converge to last way point, before reporting success.",
-        level=6,
-    ),
+    Parameter(each.name, bool, bool(each.value), description=each.description, level=level)
+    if each.flag
+    else Parameter(each.name, float, each.value, each.low, each.high if math.isfinite(each.high) else None, each.description, level)
+    for level, each in enumerate(_execution.parameters(), 1)
 ]
 #: parameters that an entry of controller_list may have for its own controller
 _DURATIONS = ("allowed_execution_duration_scaling", "allowed_goal_duration_margin")

@@ -132,9 +132,9 @@ private:
   int current_ = -1;
   ros::Time current_started_;
 
-  bool execution_duration_monitoring_ = true, wait_for_trajectory_completion_ = true;
-  double allowed_execution_duration_scaling_ = 1.1, allowed_goal_duration_margin_ = 0.5;
-  double allowed_start_tolerance_ = 0.01, execution_velocity_scaling_ = 1.0;
+  bool execution_duration_monitoring_, wait_for_trajectory_completion_;
+  double allowed_execution_duration_scaling_, allowed_goal_duration_margin_;
+  double allowed_start_tolerance_, execution_velocity_scaling_;
   // Of the controllers and joints that have their own.
   std::map<std::string, double> controller_duration_scaling_, controller_duration_margin_, joints_allowed_start_tolerance_;
 };
