@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "laws/execution.hpp"
+#include "laws/parameters.hpp"
 #include "message_bytes.hpp"
 
 namespace py = pybind11;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "laws/execution.hpp"
+#include "laws/parameters.hpp"
 #include "log_names.hpp"
 
 namespace trajectory_execution_manager

@@ -26,22 +26,6 @@ struct Controller
   bool preferred = false;  // "default" in its manager's list
 };
 
-// ---------------------------------------------------------------- parameters
-
-// One of <ns>/trajectory_execution, as MoveIt's dynamic_reconfigure has it.
-struct Parameter
-{
-  std::string name, description;
-  bool flag;  // true or false; its value is 1 or 0
-  double value, low, high;
-
-  // What is given, inside the bounds; the parameter's own value where that is not a number.
-  double within(double given) const;
-};
-
-// In the order in which tools show them.
-const std::vector<Parameter>& parameters();
-
 // ---------------------------------------------------------------- trajectories
 
 // One line about the first point that cannot be executed; empty when there is none. Each point needs a finite position, and where it
