@@ -141,7 +141,15 @@ def test_what_has_not_changed_is_not_built_again(machine, what):
     clone = machine.folder / "clone"
     (clone / "src/arm").mkdir(parents=True)
     (clone / "src/arm/more.cpp").write_text("")
-    machine.play("catkin", f"echo build >> {machine.events}; mkdir -p {clone}/devel {clone}/build/arm")
+    machine.play(
+        "catkin",
+        f"""
+        echo build >> {machine.events}
+        mkdir -p {clone}/devel {clone}/build/arm {clone}/.catkin_tools/profiles/default/packages/arm
+        sleep 0.05
+        echo arm > {clone}/.catkin_tools/profiles/default/packages/arm/devel_manifest.txt  # catkin's own, in every build
+        echo 'cmake_args: []' > {clone}/.catkin_tools/profiles/default/build.yaml""",
+    )
     assert machine.run().returncode == 0
     assert machine.run().returncode == 0 and machine.builds() == 1
     (clone / "src/arm/__pycache__").mkdir()  # its folder is looked at once more
