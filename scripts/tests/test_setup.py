@@ -214,7 +214,7 @@ def test_tests_are_compiled_once_they_are_asked_for_and_from_then_on(machine):
         case "$*" in *TESTING=OFF*) value=OFF ;; *) value=ON ;; esac
         echo "CATKIN_ENABLE_TESTING:BOOL=$value" > {clone}/build/arm/CMakeCache.txt
         mkdir -p {clone}/build/catkin_tools_prebuild
-        [ -e {clone}/build/catkin_tools_prebuild/CMakeCache.txt ] || cp {clone}/build/arm/CMakeCache.txt {clone}/build/catkin_tools_prebuild""",
+        cp -n {clone}/build/arm/CMakeCache.txt {clone}/build/catkin_tools_prebuild""",  # once: catkin does not configure it again
     )
     for options in ((), (), ("--tests",), ("--tests",), ()):
         assert machine.run(*options).returncode == 0
