@@ -1,6 +1,7 @@
 """What the build would install, without compiling it again: the tree of scripts/package and of scripts/setup --prefix."""
 
 import os
+import shutil
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -36,8 +37,11 @@ def test_where_it_was_built_is_not_looked_into_from_where_it_is_installed(tmp_pa
 
 @pytest.mark.slow
 def test_every_file_that_a_package_needs_where_it_is_installed_has_an_install_rule(tmp_path):
-    packages = tree.platform_packages(ROOT)
-    with ThreadPoolExecutor(os.cpu_count()) as workers:
-        assert [said for said in workers.map(lambda package: install(package, tmp_path), packages) if said] == []
-    (setup_file,) = tmp_path.rglob("_setup_util.py")
+    packages, whole = tree.platform_packages(ROOT), tmp_path / "whole"
+    with ThreadPoolExecutor(os.cpu_count()) as workers:  # each for itself: all of them write setup.sh
+        for package, said in zip(packages, workers.map(lambda package: install(package, tmp_path / package.name), packages)):
+            assert said == ""
+            shutil.copytree(tmp_path / package.name, whole, symlinks=True, dirs_exist_ok=True)
+            shutil.rmtree(tmp_path / package.name)
+    (setup_file,) = whole.rglob("_setup_util.py")
     assert tree.not_installed(ROOT, setup_file.parent) == []
