@@ -24,7 +24,6 @@ constexpr int TRIES = 8;           // directions; where hulls are apart, three o
 constexpr int PAIRS = 40;          // of parts, that are looked at before it is left to FCL
 constexpr int LUCK = 2;            // times in vain before parts are left out
 constexpr int SELDOM = 8;          // of so many times one
-constexpr double CLEAR = 1e-5;     // m: what is farther apart FCL calls free as well, whatever its tolerances
 constexpr int KNOWN = 512;         // pairs of shapes whose last direction is kept, of each thread
 constexpr double INFINITE = std::numeric_limits<double>::infinity();
 

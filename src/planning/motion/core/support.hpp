@@ -12,6 +12,9 @@ namespace motion
 {
 struct CollisionShape;
 
+// m apart, or into each other: FCL says the same then, whatever its tolerances.
+constexpr double CLEAR = 1e-5;
+
 // The farthest of some points in any direction. Directions are sorted into the cells of a cube's faces; each cell knows the points of which
 // no other is as far at all four of its corners, and so at none between these. They are few, and the others are never looked at.
 class FarthestPoint

@@ -8,7 +8,6 @@ namespace motion
 namespace
 {
 constexpr double TOUCHING = 1e-9;  // m: boxes around shapes that are nearer than this may touch
-constexpr double SURE = 1e-5;      // m apart, or into each other: FCL says the same, whatever its tolerances
 constexpr double PARALLEL = 1e-12;
 
 // The triangles of a mesh around a box, in the box's frame.
@@ -42,7 +41,7 @@ private:
     const MeshParts::Part& part = mesh_.part(index);
     if (part.first < 0)
     {
-      for (int i = part.begin; i < part.end && least_ >= -SURE; ++i)
+      for (int i = part.begin; i < part.end && least_ >= -CLEAR; ++i)
         least_ = std::min(least_, gapOfTriangle(mesh_.triangle(i)));
       return;
     }
@@ -53,9 +52,9 @@ private:
       std::swap(near, far);
       std::swap(gap, other);
     }
-    if (gap < least_ && least_ >= -SURE)
+    if (gap < least_ && least_ >= -CLEAR)
       visit(near);
-    if (other < least_ && least_ >= -SURE)
+    if (other < least_ && least_ >= -CLEAR)
       visit(far);
   }
 
@@ -112,7 +111,7 @@ Touch knownTouch(const CollisionShape& a, const Transform& at_a, const Collision
 {
   if (gapOfBoxes(a, at_a, b, at_b) > TOUCHING || areApart(a, at_a, b, at_b))
     return Touch::No;
-  const double gap = gapOfTriangles(a, at_a, b, at_b, 2 * SURE);
-  return gap > SURE ? Touch::No : gap < -SURE ? Touch::Yes : Touch::Unsure;
+  const double gap = gapOfTriangles(a, at_a, b, at_b, 2 * CLEAR);
+  return gap > CLEAR ? Touch::No : gap < -CLEAR ? Touch::Yes : Touch::Unsure;
 }
 }  // namespace motion
