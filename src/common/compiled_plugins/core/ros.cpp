@@ -16,8 +16,8 @@ std::mutex mutex;
 bool own = false;
 ros::AsyncSpinner* spinner = nullptr;
 
-/// A name that roscpp is to subscribe to in place of /clock.
-constexpr const char* clock_topic = "/clock";
+/// The parameter by which roscpp decides to subscribe to /clock; it looks there once.
+constexpr const char* clock_parameter = "/use_sim_time";
 
 void forget_remapping(const std::string& name)
 {
@@ -36,12 +36,12 @@ std::string start(const std::string& name, const std::map<std::string, std::stri
   ros::M_string words(remappings.begin(), remappings.end());
   words["__name"] = name;
   if (time >= 0.0)
-    words[clock_topic] = "/" + name + "/clock_of_nobody";
+    words[clock_parameter] = "/" + name + "/use_sim_time";  // which is not there: time comes by set_time() alone
   ros::init(words, name, ros::init_options::NoSigintHandler);
   ros::start();
   if (time >= 0.0)
   {
-    forget_remapping(clock_topic);
+    forget_remapping(clock_parameter);
     ros::Time::setNow(ros::Time().fromNSec(std::llround(time * 1e9)));
   }
   own = true;

@@ -224,8 +224,6 @@ void bindChecks(py::class_<Scene, std::shared_ptr<Scene>>& c)
       .def_property_readonly("scale", &Scene::scale)
       .def("set_padding", &Scene::setPadding, "{link: m}; links not named keep theirs.")
       .def("set_scale", &Scene::setScale)
-      .def("set_attached_padding", &Scene::setAttachedPadding)
-      .def("set_object_padding", &Scene::setObjectPadding)
       .def(
           "check",
           [](const Scene& s, const RobotState* state, const std::string& group, std::size_t contacts, std::size_t per_pair,

@@ -67,12 +67,15 @@ void CollisionChecker::addAttached()
     const int link = inputs_.model->link(attached->link).index;
     const int body = static_cast<int>(bodies_.size());
     bodies_.push_back({BodyType::Attached, id, link, attached.get()});
+    // As in MoveIt, what a link carries has that link's padding and scale.
+    const double padding = inputs_.padded ? inputs_.robot->padding[link] : 0.0;
+    const double scale = inputs_.padded ? inputs_.robot->scale[link] : 1.0;
     for (std::size_t i = 0; i < attached->shapes.size(); ++i)
     {
       const CollisionShapePtr bare = collisionShape(attached->shapes[i], 1.0, 0.0);
-      const double padding = inputs_.padded ? inputs_.attached_padding : 0.0;
       parts_.push_back({body, link, attached->pose * attached->shape_poses[i], bare,
-                        padding == 0.0 ? bare : collisionShape(attached->shapes[i], 1.0, padding), moves(bodies_[body])});
+                        padding == 0.0 && scale == 1.0 ? bare : collisionShape(attached->shapes[i], scale, padding),
+                        moves(bodies_[body])});
     }
   }
 }

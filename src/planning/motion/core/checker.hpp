@@ -20,6 +20,7 @@ public:
     CollisionShapePtr bare, padded;
   };
   std::vector<Part> parts;
+  std::vector<double> padding, scale;  // of each link, in the model's order: what it carries has them as well
 };
 
 class World
@@ -51,12 +52,11 @@ public:
     std::shared_ptr<const AttachedBodies> attached;
     std::string group;
     bool padded;
-    double attached_padding;
 
     bool operator==(const Inputs& o) const
     {
       return world == o.world && acm == o.acm && robot == o.robot && attached == o.attached && group == o.group &&
-             padded == o.padded && attached_padding == o.attached_padding;
+             padded == o.padded;
     }
   };
 

@@ -27,8 +27,6 @@ PlanningScene::PlanningScene(const PlanningScene& other)
   , robot_(other.robot_)
   , padding_(other.padding_)
   , scale_(other.scale_)
-  , attached_padding_(other.attached_padding_)
-  , object_padding_(other.object_padding_)
 {
   std::lock_guard<std::mutex> lock(other.cache_lock_);
   cache_ = other.cache_;
@@ -119,7 +117,7 @@ void PlanningScene::addToWorld(const WorldObject& object)
   for (std::size_t i = 0; i < object.shapes.size(); ++i)
   {
     World::Part part;
-    part.shape = collisionShape(object.shapes[i], 1.0, object.shapes[i]->type == ShapeType::OcTree ? 0.0 : object_padding_);
+    part.shape = collisionShape(object.shapes[i], 1.0, 0.0);
     part.pose = object.pose * object.shape_poses[i];
     if (!isFinite(part.pose))
       throw InvalidInput("object '" + object.id + "': the pose of a shape is not finite");
@@ -312,33 +310,18 @@ void PlanningScene::setScale(const std::map<std::string, double>& by_link)
   }
 }
 
-void PlanningScene::setAttachedPadding(double padding)
-{
-  if (!std::isfinite(padding))
-    throw InvalidInput("the padding of attached objects must be a finite number");
-  attached_padding_ = padding;
-}
-
-void PlanningScene::setObjectPadding(double padding)
-{
-  if (!std::isfinite(padding))
-    throw InvalidInput("the padding of objects must be a finite number");
-  object_padding_ = padding;
-  for (const std::string& id : objectNames())
-    addToWorld(WorldObject(object(id)));
-}
-
 void PlanningScene::rebuildRobotGeometry()
 {
   auto geometry = std::make_shared<RobotGeometry>();
   for (const LinkModel& link : model_->links)
   {
     const auto padding = padding_.find(link.name), scale = scale_.find(link.name);
+    geometry->padding.push_back(padding == padding_.end() ? 0.0 : padding->second);
+    geometry->scale.push_back(scale == scale_.end() ? 1.0 : scale->second);
     for (std::size_t i = 0; i < link.shapes.size(); ++i)
     {
       RobotGeometry::Part part{link.index, link.shape_origins[i], collisionShape(link.shapes[i], 1.0, 0.0), nullptr};
-      part.padded = collisionShape(link.shapes[i], scale == scale_.end() ? 1.0 : scale->second,
-                                   padding == padding_.end() ? 0.0 : padding->second);
+      part.padded = collisionShape(link.shapes[i], geometry->scale.back(), geometry->padding.back());
       geometry->parts.push_back(part);
     }
   }
@@ -348,7 +331,7 @@ void PlanningScene::rebuildRobotGeometry()
 std::shared_ptr<const CollisionChecker> PlanningScene::checker(const RobotState& state, const std::string& group, bool padded,
                                                                const AllowedCollisionMatrix* acm) const
 {
-  CollisionChecker::Inputs inputs{model_, world_, acm_, robot_, state.attachedShared(), group, padded, attached_padding_};
+  CollisionChecker::Inputs inputs{model_, world_, acm_, robot_, state.attachedShared(), group, padded};
   if (acm)
   {
     inputs.acm = std::make_shared<AllowedCollisionMatrix>(*acm);

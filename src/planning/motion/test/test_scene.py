@@ -150,6 +150,21 @@ def test_padding_counts_against_the_world_only(scene):
     assert scene.check(near) and scene.scale == {"car": 1.6}
 
 
+# Upstream's CollisionEnvFCL::getAttachedBodyObjects: the padding and scale of the link that carries.
+def test_what_a_link_carries_has_its_padding_and_scale(scene):
+    scene.attach(motion.AttachedBody("stick", "car", [motion.Sphere(0.05)], pose=at(0.0, 0, 0.5), touch_links=["car", "base", "tool"]))
+    near = moved(scene, 1.0)
+    scene.add_object("wall", [motion.Box(0.2, 0.2, 0.2)], pose=at(1.2, 0.0, 0.5))
+    assert not scene.check(near)  # 0.05 m are between them
+    scene.set_padding({"car": 0.04})
+    assert not scene.check(near)
+    scene.set_padding({"car": 0.06})
+    assert pairs(scene.check(near, contacts=9)) == {frozenset(("stick", "wall"))} and not scene.check(near, padded=False)
+    scene.set_padding({"car": 0.0})
+    scene.set_scale({"car": 2.2})
+    assert pairs(scene.check(near, contacts=9)) >= {frozenset(("stick", "wall"))}
+
+
 @pytest.mark.parametrize(
     "shape, bounds",
     [

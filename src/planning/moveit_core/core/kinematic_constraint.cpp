@@ -160,6 +160,11 @@ Eigen::Matrix3d OrientationConstraint::getDesiredRotationMatrix() const
   return mobileReferenceFrame() ? orientation.wanted : Eigen::Matrix3d(orientation.frame.pose.linear() * orientation.wanted);
 }
 
+Eigen::Matrix3d OrientationConstraint::getDesiredRotationMatrixInRefFrame() const
+{
+  return enabled() ? core_->orientations[0].wanted : Eigen::Matrix3d::Identity();
+}
+
 bool OrientationConstraint::equal(const KinematicConstraint& other, double margin) const
 {
   if (other.getType() != type_)

@@ -1,6 +1,8 @@
 // Scenes: frames, collisions, validity.
 #include <moveit/planning_scene/planning_scene.h>
 
+#include <moveit/collision_detection/collision_tools.h>
+
 #include <geometric_shapes/shapes.h>
 
 #include <moveit/robot_state/conversions.h>
@@ -441,9 +443,36 @@ bool PlanningScene::isPathValid(const moveit_msgs::RobotState& start_state, cons
                                 const moveit_msgs::Constraints& path_constraints, const std::string& group, bool verbose,
                                 std::vector<std::size_t>* invalid_index) const
 {
+  return isPathValid(start_state, trajectory, path_constraints, std::vector<moveit_msgs::Constraints>(), group, verbose,
+                     invalid_index);
+}
+
+bool PlanningScene::isPathValid(const moveit_msgs::RobotState& start_state, const moveit_msgs::RobotTrajectory& trajectory,
+                                const moveit_msgs::Constraints& path_constraints,
+                                const moveit_msgs::Constraints& goal_constraints, const std::string& group, bool verbose,
+                                std::vector<std::size_t>* invalid_index) const
+{
+  return isPathValid(start_state, trajectory, path_constraints, std::vector<moveit_msgs::Constraints>{ goal_constraints },
+                     group, verbose, invalid_index);
+}
+
+bool PlanningScene::isPathValid(const moveit_msgs::RobotState& start_state, const moveit_msgs::RobotTrajectory& trajectory,
+                                const moveit_msgs::Constraints& path_constraints,
+                                const std::vector<moveit_msgs::Constraints>& goal_constraints, const std::string& group,
+                                bool verbose, std::vector<std::size_t>* invalid_index) const
+{
   robot_trajectory::RobotTrajectory path(robot_model_, group);
   path.setRobotTrajectoryMsg(*getCurrentStateUpdated(start_state), trajectory);
-  return isPathValid(path, path_constraints, group, verbose, invalid_index);
+  return isPathValid(path, path_constraints, goal_constraints, group, verbose, invalid_index);
+}
+
+bool PlanningScene::isPathValid(const robot_trajectory::RobotTrajectory& trajectory,
+                                const moveit_msgs::Constraints& path_constraints,
+                                const moveit_msgs::Constraints& goal_constraints, const std::string& group, bool verbose,
+                                std::vector<std::size_t>* invalid_index) const
+{
+  return isPathValid(trajectory, path_constraints, std::vector<moveit_msgs::Constraints>{ goal_constraints }, group, verbose,
+                     invalid_index);
 }
 
 bool PlanningScene::isPathValid(const robot_trajectory::RobotTrajectory& trajectory,
@@ -484,5 +513,37 @@ bool PlanningScene::isPathValid(const robot_trajectory::RobotTrajectory& traject
     invalid_index->push_back(i);
   }
   return valid;
+}
+
+void PlanningScene::getCostSources(const RobotState& state, std::size_t max_costs, const std::string& group_name,
+                                   std::set<collision_detection::CostSource>& costs) const
+{
+  Request request;
+  request.cost = true;
+  request.max_cost_sources = max_costs;
+  request.group_name = group_name;
+  Result result;
+  checkCollision(request, result, state);
+  costs.swap(result.cost_sources);
+}
+
+void PlanningScene::getCostSources(const robot_trajectory::RobotTrajectory& trajectory, std::size_t max_costs,
+                                   const std::string& group_name, std::set<collision_detection::CostSource>& costs,
+                                   double overlap_fraction) const
+{
+  std::set<collision_detection::CostSource> all, of_start;
+  for (std::size_t i = 0; i < trajectory.getWayPointCount(); ++i)
+  {
+    std::set<collision_detection::CostSource> found;
+    getCostSources(trajectory.getWayPoint(i), max_costs, group_name, found);
+    all.insert(found.begin(), found.end());
+    if (i == 0)
+      of_start = found;
+  }
+  costs.clear();
+  for (auto dearest = all.begin(); dearest != all.end() && costs.size() < max_costs; ++dearest)
+    costs.insert(*dearest);
+  collision_detection::removeCostSources(costs, of_start, overlap_fraction);
+  collision_detection::removeOverlapping(costs, overlap_fraction);
 }
 }  // namespace planning_scene

@@ -2,6 +2,11 @@
 
 #include <tf2_eigen/tf2_eigen.h>
 
+#include <cmath>
+#include <optional>
+
+#include <moveit/utils/message_checks.h>
+
 #include "log_names.hpp"
 
 namespace planning_scene_monitor
@@ -9,6 +14,67 @@ namespace planning_scene_monitor
 namespace
 {
 using Lock = boost::unique_lock<boost::shared_mutex>;
+using Value = XmlRpc::XmlRpcValue;
+
+// A number of the parameters; what is none is told, and left out.
+std::optional<double> number(const std::string& where, const Value& value)
+{
+  Value given = value;
+  if (given.getType() == Value::TypeInt)
+    return static_cast<int>(given);
+  if (given.getType() == Value::TypeDouble && std::isfinite(static_cast<double>(given)))
+    return static_cast<double>(given);
+  ROS_WARN_NAMED(log_names::PLANNING_SCENE_MONITOR, "%s: ignored, a number is expected", where.c_str());
+  return std::nullopt;
+}
+
+double parameter(const std::string& where, double otherwise)
+{
+  Value value;
+  return ros::param::get(where, value) ? number(where, value).value_or(otherwise) : otherwise;
+}
+
+// {link: number} of the links that there are.
+std::map<std::string, double> linkParameters(const std::string& where, const moveit::core::RobotModel& model)
+{
+  std::map<std::string, double> numbers;
+  Value table;
+  if (!ros::param::get(where, table) || table.getType() != Value::TypeStruct)
+    return numbers;
+  for (const auto& [link, value] : table)
+    if (model.hasLinkModel(link))
+      if (const std::optional<double> given = number(where + "/" + link, value))
+        numbers[link] = *given;
+  return numbers;
+}
+
+std::string word(Value& table, const char* key)
+{
+  return table.getType() == Value::TypeStruct && table.hasMember(key) && table[key].getType() == Value::TypeString
+             ? static_cast<std::string&>(table[key])
+             : std::string();
+}
+
+// Pairs that may touch, or are looked at again, whatever the SRDF says.
+void setCollisionOperations(const std::string& where, collision_detection::AllowedCollisionMatrix& acm)
+{
+  Value list;
+  if (!ros::param::get(where, list))
+    return;
+  if (list.getType() != Value::TypeArray)
+  {
+    ROS_WARN_NAMED(log_names::PLANNING_SCENE_MONITOR, "default_collision_operations is not an array");
+    return;
+  }
+  for (int i = 0; i < list.size(); ++i)
+  {
+    const std::string one = word(list[i], "object1"), other = word(list[i], "object2"), operation = word(list[i], "operation");
+    if (one.empty() || other.empty() || operation.empty())
+      ROS_WARN_NAMED(log_names::PLANNING_SCENE_MONITOR, "All collision operations must have two objects and an operation");
+    else
+      acm.setEntry(one, other, operation == "disable");
+  }
+}
 }  // namespace
 
 const std::string PlanningSceneMonitor::DEFAULT_JOINT_STATES_TOPIC = "joint_states";
@@ -63,21 +129,52 @@ PlanningSceneMonitor::~PlanningSceneMonitor()
 void PlanningSceneMonitor::initialize(const planning_scene::PlanningScenePtr& scene)
 {
   scene_ = scene;
-  if (scene_ || !robot_model_)
+  if (!scene_ && robot_model_)
   {
-    if (!scene_)
-      ROS_ERROR_NAMED(log_names::PLANNING_SCENE_MONITOR, "Robot model not loaded: there is no planning scene");
-    return;
+    scene_ = std::make_shared<planning_scene::PlanningScene>(robot_model_);
+    configureScene();
   }
-  scene_ = std::make_shared<planning_scene::PlanningScene>(robot_model_);
-  const std::string prefix = getRobotDescription() + "_planning/default_robot_";
-  double padding = 0.0, scale = 1.0;
-  ros::param::get(prefix + "padding", padding);
-  ros::param::get(prefix + "scale", scale);
-  if (padding != 0.0)
-    scene_->getCollisionEnvNonConst()->setPadding(padding);
-  if (scale != 1.0)
-    scene_->getCollisionEnvNonConst()->setScale(scale);
+  scene_const_ = scene_;
+  if (!scene_)
+    ROS_ERROR_NAMED(log_names::PLANNING_SCENE_MONITOR, "Robot model not loaded: there is no planning scene");
+}
+
+void PlanningSceneMonitor::configureScene()
+{
+  const std::string prefix = getRobotDescription() + "_planning/default_";
+  defaults_.robot_padding = parameter(prefix + "robot_padding", 0.0);
+  defaults_.robot_scale = parameter(prefix + "robot_scale", 1.0);
+  defaults_.object_padding = parameter(prefix + "object_padding", 0.0);
+  defaults_.attached_padding = parameter(prefix + "attached_padding", 0.0);
+  collision_detection::CollisionEnv& env = *scene_->getCollisionEnvNonConst();
+  try
+  {
+    if (defaults_.robot_padding != 0.0)
+      env.setPadding(defaults_.robot_padding);
+    if (defaults_.robot_scale != 1.0)
+      env.setScale(defaults_.robot_scale);
+    env.setLinkPadding(linkParameters(prefix + "robot_link_padding", *robot_model_));
+    env.setLinkScale(linkParameters(prefix + "robot_link_scale", *robot_model_));
+  }
+  catch (const std::runtime_error& error)  // of a shape that nothing would be left of
+  {
+    ROS_ERROR_NAMED(log_names::PLANNING_SCENE_MONITOR, "%srobot_...: ignored, %s", prefix.c_str(), error.what());
+  }
+  setCollisionOperations(prefix + "collision_operations", scene_->getAllowedCollisionMatrixNonConst());
+}
+
+planning_scene::PlanningScenePtr PlanningSceneMonitor::copyPlanningScene(const moveit_msgs::PlanningScene& diff)
+{
+  if (!scene_)
+    return nullptr;
+  planning_scene::PlanningScenePtr copy;
+  {
+    const boost::shared_lock<boost::shared_mutex> reading(mutex_);
+    copy = planning_scene::PlanningScene::clone(scene_);
+  }
+  if (!moveit::core::isEmpty(diff))
+    copy->setPlanningSceneDiffMsg(diff);
+  return copy;
 }
 
 template <typename Change>

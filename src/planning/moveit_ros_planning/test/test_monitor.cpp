@@ -187,6 +187,63 @@ TEST(Monitor, knowsTheFramesOfTFAndSendsThemAsUpstreamDoes)
 }
 
 // One face of two: move_group's monitor, which is Python, does the same.
+namespace
+{
+// What strangers' functions take, as MoveIt's own do.
+std::size_t objectsOf(const planning_scene::PlanningSceneConstPtr& scene) { return scene->getWorld()->size(); }
+void clear(const planning_scene::PlanningScenePtr& scene) { scene->removeAllCollisionObjects(); }
+}  // namespace
+
+// Upstream's planning_scene_monitor.h: one to write derives from one to read and becomes either pointer.
+TEST(Monitor, aLockedSceneGoesWhereAPointerToOneIsTaken)
+{
+  const auto monitor = std::make_shared<PlanningSceneMonitor>(loader());
+  moveit_msgs::CollisionObject box;
+  box.id = "box";
+  box.header.frame_id = monitor->getRobotModel()->getModelFrame();
+  box.primitives.resize(1);
+  box.primitives[0].type = shape_msgs::SolidPrimitive::BOX;
+  box.primitives[0].dimensions = { 0.1, 0.1, 0.1 };
+  box.primitive_poses.resize(1);
+  box.primitive_poses[0].orientation.w = 1.0;
+  moveit_msgs::PlanningScene with_box;
+  with_box.is_diff = with_box.robot_state.is_diff = true;
+  with_box.world.collision_objects = { box };
+  const planning_scene::PlanningScenePtr copy = monitor->copyPlanningScene(with_box);
+  EXPECT_EQ(objectsOf(copy), 1u);
+  EXPECT_FALSE(monitor->updatesScene(copy));
+  EXPECT_TRUE(monitor->updatesScene(monitor->getPlanningScene()));
+  {
+    planning_scene_monitor::LockedPlanningSceneRW scene(monitor);
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(objectsOf(scene), 0u);
+    scene->processCollisionObjectMsg(box);
+    EXPECT_EQ(objectsOf(static_cast<const planning_scene::PlanningSceneConstPtr&>(scene)), 1u);
+    clear(scene);
+    LockedPlanningSceneRO& as_reader = scene;
+    EXPECT_EQ(objectsOf(as_reader), 0u);
+  }
+  EXPECT_FALSE(LockedPlanningSceneRO(planning_scene_monitor::PlanningSceneMonitorPtr()));
+}
+
+// Upstream's configureDefaultPadding() and configureCollisionMatrix().
+TEST(Monitor, takesPaddingsAndCollisionOperationsFromTheParameters)
+{
+  const auto monitor = std::make_shared<PlanningSceneMonitor>("padded_description");
+  EXPECT_EQ(monitor->getDefaultRobotPadding(), 0.02);
+  EXPECT_EQ(monitor->getDefaultRobotScale(), 1.5);
+  EXPECT_EQ(monitor->getDefaultObjectPadding(), 0.03);
+  EXPECT_EQ(monitor->getDefaultAttachedObjectPadding(), 0.04);
+  const LockedPlanningSceneRO scene(monitor);
+  EXPECT_EQ(scene->getCollisionEnv()->getLinkPadding("link_4"), 0.1);
+  EXPECT_EQ(scene->getCollisionEnv()->getLinkScale("link_4"), 1.0);
+  EXPECT_EQ(scene->getCollisionEnv()->getLinkPadding("hand"), 0.02);
+  EXPECT_EQ(scene->getCollisionEnv()->getLinkScale("hand"), 1.5);
+  collision_detection::AllowedCollision::Type type;
+  ASSERT_TRUE(scene->getAllowedCollisionMatrix().getEntry("base_link", "hand", type));
+  EXPECT_EQ(type, collision_detection::AllowedCollision::ALWAYS);
+}
+
 TEST(StateMonitor, ignoresWhatIsNoNumberAndTakesJointStatesWithoutAStamp)
 {
   planning_scene_monitor::CurrentStateMonitor monitor(loader()->getModel(), nullptr);

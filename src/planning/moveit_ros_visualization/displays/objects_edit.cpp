@@ -1,6 +1,7 @@
 // What ObjectsTab does to the scene.
 #include <geometric_shapes/mesh_operations.h>
 #include <geometric_shapes/shape_operations.h>
+#include <moveit/planning_scene/scene_text.h>
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -14,7 +15,6 @@
 #include <tuple>
 
 #include "objects_tab.hpp"
-#include "scene_text.hpp"
 
 namespace moveit_rviz_plugin {
 namespace {
@@ -298,7 +298,7 @@ void ObjectsTab::exportText() {
       scene->getObjectColorMsgs(message.object_colors);
     }
     std::ofstream out(file.toStdString());
-    out << writeScene(message);
+    out << planning_scene::writeScene(message);
     out.close();
     dock_->say((out ? "The objects are in " : "No scene can be written to ") + file.toStdString(), !out);
   });
@@ -319,7 +319,7 @@ void ObjectsTab::importText() {
       text << in.rdbuf();
       moveit_msgs::PlanningScene message;
       try {
-        message = readScene(text.str(), frame);
+        message = planning_scene::readScene(text.str(), frame);
       } catch (const std::runtime_error& error) {
         throw std::runtime_error(path + ", " + error.what());
       }

@@ -18,8 +18,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "scene_text.hpp"
-
 namespace moveit_rviz_plugin {
 namespace {
 const char* const AXES[] = {"x", "y", "z"};

@@ -1,10 +1,14 @@
 // Collision objects, in the planning scene of the monitor or of move_group.
 #include <moveit_visual_tools/moveit_visual_tools.h>
 
+#include <fstream>
 #include <set>
+#include <sstream>
+#include <stdexcept>
 
 #include <geometric_shapes/shape_operations.h>
 #include <geometric_shapes/shapes.h>
+#include <moveit/planning_scene/scene_text.h>
 
 #include "log_name.hpp"
 
@@ -84,6 +88,24 @@ bool MoveItVisualTools::processCollisionObjectMsg(const CollisionObject& msg, co
     diff.object_colors[0].color = getColor(color);
   }
   return applyScene(diff);
+}
+
+bool MoveItVisualTools::loadCollisionSceneFromFile(const std::string& path) {
+  return loadCollisionSceneFromFile(path, Eigen::Isometry3d::Identity());
+}
+bool MoveItVisualTools::loadCollisionSceneFromFile(const std::string& path, const Eigen::Isometry3d& offset) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  try {
+    if (!file) throw std::runtime_error("the file cannot be read");
+    moveit_msgs::PlanningScene scene = planning_scene::readScene(text.str(), getRobotModel()->getModelFrame());
+    for (CollisionObject& object : scene.world.collision_objects) object.pose = convertPose(offset * convertPose(object.pose));
+    return applyScene(scene);
+  } catch (const std::runtime_error& error) {
+    ROS_WARN_NAMED(LOGNAME, "Unable to load scene geometry from '%s': %s", path.c_str(), error.what());
+    return false;
+  }
 }
 
 bool MoveItVisualTools::processAttachedCollisionObjectMsg(const moveit_msgs::AttachedCollisionObject& msg) {

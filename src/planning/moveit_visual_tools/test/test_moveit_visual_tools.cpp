@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 namespace rvt = rviz_visual_tools;
 using moveit_msgs::CollisionObject;
 
@@ -125,6 +127,20 @@ TEST_F(Tools, SendObjectsToTheMonitorThatIsThere) {
   scene->getCollisionObjectMsgs(objects);
   ASSERT_EQ(objects.size(), 1u);
   EXPECT_EQ(objects[0].id, "block");
+}
+
+// The format is that of upstream's PlanningScene::saveGeometryToStream().
+TEST_F(Tools, LoadTextFilesOfScenes) {
+  const std::string path = testing::TempDir() + "kitchen.scene";
+  std::ofstream(path) << "kitchen\n* crate\n0.5 0 0.25\n0 0 0 1\n1\nbox\n0.1 0.2 0.5\n0 0 0\n0 0 0 1\n0 1 0 1\n0\n.\n";
+  const auto monitor = std::make_shared<planning_scene_monitor::PlanningSceneMonitor>("robot_description");
+  tools_.setPlanningSceneMonitor(monitor);
+  ASSERT_TRUE(tools_.loadCollisionSceneFromFile(path, Eigen::Isometry3d(Eigen::Translation3d(0, 1.0, 0))));
+  const planning_scene_monitor::LockedPlanningSceneRO scene(monitor);
+  ASSERT_TRUE(scene->getWorld()->hasObject("crate"));
+  EXPECT_TRUE(scene->getFrameTransform("crate").translation().isApprox(Eigen::Vector3d(0.5, 1.0, 0.25)));
+  EXPECT_EQ(scene->getObjectColor("crate").g, 1.0f);
+  EXPECT_FALSE(tools_.loadCollisionSceneFromFile(path + ".absent"));
 }
 
 TEST_F(Tools, ShowEndEffectors) {

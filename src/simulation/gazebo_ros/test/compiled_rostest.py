@@ -6,6 +6,7 @@ import os
 import sys
 import unittest
 
+import rosgraph
 import rospy
 import rostest
 from geometry_msgs.msg import PointStamped
@@ -151,6 +152,14 @@ class CompiledTest(Case):
             self.assertAlmostEqual(self.sim.joint("elbow").rate[0], 0.4, delta=1e-3)
         finally:
             rospy.delete_param("/gazebo/worker_effort")
+
+    def test_the_graph_has_no_clock_but_clock(self):
+        self.spawn_arm()
+        self.sim.step(1)
+        topics = {topic for _, registered in zip("ps", rosgraph.Master("/test").getSystemState()) for topic, _ in registered}
+        self.assertIn("/arm/effort", topics)  # the plugin's node is there
+        self.assertEqual({topic for topic in topics if "clock" in topic}, {"/clock"})
+        self.assertTrue(rospy.get_param("/use_sim_time"))
 
     def test_model_plugin_pushes_and_moves_its_model(self):
         self.done(self.sim.spawn("box", BOX))

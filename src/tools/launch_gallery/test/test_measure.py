@@ -4,7 +4,8 @@ import math
 from types import SimpleNamespace
 
 import pytest
-from launch_gallery import commands, hearing, measure, motion, row, simulator
+import rosgraph
+from launch_gallery import commands, hearing, measure, motion, row, simulator, system
 
 
 def circle(speed, rate, seconds, step=0.1):
@@ -131,3 +132,10 @@ def test_a_simulator_may_run_within_a_group():
 def test_descriptions_are_read_as_tinyxml_reads_them():
     text = "<robot><gazebo>a & b</gazebo><joint name='a' type='revolute'><limit lower='-1' upper='2'/></joint></robot>"
     assert commands.joint_limits(text) == {"a": (-1.0, 2.0)} and commands.nominal_rates(text) == []
+
+
+def test_a_node_with_an_anonymous_name_is_found_though_the_name_is_made_anew():
+    read, running = (rosgraph.names.anonymous_name("rviz") for _ in range(2))
+    assert read != running
+    assert system.lasting_name("/" + read) == system.lasting_name("/" + running) == "/rviz"
+    assert system.lasting_name("/move_group_2_3") == "/move_group_2_3"

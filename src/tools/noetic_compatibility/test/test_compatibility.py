@@ -308,15 +308,18 @@ def test_a_standard_is_raised_no_further_than_needed(tmp_path):
 
 
 @pytest.mark.skipif(not Path("/usr/share/pcl_ros").is_dir(), reason="without pcl_ros")
-def test_point_clouds_in_old_packages(package):
+@pytest.mark.parametrize(
+    "header, cloud",
+    [("pcl_ros/point_cloud.h", "pcl::PointCloud<pcl::PointXYZRGB>"), ("pcl_conversions/pcl_conversions.h", "pcl::PCLPointCloud2")],
+)
+def test_point_clouds_in_old_packages(package, header, cloud):
     """PCL of Debian 12 asks for C++14, Noetic's packages say C++11; its pointers are std's, Noetic's were boost's as those of roscpp."""
     ended = package(
         "pcl_ros roscpp",
-        """
-        #include <pcl_ros/point_cloud.h>
+        f"#include <{header}>\n#include <pcl/point_types.h>\ntypedef {cloud} Cloud;\n"
+        + """
         #include <pcl/point_types.h>
         #include <ros/ros.h>
-        typedef pcl::PointCloud<pcl::PointXYZRGB> Cloud;
         ros::Publisher publisher;
         Cloud::Ptr last;
         void heard(const Cloud::ConstPtr& cloud) { publisher.publish(cloud); publisher.publish(*cloud); }

@@ -74,10 +74,9 @@ public:
   // ------------------------------------------------------------ collision
   const AllowedCollisionMatrix& acm() const { return *acm_; }
   void setAcm(const AllowedCollisionMatrix& acm);
+  // Of links, and of what they carry.
   void setPadding(const std::map<std::string, double>& by_link);
   void setScale(const std::map<std::string, double>& by_link);
-  void setAttachedPadding(double padding);
-  void setObjectPadding(double padding);
   const std::map<std::string, double>& padding() const { return padding_; }
   const std::map<std::string, double>& scale() const { return scale_; }
 
@@ -100,7 +99,6 @@ private:
   std::shared_ptr<const AllowedCollisionMatrix> acm_;
   std::shared_ptr<const RobotGeometry> robot_;
   std::map<std::string, double> padding_, scale_;
-  double attached_padding_ = 0, object_padding_ = 0;
   mutable std::mutex cache_lock_;
   mutable std::vector<std::shared_ptr<const CollisionChecker>> cache_;
 };

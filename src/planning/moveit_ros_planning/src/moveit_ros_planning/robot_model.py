@@ -190,8 +190,6 @@ def prepare_scene(description: RobotDescription) -> motion.PlanningScene:
     scales.update(_numbers(description, "default_robot_link_scale", model))
     scene.set_padding({name: value for name, value in links.items() if model.link(name).has_geometry})
     scene.set_scale({name: value for name, value in scales.items() if model.link(name).has_geometry})
-    scene.set_attached_padding(_planning_number(description, "default_attached_padding", 0.0))
-    scene.set_object_padding(_planning_number(description, "default_object_padding", 0.0))
     _collision_operations(description, scene)
     return scene
 

@@ -160,6 +160,10 @@ class MoveItVisualTools : public rviz_visual_tools::RvizVisualTools {
   bool publishWorkspaceParameters(const moveit_msgs::WorkspaceParameters& params);
 
   /// @return whether the state collides
+  /// Objects of a text file (.scene), in the planning frame, all moved by the offset. False when there is no such file.
+  bool loadCollisionSceneFromFile(const std::string& path);
+  bool loadCollisionSceneFromFile(const std::string& path, const Eigen::Isometry3d& offset);
+
   bool checkAndPublishCollision(const moveit::core::RobotState& robot_state,
                                 const planning_scene::PlanningScene* planning_scene,
                                 const rviz_visual_tools::colors& highlight_link_color = rviz_visual_tools::RED,

@@ -9,6 +9,7 @@ from collections.abc import Iterable
 
 import rosgraph
 import rospy
+from rosgraph.names import anonymous_name
 
 from . import session
 
@@ -25,11 +26,17 @@ def join(timeout: float) -> None:
     rospy.init_node("launch_gallery", anonymous=True, disable_signals=True, disable_rostime=True, log_level=rospy.FATAL)
 
 
+def lasting_name(node: str) -> str:
+    """Name of a ``node`` without host and numbers, which ``$(anon name)`` makes anew whenever a launch file is read."""
+    host = re.sub(r"_\d+_\d+$", "", anonymous_name(""))
+    return re.sub(rf"{re.escape(host)}_\d+_\d+$", "", node)
+
+
 class System:
     """``log``: file with roslaunch's output; ``nodes``, ``passing``: as :class:`.launches.Content` has them."""
 
     def __init__(self, log: str, nodes: Iterable[str], passing: Iterable[str]):
-        self.log, self.nodes, self.passing = log, set(nodes), set(passing)
+        self.log, self.nodes, self.passing = log, {lasting_name(node) for node in nodes}, {lasting_name(node) for node in passing}
         self.master = rosgraph.Master(rospy.get_name())
 
     def wait_until_settled(self, timeout: float) -> str:
@@ -41,7 +48,7 @@ class System:
         before, missing, seen = None, set(), set()
         while time.monotonic() - start < timeout:
             now = self.master.getSystemState()
-            here = {node for registered in now for _, nodes in registered for node in nodes}
+            here = {lasting_name(node) for registered in now for _, nodes in registered for node in nodes}
             ended = self.ended_nodes()
             seen |= here
             missing = self.nodes - seen - ended | self.passing - ended
@@ -55,7 +62,7 @@ class System:
 
     def ended_nodes(self) -> set:
         """Nodes of which roslaunch has said that they finished or died."""
-        return {"/" + name for name in re.findall(r"\[([\w/]+)-\d+\] process has", "\n".join(session.lines(self.log)))}
+        return {lasting_name("/" + name) for name in re.findall(r"\[([\w/]+)-\d+\] process has", "\n".join(session.lines(self.log)))}
 
     def services(self) -> list[str]:
         return [name for name, _ in self.master.getSystemState()[2]]

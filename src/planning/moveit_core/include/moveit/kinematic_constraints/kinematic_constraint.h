@@ -113,6 +113,7 @@ public:
   bool mobileReferenceFrame() const;
   // In the reference frame when that moves, else in the model frame.
   Eigen::Matrix3d getDesiredRotationMatrix() const;
+  Eigen::Matrix3d getDesiredRotationMatrixInRefFrame() const;  // in the reference frame, whether that moves or not
   double getXAxisTolerance() const { return message_.absolute_x_axis_tolerance; }
   double getYAxisTolerance() const { return message_.absolute_y_axis_tolerance; }
   double getZAxisTolerance() const { return message_.absolute_z_axis_tolerance; }

@@ -123,6 +123,13 @@ public:
   bool setPlanningSceneMsg(const moveit_msgs::PlanningScene& scene);
   bool usePlanningSceneMsg(const moveit_msgs::PlanningScene& scene);  // either, as the message says
 
+  // ------------------------------------------------------------ text files of objects (.scene)
+  void saveGeometryToStream(std::ostream& out) const;  // all but the octomap and what is attached
+  // Adds the objects up to the line ".", each moved by the offset, and takes the name; one of the same id is replaced. False, with the
+  // line in the log and nothing changed, when that is no such text.
+  bool loadGeometryFromStream(std::istream& in) { return loadGeometryFromStream(in, Eigen::Isometry3d::Identity()); }
+  bool loadGeometryFromStream(std::istream& in, const Eigen::Isometry3d& offset);
+
   // ------------------------------------------------------------ collisions
   const collision_detection::AllowedCollisionMatrix& getAllowedCollisionMatrix() const { return acm_; }
   collision_detection::AllowedCollisionMatrix& getAllowedCollisionMatrixNonConst() { return acm_; }
@@ -212,6 +219,18 @@ public:
   bool isPathValid(const moveit_msgs::RobotState& start_state, const moveit_msgs::RobotTrajectory& trajectory,
                    const moveit_msgs::Constraints& path_constraints, const std::string& group = "", bool verbose = false,
                    std::vector<std::size_t>* invalid_index = nullptr) const;
+  // The last state meets one of the goal constraints as well.
+  bool isPathValid(const moveit_msgs::RobotState& start_state, const moveit_msgs::RobotTrajectory& trajectory,
+                   const moveit_msgs::Constraints& path_constraints, const moveit_msgs::Constraints& goal_constraints,
+                   const std::string& group = "", bool verbose = false,
+                   std::vector<std::size_t>* invalid_index = nullptr) const;
+  bool isPathValid(const moveit_msgs::RobotState& start_state, const moveit_msgs::RobotTrajectory& trajectory,
+                   const moveit_msgs::Constraints& path_constraints,
+                   const std::vector<moveit_msgs::Constraints>& goal_constraints, const std::string& group = "",
+                   bool verbose = false, std::vector<std::size_t>* invalid_index = nullptr) const;
+  bool isPathValid(const robot_trajectory::RobotTrajectory& trajectory, const moveit_msgs::Constraints& path_constraints,
+                   const moveit_msgs::Constraints& goal_constraints, const std::string& group = "", bool verbose = false,
+                   std::vector<std::size_t>* invalid_index = nullptr) const;
   bool isPathValid(const robot_trajectory::RobotTrajectory& trajectory, const moveit_msgs::Constraints& path_constraints,
                    const std::vector<moveit_msgs::Constraints>& goal_constraints, const std::string& group = "",
                    bool verbose = false, std::vector<std::size_t>* invalid_index = nullptr) const;
@@ -220,6 +239,22 @@ public:
                    std::vector<std::size_t>* invalid_index = nullptr) const;
   bool isPathValid(const robot_trajectory::RobotTrajectory& trajectory, const std::string& group = "", bool verbose = false,
                    std::vector<std::size_t>* invalid_index = nullptr) const;
+
+  // The dearest places that bodies share, of a state or of all states of a path; there those of its first state are left out, and of
+  // two that overlap by more than the fraction one is kept.
+  void getCostSources(const State& state, std::size_t max_costs, std::set<collision_detection::CostSource>& costs) const
+  {
+    getCostSources(state, max_costs, std::string(), costs);
+  }
+  void getCostSources(const State& state, std::size_t max_costs, const std::string& group_name,
+                      std::set<collision_detection::CostSource>& costs) const;
+  void getCostSources(const robot_trajectory::RobotTrajectory& trajectory, std::size_t max_costs,
+                      std::set<collision_detection::CostSource>& costs, double overlap_fraction = 0.9) const
+  {
+    getCostSources(trajectory, max_costs, std::string(), costs, overlap_fraction);
+  }
+  void getCostSources(const robot_trajectory::RobotTrajectory& trajectory, std::size_t max_costs, const std::string& group_name,
+                      std::set<collision_detection::CostSource>& costs, double overlap_fraction = 0.9) const;
 
   // The scene of the motion library that this one is, with the objects as they are now.
   const motion::PlanningScene& core() const;

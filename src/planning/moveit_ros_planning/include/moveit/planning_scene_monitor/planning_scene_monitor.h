@@ -58,8 +58,16 @@ public:
   const moveit::core::RobotModelConstPtr& getRobotModel() const { return robot_model_; }
   const std::string& getRobotDescription() const { return loader_->getRobotDescription(); }
   const planning_scene::PlanningScenePtr& getPlanningScene() { return scene_; }
-  planning_scene::PlanningSceneConstPtr getPlanningScene() const { return scene_; }
+  const planning_scene::PlanningSceneConstPtr& getPlanningScene() const { return scene_const_; }
+  // One of its own, with what the message changes; the monitor's stays as it is.
+  planning_scene::PlanningScenePtr copyPlanningScene(const moveit_msgs::PlanningScene& diff = moveit_msgs::PlanningScene());
   bool updatesScene(const planning_scene::PlanningSceneConstPtr& scene) const { return scene == scene_; }
+  bool updatesScene(const planning_scene::PlanningScenePtr& scene) const { return scene == scene_; }
+  // Of the parameters <robot_description>_planning/default_..., m and factors.
+  double getDefaultRobotPadding() const { return defaults_.robot_padding; }
+  double getDefaultRobotScale() const { return defaults_.robot_scale; }
+  double getDefaultObjectPadding() const { return defaults_.object_padding; }
+  double getDefaultAttachedObjectPadding() const { return defaults_.attached_padding; }
   const Buffer& getTFClient() const { return tf_buffer_; }
   const CurrentStateMonitorPtr& getStateMonitor() const { return states_; }
   CurrentStateMonitorPtr& getStateMonitorNonConst() { return states_; }
@@ -107,6 +115,7 @@ public:
 
 private:
   void initialize(const planning_scene::PlanningScenePtr& scene);
+  void configureScene();
   template <typename Change>
   void change(SceneUpdateType type, const Change& what);
 
@@ -114,6 +123,11 @@ private:
   robot_model_loader::RobotModelLoaderPtr loader_;
   moveit::core::RobotModelConstPtr robot_model_;
   planning_scene::PlanningScenePtr scene_;
+  planning_scene::PlanningSceneConstPtr scene_const_;  // the same
+  struct Defaults
+  {
+    double robot_padding = 0.0, robot_scale = 1.0, object_padding = 0.0, attached_padding = 0.0;
+  } defaults_;
   Buffer tf_buffer_;
   CurrentStateMonitorPtr states_;
   boost::shared_mutex mutex_;
@@ -132,43 +146,58 @@ private:
   ros::ServiceServer service_;
 };
 
-// A scene that stays as it is while this, or a copy of it, lives.
+// A scene that stays as it is while this, or a copy of it, lives. Without a monitor there is nothing to lock, and no scene.
 class LockedPlanningSceneRO
 {
 public:
-  LockedPlanningSceneRO(const PlanningSceneMonitorPtr& planning_scene_monitor) : monitor_(planning_scene_monitor)
+  LockedPlanningSceneRO(const PlanningSceneMonitorPtr& planning_scene_monitor)
+    : LockedPlanningSceneRO(planning_scene_monitor, true)
   {
-    monitor_->lockSceneRead();
-    const PlanningSceneMonitorPtr monitor = monitor_;
-    lock_ = std::shared_ptr<void>(nullptr, [monitor](void*) { monitor->unlockSceneRead(); });
   }
-  const PlanningSceneMonitorPtr& getPlanningSceneMonitor() { return monitor_; }
-  operator bool() const { return monitor_->getPlanningScene() != nullptr; }
-  operator planning_scene::PlanningSceneConstPtr() const { return monitor_->getPlanningScene(); }
-  planning_scene::PlanningSceneConstPtr operator->() const { return monitor_->getPlanningScene(); }
+  const PlanningSceneMonitorPtr& getPlanningSceneMonitor() { return planning_scene_monitor_; }
+  operator bool() const { return planning_scene_monitor_ && planning_scene_monitor_->getPlanningScene(); }
+  operator const planning_scene::PlanningSceneConstPtr&() const { return scene(); }
+  const planning_scene::PlanningSceneConstPtr& operator->() const { return scene(); }
+
+protected:
+  LockedPlanningSceneRO(const PlanningSceneMonitorPtr& planning_scene_monitor, bool read_only)
+    : planning_scene_monitor_(planning_scene_monitor)
+  {
+    if (!planning_scene_monitor_)
+      return;
+    PlanningSceneMonitor& locked = *planning_scene_monitor_;
+    if (read_only)
+      locked.lockSceneRead();
+    else
+      locked.lockSceneWrite();
+    lock_ = std::shared_ptr<void>(nullptr, [monitor = planning_scene_monitor, read_only](void*) {
+      if (read_only)
+        monitor->unlockSceneRead();
+      else
+        monitor->unlockSceneWrite();
+    });
+  }
+
+  PlanningSceneMonitorPtr planning_scene_monitor_;
 
 private:
-  PlanningSceneMonitorPtr monitor_;
+  const planning_scene::PlanningSceneConstPtr& scene() const
+  {
+    return static_cast<const PlanningSceneMonitor&>(*planning_scene_monitor_).getPlanningScene();
+  }
+
   std::shared_ptr<void> lock_;
 };
 
-// The same to change it: nobody else reads it meanwhile.
-class LockedPlanningSceneRW
+// The same to change it: nobody else reads it meanwhile. It goes wherever one to read goes.
+class LockedPlanningSceneRW : public LockedPlanningSceneRO
 {
 public:
-  LockedPlanningSceneRW(const PlanningSceneMonitorPtr& planning_scene_monitor) : monitor_(planning_scene_monitor)
+  LockedPlanningSceneRW(const PlanningSceneMonitorPtr& planning_scene_monitor)
+    : LockedPlanningSceneRO(planning_scene_monitor, false)
   {
-    monitor_->lockSceneWrite();
-    const PlanningSceneMonitorPtr monitor = monitor_;
-    lock_ = std::shared_ptr<void>(nullptr, [monitor](void*) { monitor->unlockSceneWrite(); });
   }
-  const PlanningSceneMonitorPtr& getPlanningSceneMonitor() { return monitor_; }
-  operator bool() const { return monitor_->getPlanningScene() != nullptr; }
-  operator planning_scene::PlanningScenePtr() { return monitor_->getPlanningScene(); }
-  const planning_scene::PlanningScenePtr& operator->() { return monitor_->getPlanningScene(); }
-
-private:
-  PlanningSceneMonitorPtr monitor_;
-  std::shared_ptr<void> lock_;
+  operator const planning_scene::PlanningScenePtr&() { return planning_scene_monitor_->getPlanningScene(); }
+  const planning_scene::PlanningScenePtr& operator->() { return planning_scene_monitor_->getPlanningScene(); }
 };
 }  // namespace planning_scene_monitor

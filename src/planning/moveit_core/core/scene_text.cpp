@@ -1,4 +1,6 @@
-#include "scene_text.hpp"
+#include <moveit/planning_scene/scene_text.h>
+
+#include <tf2_eigen/tf2_eigen.h>
 
 #include <algorithm>
 #include <iomanip>
@@ -6,71 +8,95 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace moveit_rviz_plugin {
-namespace {
+#include <moveit/planning_scene/planning_scene.h>
+
+#include "log_names.hpp"
+
+namespace planning_scene
+{
+namespace
+{
 using shape_msgs::SolidPrimitive;
 
 // Kind: primitive, and which dimension each number of the file is.
-struct Kind {
+struct Kind
+{
   uint8_t type;
   std::vector<std::size_t> order;
 };
-const std::map<std::string, Kind>& kinds() {
-  static const std::map<std::string, Kind> all{{"box", {SolidPrimitive::BOX, {0, 1, 2}}},
-                                               {"sphere", {SolidPrimitive::SPHERE, {0}}},
-                                               {"cylinder", {SolidPrimitive::CYLINDER, {1, 0}}},
-                                               {"cone", {SolidPrimitive::CONE, {1, 0}}}};
+const std::map<std::string, Kind>& kinds()
+{
+  static const std::map<std::string, Kind> all{ { "box", { SolidPrimitive::BOX, { 0, 1, 2 } } },
+                                                { "sphere", { SolidPrimitive::SPHERE, { 0 } } },
+                                                { "cylinder", { SolidPrimitive::CYLINDER, { 1, 0 } } },
+                                                { "cone", { SolidPrimitive::CONE, { 1, 0 } } } };
   return all;
 }
 
-void write(std::ostream& out, const geometry_msgs::Pose& pose) {
+void write(std::ostream& out, const geometry_msgs::Pose& pose)
+{
   const auto& q = pose.orientation;
   const bool given = q.x != 0 || q.y != 0 || q.z != 0 || q.w != 0;
   out << pose.position.x << ' ' << pose.position.y << ' ' << pose.position.z << '\n'
       << q.x << ' ' << q.y << ' ' << q.z << ' ' << (given ? q.w : 1.0) << '\n';
 }
 
-void write(std::ostream& out, const shape_msgs::Mesh& mesh) {
+void write(std::ostream& out, const shape_msgs::Mesh& mesh)
+{
   out << "mesh\n" << mesh.vertices.size() << ' ' << mesh.triangles.size() << '\n';
-  for (const auto& v : mesh.vertices) out << v.x << ' ' << v.y << ' ' << v.z << '\n';
+  for (const auto& v : mesh.vertices)
+    out << v.x << ' ' << v.y << ' ' << v.z << '\n';
   for (const auto& t : mesh.triangles)
     out << t.vertex_indices[0] << ' ' << t.vertex_indices[1] << ' ' << t.vertex_indices[2] << '\n';
 }
 
-void write(std::ostream& out, const SolidPrimitive& primitive) {
-  for (const auto& kind : kinds()) {
-    if (kind.second.type != primitive.type) continue;
+void write(std::ostream& out, const SolidPrimitive& primitive)
+{
+  for (const auto& kind : kinds())
+  {
+    if (kind.second.type != primitive.type)
+      continue;
     out << kind.first << '\n';
-    for (const std::size_t i : kind.second.order) out << primitive.dimensions[i] << ' ';
+    for (const std::size_t i : kind.second.order)
+      out << primitive.dimensions[i] << ' ';
     out << '\n';
   }
 }
 
 // Words and lines of a text.
-class Reader {
- public:
+class Reader
+{
+public:
   explicit Reader(const std::string& text) : text_(text) {}
 
-  std::runtime_error problem(const std::string& what) const {
+  std::runtime_error problem(const std::string& what) const
+  {
     const auto line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at_), '\n');
     return std::runtime_error("line " + std::to_string(line) + ": " + what);
   }
-  std::string line() {
+  std::string line()
+  {
     const std::size_t end = std::min(text_.find('\n', at_), text_.size());
     std::string found = text_.substr(at_, end - at_);
     at_ = std::min(end + 1, text_.size());
-    while (!found.empty() && std::isspace(static_cast<unsigned char>(found.back()))) found.pop_back();
+    while (!found.empty() && std::isspace(static_cast<unsigned char>(found.back())))
+      found.pop_back();
     const std::size_t first = found.find_first_not_of(" \t");
     return first == std::string::npos ? std::string() : found.substr(first);
   }
-  std::string word(const char* what) {
-    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
+  std::string word(const char* what)
+  {
+    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])))
+      ++at_;
     const std::size_t start = at_;
-    while (at_ < text_.size() && !std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
-    if (start == at_) throw problem(std::string("the text ends where ") + what + " is expected");
+    while (at_ < text_.size() && !std::isspace(static_cast<unsigned char>(text_[at_])))
+      ++at_;
+    if (start == at_)
+      throw problem(std::string("the text ends where ") + what + " is expected");
     return text_.substr(start, at_ - start);
   }
-  double number(const char* what) {
+  double number(const char* what)
+  {
     const std::string found = word(what);
     std::istringstream stream(found);
     stream.imbue(std::locale::classic());
@@ -79,76 +105,96 @@ class Reader {
       throw problem("'" + found.substr(0, 20) + "' stands where " + what + " is expected");
     return value;
   }
-  std::size_t count(const char* what, std::size_t most = 10000000) {
+  std::size_t count(const char* what, std::size_t most = 10000000)
+  {
     const double value = number(what);
     if (value < 0 || value > static_cast<double>(most) || value != static_cast<double>(static_cast<std::size_t>(value)))
       throw problem(std::string("that is no number of ") + what);
     return static_cast<std::size_t>(value);
   }
-  geometry_msgs::Pose pose() {
+  geometry_msgs::Pose pose()
+  {
     geometry_msgs::Pose pose;
-    for (double* part : {&pose.position.x, &pose.position.y, &pose.position.z}) *part = number("a position");
-    for (double* part : {&pose.orientation.x, &pose.orientation.y, &pose.orientation.z, &pose.orientation.w})
+    for (double* part : { &pose.position.x, &pose.position.y, &pose.position.z })
+      *part = number("a position");
+    for (double* part : { &pose.orientation.x, &pose.orientation.y, &pose.orientation.z, &pose.orientation.w })
       *part = number("an orientation");
     return pose;
   }
   // Since Noetic three lines stand between "* name" and the first shape: position, orientation, number of shapes.
-  bool hasObjectPoses() const {
+  bool hasObjectPoses() const
+  {
     Reader copy = *this;
-    if (at_ >= text_.size() || copy.word("*") != "*") return true;
+    if (at_ >= text_.size() || copy.word("*") != "*")
+      return true;
     copy.line();
     std::istringstream first(copy.line());
     std::size_t numbers = 0;
-    for (std::string part; first >> part;) ++numbers;
+    for (std::string part; first >> part;)
+      ++numbers;
     return numbers == 3;
   }
 
- private:
+private:
   std::string text_;
   std::size_t at_ = 0;
 };
 
-void readShape(Reader& reader, moveit_msgs::CollisionObject& object) {
+void readShape(Reader& reader, moveit_msgs::CollisionObject& object)
+{
   const std::string name = reader.word("a shape");
   const auto kind = kinds().find(name);
-  if (kind != kinds().end()) {
+  if (kind != kinds().end())
+  {
     SolidPrimitive primitive;
     primitive.type = kind->second.type;
     primitive.dimensions.resize(kind->second.order.size());
-    for (const std::size_t i : kind->second.order) primitive.dimensions[i] = reader.number("a size");
+    for (const std::size_t i : kind->second.order)
+      primitive.dimensions[i] = reader.number("a size");
     object.primitives.push_back(primitive);
     object.primitive_poses.push_back(reader.pose());
-  } else if (name == "plane") {
+  }
+  else if (name == "plane")
+  {
     shape_msgs::Plane plane;
-    for (double& value : plane.coef) value = reader.number("a plane");
+    for (double& value : plane.coef)
+      value = reader.number("a plane");
     object.planes.push_back(plane);
     object.plane_poses.push_back(reader.pose());
-  } else if (name == "mesh") {
+  }
+  else if (name == "mesh")
+  {
     shape_msgs::Mesh mesh;
     mesh.vertices.resize(reader.count("vertices"));
     mesh.triangles.resize(reader.count("triangles"));
     for (auto& v : mesh.vertices)
-      for (double* part : {&v.x, &v.y, &v.z}) *part = reader.number("a vertex");
+      for (double* part : { &v.x, &v.y, &v.z })
+        *part = reader.number("a vertex");
     for (auto& t : mesh.triangles)
       for (auto& index : t.vertex_indices)
         index =
             static_cast<uint32_t>(reader.count("vertices of a triangle", mesh.vertices.empty() ? 0 : mesh.vertices.size() - 1));
     object.meshes.push_back(mesh);
     object.mesh_poses.push_back(reader.pose());
-  } else {
+  }
+  else
+  {
     throw reader.problem("shape '" + name.substr(0, 20) +
                          "' is unknown; there are box, sphere, cylinder, cone, plane and mesh");
   }
 }
 }  // namespace
 
-std::string writeScene(const moveit_msgs::PlanningScene& scene) {
+std::string writeScene(const moveit_msgs::PlanningScene& scene)
+{
   std::map<std::string, std_msgs::ColorRGBA> colors;
-  for (const auto& entry : scene.object_colors) colors[entry.id] = entry.color;
+  for (const auto& entry : scene.object_colors)
+    colors[entry.id] = entry.color;
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out << std::setprecision(9) << scene.name << '\n';
-  for (const moveit_msgs::CollisionObject& object : scene.world.collision_objects) {
+  for (const moveit_msgs::CollisionObject& object : scene.world.collision_objects)
+  {
     const std_msgs::ColorRGBA color = colors[object.id];
     const auto finish = [&out, &color](const std::vector<geometry_msgs::Pose>& poses, std::size_t i) {
       write(out, i < poses.size() ? poses[i] : geometry_msgs::Pose());
@@ -157,21 +203,25 @@ std::string writeScene(const moveit_msgs::PlanningScene& scene) {
     out << "* " << object.id << '\n';
     write(out, object.pose);
     out << object.primitives.size() + object.meshes.size() + object.planes.size() << '\n';
-    for (std::size_t i = 0; i < object.primitives.size(); ++i) {
+    for (std::size_t i = 0; i < object.primitives.size(); ++i)
+    {
       write(out, object.primitives[i]);
       finish(object.primitive_poses, i);
     }
-    for (std::size_t i = 0; i < object.meshes.size(); ++i) {
+    for (std::size_t i = 0; i < object.meshes.size(); ++i)
+    {
       write(out, object.meshes[i]);
       finish(object.mesh_poses, i);
     }
-    for (std::size_t i = 0; i < object.planes.size(); ++i) {
+    for (std::size_t i = 0; i < object.planes.size(); ++i)
+    {
       const auto& plane = object.planes[i].coef;
       out << "plane\n" << plane[0] << ' ' << plane[1] << ' ' << plane[2] << ' ' << plane[3] << '\n';
       finish(object.plane_poses, i);
     }
     out << object.subframe_names.size() << '\n';
-    for (std::size_t i = 0; i < object.subframe_names.size(); ++i) {
+    for (std::size_t i = 0; i < object.subframe_names.size(); ++i)
+    {
       out << object.subframe_names[i] << '\n';
       write(out, i < object.subframe_poses.size() ? object.subframe_poses[i] : geometry_msgs::Pose());
     }
@@ -180,15 +230,18 @@ std::string writeScene(const moveit_msgs::PlanningScene& scene) {
   return out.str();
 }
 
-moveit_msgs::PlanningScene readScene(const std::string& text, const std::string& frame) {
+moveit_msgs::PlanningScene readScene(const std::string& text, const std::string& frame)
+{
   Reader reader(text);
   moveit_msgs::PlanningScene scene;
   scene.name = reader.line();
   scene.is_diff = scene.robot_state.is_diff = true;
   const bool poses = reader.hasObjectPoses();
-  for (;;) {
+  for (;;)
+  {
     const std::string marker = reader.word("'* <object>' or the final '.'");
-    if (marker == ".") return scene;
+    if (marker == ".")
+      return scene;
     if (marker != "*")
       throw reader.problem("'" + marker.substr(0, 20) + "' stands where '* <object>' or the final '.' is expected");
     moveit_msgs::CollisionObject object;
@@ -196,23 +249,66 @@ moveit_msgs::PlanningScene readScene(const std::string& text, const std::string&
     object.id = reader.line();
     object.operation = moveit_msgs::CollisionObject::ADD;
     object.pose.orientation.w = 1.0;
-    if (poses) object.pose = reader.pose();
+    if (poses)
+      object.pose = reader.pose();
     moveit_msgs::ObjectColor color;
     color.id = object.id;
-    for (std::size_t left = reader.count("shapes"); left; --left) {
+    for (std::size_t left = reader.count("shapes"); left; --left)
+    {
       readShape(reader, object);
       float values[4];
-      for (float& value : values) value = static_cast<float>(reader.number("a colour"));
-      if (values[0] == 0 && values[1] == 0 && values[2] == 0 && values[3] == 0) continue;
+      for (float& value : values)
+        value = static_cast<float>(reader.number("a colour"));
+      if (values[0] == 0 && values[1] == 0 && values[2] == 0 && values[3] == 0)
+        continue;
       color.color.r = values[0], color.color.g = values[1], color.color.b = values[2], color.color.a = values[3];
     }
-    for (std::size_t left = poses ? reader.count("subframes") : 0; left; --left) {
+    for (std::size_t left = poses ? reader.count("subframes") : 0; left; --left)
+    {
       object.subframe_names.push_back(reader.word("a subframe's name"));
       object.subframe_poses.push_back(reader.pose());
     }
     scene.world.collision_objects.push_back(object);
-    if (color.color.a > 0) scene.object_colors.push_back(color);
+    if (color.color.a > 0)
+      scene.object_colors.push_back(color);
   }
 }
 
-}  // namespace moveit_rviz_plugin
+void PlanningScene::saveGeometryToStream(std::ostream& out) const
+{
+  moveit_msgs::PlanningScene scene;
+  scene.name = name_;
+  getCollisionObjectMsgs(scene.world.collision_objects);
+  getObjectColorMsgs(scene.object_colors);
+  out << writeScene(scene);
+}
+
+bool PlanningScene::loadGeometryFromStream(std::istream& in, const Eigen::Isometry3d& offset)
+{
+  std::string text;
+  for (std::string line; std::getline(in, line);)
+  {
+    text += line + '\n';
+    if (line == "." || line == ".\r")
+      break;  // another scene may follow
+  }
+  moveit_msgs::PlanningScene scene;
+  try
+  {
+    scene = readScene(text, getPlanningFrame());
+  }
+  catch (const std::runtime_error& error)
+  {
+    ROS_ERROR_NAMED(log_names::PLANNING_SCENE, "This is no text of a scene's geometry: %s", error.what());
+    return false;
+  }
+  for (moveit_msgs::CollisionObject& object : scene.world.collision_objects)
+  {
+    Eigen::Isometry3d pose;
+    tf2::fromMsg(object.pose, pose);
+    object.pose = tf2::toMsg(Eigen::Isometry3d(offset * pose));
+  }
+  name_ = scene.name;
+  return setPlanningSceneDiffMsg(scene);
+}
+}  // namespace planning_scene
