@@ -61,12 +61,10 @@ void SonarSensor::Load(const std::string& world)
 {
   Sensor::Load(world);
   const sdf::ElementPtr sonar = inside(sdf, "sonar");
-  if (!sonar)
-    throw std::runtime_error("it has no <sonar> block");
   const double min = number(sonar, "min", 0), max = number(sonar, "max", 1), radius = number(sonar, "radius", 0.5);
   if (!(min >= 0 && min < max && max <= 1e7 && radius >= 0 && radius <= 1e7))
     throw std::runtime_error("<min>, <max> or <radius> of its <sonar> is not possible");
-  if (sonar->HasElement("geometry") && sonar->Get<std::string>("geometry") != "cone")
+  if (sonar && sonar->HasElement("geometry") && sonar->Get<std::string>("geometry") != "cone")
     throw std::runtime_error("the <geometry> of a <sonar> is a cone here");
   constexpr int rings = 8;
   directions_.emplace_back(0, 0, -1);

@@ -27,24 +27,50 @@ using ignition::math::Vector3d;
 
 Collision::Collision(LinkPtr link) : Entity(link) { AddType(COLLISION); }
 
-const Pose3d& Collision::WorldPose() const { return worldPose = ign(core_->link->X_WL * core_->X_LC); }
+const Pose3d& Collision::WorldPose() const
+{
+  if (core_)
+    return worldPose = ign(core_->link->X_WL * core_->X_LC);
+  const LinkPtr link = GetLink();
+  return worldPose = link ? X_LC_ + link->WorldPose() : X_LC_;
+}
+
+void Collision::place(const Pose3d& X_WC)
+{
+  const LinkPtr link = GetLink();
+  if (!core_)
+    X_LC_ = link ? X_WC - link->WorldPose() : X_WC;
+  Entity::place(X_WC);
+}
 
 ignition::math::AxisAlignedBox Collision::BoundingBox() const
 {
   dReal b[6];
   const ode_sim::OdeScope scope;
-  if (!core_->geom)
+  if (!core_ || !core_->geom)
     return {};
   dGeomGetAABB(core_->geom, b);
   return { Vector3d(b[0], b[2], b[4]), Vector3d(b[1], b[3], b[5]) };
 }
 
-Vector3d Collision::WorldLinearVel() const { return ign(core_->link->velocity_at((core_->link->X_WL * core_->X_LC).p)); }
-Vector3d Collision::WorldAngularVel() const { return ign(core_->link->w); }
+Vector3d Collision::WorldLinearVel() const
+{
+  if (core_)
+    return ign(core_->link->velocity_at((core_->link->X_WL * core_->X_LC).p));
+  const LinkPtr link = GetLink();
+  return link ? link->WorldLinearVel(X_LC_.Pos()) : Vector3d();
+}
+Vector3d Collision::WorldAngularVel() const
+{
+  const LinkPtr link = GetLink();
+  return link ? link->WorldAngularVel() : Vector3d();
+}
 
 void Collision::SetInitialRelativePose(const Pose3d& pose)
 {
   Entity::SetInitialRelativePose(pose);
+  if (!core_)
+    X_LC_ = pose;
   ode_sim::World* const core = core_ ? world_of(core_->link->model) : nullptr;
   if (!core || pose == ign(core_->X_LC))
     return;
@@ -64,12 +90,16 @@ ModelPtr Collision::GetModel() const
 unsigned int Collision::GetShapeType() const { return shape_ ? shape_->GetType() & ~SHAPE : 0; }
 void Collision::SetCollideBits(unsigned int bits)
 {
+  if (!core_)
+    return;
   core_->surface.collide_bitmask = bits;
   core_->link->model->changed = true;
 }
-unsigned int Collision::GetMaxContacts() { return static_cast<unsigned int>(core_->max_contacts); }
+unsigned int Collision::GetMaxContacts() { return core_ ? static_cast<unsigned int>(core_->max_contacts) : 0; }
 void Collision::SetMaxContacts(unsigned int most)
 {
+  if (!core_)
+    return;
   core_->max_contacts = static_cast<int>(std::min(most, static_cast<unsigned int>(MAX_CONTACT_JOINTS)));
   core_->link->model->changed = true;
 }
@@ -139,21 +169,27 @@ Shape::Shape(CollisionPtr parent, EntityType type) : Base(parent)
 
 void RayShape::GlobalPoints(Vector3d& start, Vector3d& end)
 {
-  const Pose3d pose = collision_ ? collision_->WorldPose() : Pose3d();
-  start = pose.CoordPositionAdd(start_), end = pose.CoordPositionAdd(end_);
+  const Pose3d pose = collisionParent ? collisionParent->WorldPose() : Pose3d();
+  start = pose.CoordPositionAdd(relativeStartPos), end = pose.CoordPositionAdd(relativeEndPos);
+}
+
+void RayShape::SetPoints(const Vector3d& start, const Vector3d& end)
+{
+  relativeStartPos = start, relativeEndPos = end;
+  GlobalPoints(globalStartPos, globalEndPos);
 }
 
 void RayShape::Update()
 {
   double distance;
-  GetIntersection(distance, hit_);
+  std::string entity;
+  GetIntersection(distance, entity);
 }
 
 void RayShape::GetIntersection(double& distance, std::string& entity)
 {
-  Vector3d start, end;
-  GlobalPoints(start, end);
-  const Vector3d way = end - start;
+  GlobalPoints(globalStartPos, globalEndPos);
+  const Vector3d &start = globalStartPos, way = globalEndPos - start;
   const double origin[3] = { start.X(), start.Y(), start.Z() }, direction[3] = { way.X(), way.Y(), way.Z() };
   double range = 0;
   int32_t hit = -1;
@@ -165,8 +201,10 @@ void RayShape::GetIntersection(double& distance, std::string& entity)
   }
   const Collision* found = hit >= 0 ? collision_of(hit) : nullptr;
   distance = found ? range : 1000;
-  length_ = distance;
-  entity = hit_ = found ? found->GetScopedName() : "";
+  contactLen = distance;
+  contactRetro = found ? found->GetLaserRetro() : 0;
+  entity = found ? found->GetScopedName() : "";
+  SetCollisionName(entity);
 }
 
 // -- contacts -----------------------------------------------------------------------------------------------------------------------

@@ -3,6 +3,9 @@
 #include <mutex>
 #include <set>
 
+#include <gazebo/physics/ode/ODELink.hh>
+#include <gazebo/physics/ode/ODEPhysics.hh>
+
 #include "contacts.hpp"
 #include "topics.hpp"
 #include "transport.hpp"
@@ -92,10 +95,11 @@ void Mirror::Start(ode_sim::World* core, const std::string& name, const std::str
   const WorldPtr world(new World(name));
   world->core_ = core;
   world->text_ = text;
-  world->physics_.reset(new PhysicsEngine(world));
+  world->physics_.reset(new ODEPhysics(world));
   world->physics_->update_rate_ = update_rate;
   if (began != common::Time::Zero)
     world->start_ = began;
+  sdf::setFindCallback([](const std::string& file) { return common::SystemPaths::Instance()->FindFile(file); });
   world_ = world;
   now_ns_ = core->scene().time_ns;
   transport::set_world(name);
@@ -191,7 +195,7 @@ T* with_id(const Items& items, int id)
 
 void Mirror::addLink(Model& model, const LinkRecord& record)
 {
-  const LinkPtr link(new Link(model.shared_from_this()));
+  const LinkPtr link(new ODELink(model.shared_from_this()));
   link->SetName(record.name);
   // Whoever has the link keeps the whole model of the core: it points into it.
   link->core_ = std::shared_ptr<ode_sim::Link>(model.core_, with_id<ode_sim::Link>(model.core_->links, record.id));

@@ -35,16 +35,14 @@ void ContactSensor::Load(const std::string& world)
 {
   Sensor::Load(world);
   const sdf::ElementPtr contact = inside(sdf, "contact");
-  if (!contact || !contact->HasElement("collision"))
-    throw std::runtime_error("it has no <contact><collision>");
-  for (auto named = contact->GetElement("collision"); named; named = named->GetNextElement("collision"))
+  for (auto named = inside(contact, "collision"); named; named = named->GetNextElement("collision"))
   {
     const std::string name = named->Get<std::string>();
     collisions_.push_back(name.compare(0, ParentName().size() + 2, ParentName() + "::") == 0 ? name
                                                                                              : ParentName() + "::" + name);
   }
   topic_ = topicOf("");
-  if (contact->HasElement("topic") && contact->Get<std::string>("topic") != "__default_topic__")
+  if (contact && contact->HasElement("topic") && contact->Get<std::string>("topic") != "__default_topic__")
     topic_ = contact->Get<std::string>("topic");
   publisher_ = node->Advertise<msgs::Contacts>(topic_, 100);
 }

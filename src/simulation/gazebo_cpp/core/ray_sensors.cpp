@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <gazebo/physics/ode/ODERayShape.hh>
 #include <gazebo/physics/physics.hh>
 #include <gazebo/transport/transport.hh>
 
@@ -25,7 +26,21 @@ using ignition::math::Vector3d;
 namespace
 {
 
-ode_sim::RayScan law(const MultiRayShape::Scan& scan) { return { scan.samples, scan.resolution, scan.min, scan.max }; }
+using Scan = MultiRayShape::Scan;
+
+Scan read_scan(const sdf::ElementPtr& sdf, int samples)
+{
+  Scan scan;
+  scan.samples = samples;
+  if (!sdf)
+    return scan;
+  const auto get = [&](const char* tag, double fallback) { return sdf->HasElement(tag) ? sdf->Get<double>(tag) : fallback; };
+  scan.resolution = get("resolution", 1), scan.min = get("min_angle", 0), scan.max = get("max_angle", 0);
+  scan.samples = static_cast<int>(std::clamp(get("samples", samples), 1.0, 2e9));
+  return scan;
+}
+
+ode_sim::RayScan law(const Scan& scan) { return { scan.samples, scan.resolution, scan.min, scan.max }; }
 
 }  // namespace
 
@@ -41,7 +56,106 @@ MultiRayShape::MultiRayShape(const Scan& horizontal, const Scan& vertical, doubl
   retros_.assign(fan_->rays(), 0);
 }
 
+MultiRayShape::MultiRayShape(CollisionPtr parent) : Shape(parent, MULTIRAY_SHAPE) { collisionParent = parent; }
 MultiRayShape::~MultiRayShape() = default;
+
+void MultiRayShape::Load(sdf::ElementPtr sdf)
+{
+  Shape::Load(sdf);
+  rayElem = inside(sdf, "ray");
+  scanElem = inside(rayElem, "scan"), rangeElem = inside(rayElem, "range");
+  horzElem = inside(scanElem, "horizontal"), vertElem = inside(scanElem, "vertical");
+  horizontal_ = read_scan(horzElem, 640), vertical_ = read_scan(vertElem, 1);
+  const auto get = [this](const char* tag, double otherwise) {
+    return rangeElem && rangeElem->HasElement(tag) ? rangeElem->Get<double>(tag) : otherwise;
+  };
+  min_ = get("min", 0), max_ = get("max", 1000), resolution_ = get("resolution", 0);
+}
+
+void MultiRayShape::Init()
+{
+  if (fan_ || !scanElem)
+    return;
+  offset = collisionParent ? collisionParent->RelativePose() : Pose3d();
+  for (const ode_sim::Vec3& direction : ode_sim::RayFan(law(horizontal_), law(vertical_), min_, max_).directions())
+  {
+    const Vector3d axis = offset.Rot() * ign(direction);
+    AddRay(axis * min_ + offset.Pos(), axis * max_ + offset.Pos());
+  }
+}
+
+void MultiRayShape::AddRay(const Vector3d& start, const Vector3d& end)
+{
+  const RayShapePtr ray(new RayShape(collisionParent));
+  ray->SetPoints(start, end);
+  rays.push_back(ray);
+}
+
+bool MultiRayShape::SetRay(unsigned int index, const Vector3d& start, const Vector3d& end)
+{
+  if (index >= rays.size())
+    return false;
+  rays[index]->SetPoints(start, end);
+  return true;
+}
+
+unsigned int MultiRayShape::RayCount() const { return static_cast<unsigned int>(fan_ ? ranges_.size() : rays.size()); }
+
+double MultiRayShape::GetRange(unsigned int index) const
+{
+  if (fan_)
+    return index < ranges_.size() ? ranges_[index] : 0;
+  return index < rays.size() ? min_ + rays[index]->GetLength() : 0;
+}
+
+double MultiRayShape::GetRetro(unsigned int index) const
+{
+  if (fan_)
+    return index < retros_.size() ? retros_[index] : 0;
+  return index < rays.size() ? rays[index]->GetRetro() : 0;
+}
+
+void MultiRayShape::Update()
+{
+  if (fan_)
+    return;  // Cast() does it
+  for (const RayShapePtr& ray : rays)
+  {
+    ray->SetLength(max_ - min_);
+    ray->SetRetro(0);
+    if (ODERayShape* const geom = dynamic_cast<ODERayShape*>(ray.get()))
+      geom->Update();
+  }
+  UpdateRays();
+  newLaserScans();
+}
+
+void MultiRayShape::UpdateRays()
+{
+  std::vector<double> origins, directions, ranges(rays.size());
+  std::vector<int32_t> hits(rays.size());
+  double longest = 0;
+  for (const RayShapePtr& ray : rays)
+  {
+    Vector3d start, end;
+    ray->GlobalPoints(start, end);
+    const Vector3d way = (end - start).Normalized();
+    longest = std::max(longest, end.Distance(start));
+    origins.insert(origins.end(), { start.X(), start.Y(), start.Z() });
+    directions.insert(directions.end(), { way.X(), way.Y(), way.Z() });
+  }
+  const boost::recursive_mutex::scoped_lock lock(step_mutex());
+  ode_sim::cast_rays(Mirror::Get().GetWorld()->Core()->scene(), origins.data(), directions.data(),
+                     static_cast<int>(rays.size()), longest, {}, ranges.data(), hits.data());
+  for (std::size_t i = 0; i < rays.size(); ++i)
+  {
+    const Collision* const hit = hits[i] >= 0 ? collision_of(hits[i]) : nullptr;
+    if (!hit || ranges[i] >= rays[i]->GetLength())
+      continue;
+    rays[i]->SetLength(ranges[i]);
+    rays[i]->SetRetro(hit->GetLaserRetro());
+  }
+}
 
 void MultiRayShape::Cast(const Pose3d& X_WS, const ModelPtr& own)
 {
@@ -57,32 +171,13 @@ void MultiRayShape::Cast(const Pose3d& X_WS, const ModelPtr& own)
     const Collision* const hit = hits[i] >= 0 ? collision_of(hits[i]) : nullptr;
     retros_[i] = hit ? hit->GetLaserRetro() : 0;
   }
-  scanned_();
+  newLaserScans();
 }
 
 }  // namespace physics
 
 namespace sensors
 {
-
-namespace
-{
-
-using Scan = physics::MultiRayShape::Scan;
-
-Scan read_scan(const sdf::ElementPtr& sdf, int samples)
-{
-  Scan scan;
-  scan.samples = samples;
-  if (!sdf)
-    return scan;
-  const auto get = [&](const char* tag, double fallback) { return sdf->HasElement(tag) ? sdf->Get<double>(tag) : fallback; };
-  scan.resolution = get("resolution", 1), scan.min = get("min_angle", 0), scan.max = get("max_angle", 0);
-  scan.samples = static_cast<int>(std::clamp(get("samples", samples), 1.0, 2e9));
-  return scan;
-}
-
-}  // namespace
 
 RaySensor::RaySensor() : Sensor(RAY) {}
 RaySensor::~RaySensor() = default;
@@ -91,12 +186,13 @@ bool RaySensor::IsActive() const { return Sensor::IsActive() || shape_->Listener
 void RaySensor::Load(const std::string& world)
 {
   Sensor::Load(world);
+  // Without a <ray> it is there, as in Gazebo, and reaches nothing: plugins that make rays of their own stand in such.
   const sdf::ElementPtr ray = inside(sdf, sdf->HasElement("ray") ? "ray" : "lidar");
-  if (!ray)
-    throw std::runtime_error("it has no <ray> block");
   const sdf::ElementPtr scan = inside(ray, "scan"), range = inside(ray, "range");
-  const Scan horizontal = read_scan(inside(scan, "horizontal"), 640), vertical = read_scan(inside(scan, "vertical"), 1);
-  const double min = range ? range->Get<double>("min") : 0, max = range ? range->Get<double>("max") : 0;
+  const physics::Scan horizontal = physics::read_scan(inside(scan, "horizontal"), 640);
+  const physics::Scan vertical = physics::read_scan(inside(scan, "vertical"), 1);
+  const double min = range ? range->Get<double>("min") : 0;
+  const double max = range ? range->Get<double>("max") : ray ? 0 : 1e-6;
   range_resolution_ = range && range->HasElement("resolution") ? range->Get<double>("resolution") : 0;
   shape_.reset(new physics::MultiRayShape(horizontal, vertical, min, max));
   const ode_sim::RayScan &across = shape_->Fan().horizontal(), &up = shape_->Fan().vertical();

@@ -1,5 +1,7 @@
 // World, PhysicsEngine.
 #include <gazebo/common/common.hh>
+#include <gazebo/physics/ode/ODECollision.hh>
+#include <gazebo/physics/ode/ODEMultiRayShape.hh>
 #include <gazebo/physics/physics.hh>
 
 #include <iostream>
@@ -251,8 +253,30 @@ ShapePtr PhysicsEngine::CreateShape(const std::string& type, CollisionPtr collis
 {
   if (type == "ray")
     return ShapePtr(new RayShape(collision));
+  if (type == "multiray")
+    return ShapePtr(new ODEMultiRayShape(collision));
   refused("PhysicsEngine::CreateShape(\"" + type + "\"): only rays can be made while the simulation runs");
   return ShapePtr();
+}
+
+CollisionPtr PhysicsEngine::CreateCollision(const std::string& type, LinkPtr link)
+{
+  const CollisionPtr collision(new ODECollision(link));
+  const ShapePtr shape = CreateShape(type, collision);
+  if (!shape)
+    return CollisionPtr();
+  collision->SetWorld(World());
+  shape->SetWorld(World());
+  collision->SetShape(shape);
+  return collision;
+}
+
+CollisionPtr PhysicsEngine::CreateCollision(const std::string& type, const std::string& link)
+{
+  const LinkPtr found = boost::dynamic_pointer_cast<Link>(World()->EntityByName(link));
+  if (!found)
+    gzerr << "PhysicsEngine::CreateCollision(): the world has no link '" << link << "'\n";
+  return found ? CreateCollision(type, found) : CollisionPtr();
 }
 
 JointPtr PhysicsEngine::CreateJoint(const std::string& type, ModelPtr model)

@@ -14,7 +14,7 @@ from std_msgs.msg import Float64MultiArray
 from test_support.hearing import heard
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from simulator import HearingCase  # noqa: E402
+from simulator import HearingCase, pose  # noqa: E402
 
 MODEL = """<sdf version="1.6"><model name="post"><pose>0 0 0.5 0 0 {yaw}</pose><link name="l"><inertial><mass>2</mass></inertial>
 <collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision>{sensors}</link></model></sdf>"""
@@ -33,6 +33,12 @@ RAY = """<sensor name="eye" type="{type}"><update_rate>50</update_rate><pose>0.5
 <range><min>0.1</min><max>5</max></range></ray><plugin name="p" filename="libgazebo_ros_test_{plugin}.so"/></sensor>"""
 SENSOR = """<sensor name="{type}" type="{type}"><update_rate>{rate}</update_rate>{block}<plugin name="first" filename="libother.so"/>
 <plugin name="p" filename="libgazebo_ros_test_feeler.so"><mark>7</mark></plugin></sensor>"""
+
+# A robot without a name; the sensor has no <ray>, as those of Livox's plugin.
+LIDAR = """<robot><link name="l"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+<gazebo reference="l"><turnGravityOff>true</turnGravityOff><sensor name="eye" type="ray"><update_rate>50</update_rate>
+<plugin name="p" filename="libgazebo_ros_test_comber.so"><pattern>package://gazebo_ros/test/comb.txt</pattern>
+<ray><range><min>0.1</min><max>5</max></range></ray></plugin></sensor></gazebo></robot>"""
 
 
 @unittest.skipUnless(importlib.util.find_spec("gazebo_cpp._core"), "this system lacks what Gazebo's headers need")
@@ -80,6 +86,23 @@ class SensorsTest(HearingCase):
         for each, wanted in zip(got[6:12], expected):
             self.assertTrue(each == wanted or abs(each - wanted) < 1e-3, got)
         self.assertEqual(got[12:], (35.0, 35.0, 35.0, 35.0, 35.0, 0.0))
+
+    def test_rays_of_ode_that_a_plugin_looks_for_itself(self):
+        """Gazebo's law: an added ray reaches from its start to max - min, and its range is min more than where it meets something."""
+        self.done(self.sim.spawn("wall", WALL))
+        got = []
+        self.listen("/comb", Float64MultiArray, lambda m: got.append(m.data))
+        self.done(self.sim.spawn("lidar", LIDAR, pose(z=1.0, qz=math.sin(0.15), qw=math.cos(0.15)), kind="urdf"))
+        self.wait(lambda: heard(self.subscribers[1:]))
+        self.sim.step(40)
+        self.wait(lambda: len(got) >= 2)
+        # told the angles -0.3, 0, 2.84 and 1 from a heading of 0.3: the wall's face is 3 m ahead, nothing is behind, and 1.3 goes past it
+        expected = (0.1 + 3.0, 70, 0.1 + 3.0 / math.cos(0.3), 70, 5.0, 0, 5.0, 0)
+        self.near(got[-1], (0.04, *expected, *expected), 1e-4)
+        self.done(self.sim.set_model("wall", pose(x=4.5, z=1.0)))
+        self.sim.step(20)
+        self.wait(lambda: len(got) >= 3)
+        self.near(got[-1][1:4], (0.1 + 4.0, 70, 0.1 + 4.0 / math.cos(0.3)), 1e-4)
 
     def feel(self, kind, rate=100, block="", **more):
         got = self.values("/feel/" + kind, SENSOR.format(type=kind, rate=rate, block=block), 50, 1 + rate // 20, **more)

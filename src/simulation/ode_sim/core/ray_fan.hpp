@@ -40,7 +40,8 @@ class RayFan {
   const RayScan& vertical() const { return vertical_; }
   double min() const { return min_; }
   double max() const { return max_; }
-  std::vector<Vec3> told_directions() const;  // of values(), unit vectors
+  const std::vector<Vec3>& directions() const { return directions_; }  // of rays(), unit vectors
+  std::vector<Vec3> told_directions() const;                           // of values(), unit vectors
 
   // :param X_WS: of the sensor in the world.
   // :param housing: ids of the shapes that it is built into.

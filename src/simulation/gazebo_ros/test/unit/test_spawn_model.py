@@ -118,3 +118,15 @@ def test_missing_parameter_says_how_to_set_it(monkeypatch):
     monkeypatch.setattr(spawn_model.rospy, "get_param", get_param)
     with pytest.raises(spawn_model.Failure, match="parameter /robot_description is not set; .*<param"):
         spawn_model.model_text(parse("-urdf -param robot_description -model m"))
+
+
+def test_plugins_of_a_urdf_get_folders_for_packages():
+    """gazebo_ros_api_plugin's spawnURDFModel puts the package's folder for package://NAME; of what is not there nothing is changed."""
+    from gazebo_ros.api.spawning import with_package_folders
+
+    known = {"package://lidar": "/ws/lidar"}.get
+    plugin = "<plugin filename='l.so' file=\"{0}/a.csv\"><csv> {0}/b c.csv</csv></plugin>"
+    mesh = "<mesh filename='package://lidar/m.dae'/>"  # the simulator's own reader finds these, and says where it looked
+    text = f"<robot>{mesh}<gazebo>{plugin}{plugin}</gazebo></robot>"
+    assert with_package_folders(text.format("package://lidar"), known) == text.format("/ws/lidar")
+    assert with_package_folders(text.format("package://absent"), known) == text.format("package://absent")

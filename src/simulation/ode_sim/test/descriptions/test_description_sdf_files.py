@@ -333,12 +333,26 @@ def test_a_text_to_spawn_is_parsed_once(models, finder, monkeypatch):
     lamp = Entity("<light name='l'/>")
     assert lamp.kind == "light" and lamp.light("lamp")[0].name == "lamp"
     assert len(parsed) == 3
-    with pytest.raises(DescriptionError, match="<light name='l'>: is no <model>"):
+    with pytest.raises(DescriptionError, match="<light name='lamp'>: is no <model>"):
         lamp.model()
     with pytest.raises(DescriptionError, match="is no <light>"):
         robot.light()
     with pytest.raises(DescriptionError, match="is URDF; expected <sdf"):
         read_sdf_model("<robot name='r'/>")
+
+
+@pytest.mark.parametrize(
+    "text, named",
+    [
+        ("<robot><link name='l'><inertial><mass value='1'/>{inertia}</inertial></link></robot>", "no name of its own"),
+        ("<robot name=''><link name='l'><inertial><mass value='1'/>{inertia}</inertial></link></robot>", "an empty one"),
+        ("<sdf version='1.6'><model><link name='l'/></model></sdf>", "a model without"),
+    ],
+)
+def test_the_name_that_a_model_is_spawned_by_is_set_in_its_text(text, named, finder):
+    """gazebo_ros_api_plugin writes the requested name over the attribute before the text is read: none need be there."""
+    inertia = "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"
+    assert Entity(text.format(inertia=inertia), finder).model("mine")[0].name == "mine", named
 
 
 @pytest.mark.parametrize(

@@ -15,6 +15,7 @@
 #include <gazebo/physics/PhysicsTypes.hh>
 #include <gazebo/rendering/RenderTypes.hh>
 #include <gazebo/sensors/SensorTypes.hh>
+#include <gazebo/common/Assert.hh>
 
 namespace gazebo
 {

@@ -1,2 +1,3 @@
-#error \
-    "the classes of Gazebo over ODE are not here: a plugin that derives from them or calls ODE itself cannot be built; gazebo/physics/*.hh has what it can ask"
+// Gazebo has an ODE of its own under this name; here it is the system's.
+#pragma once
+#include <ode/common.h>

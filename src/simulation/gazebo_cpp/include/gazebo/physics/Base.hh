@@ -8,6 +8,8 @@
 #include <gazebo/common/CommonTypes.hh>
 #include <gazebo/common/Console.hh>
 #include <gazebo/physics/PhysicsTypes.hh>
+#include <gazebo/common/common.hh>
+#include <gazebo/transport/TransportTypes.hh>
 
 namespace gazebo
 {

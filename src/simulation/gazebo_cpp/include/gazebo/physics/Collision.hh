@@ -21,6 +21,7 @@ public:
   LinkPtr GetLink() const;
   ModelPtr GetModel() const;
   ShapePtr GetShape() const { return shape_; }
+  void SetShape(ShapePtr shape) { shape_ = shape; }  // of one that a plugin has made; the simulator's keep theirs in the world
   unsigned int GetShapeType() const;
   SurfaceParamsPtr GetSurface() const { return surface_; }
   virtual void SetCategoryBits(unsigned int) {}
@@ -33,12 +34,16 @@ public:
   virtual void FillMsg(msgs::Collision& message);
   std::shared_ptr<ode_sim::Shape> Core() const { return core_; }
 
+protected:
+  void place(const ignition::math::Pose3d& X_WC) override;
+
 private:
   friend class Mirror;
   std::shared_ptr<ode_sim::Shape> core_;
   ShapePtr shape_;
   SurfaceParamsPtr surface_;
   float retro_ = 0;
+  ignition::math::Pose3d X_LC_;  // of one that a plugin has made
 };
 
 }  // namespace physics

@@ -6,6 +6,7 @@
 #include <gazebo/common/Time.hh>
 #include <gazebo/physics/JointWrench.hh>
 #include <gazebo/physics/PhysicsTypes.hh>
+#include <gazebo/common/common.hh>
 
 #define MAX_COLLIDE_RETURNS 250
 #define MAX_CONTACT_JOINTS 250

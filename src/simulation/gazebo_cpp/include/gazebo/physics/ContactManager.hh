@@ -5,6 +5,8 @@
 #include <vector>
 
 #include <gazebo/physics/Contact.hh>
+#include <gazebo/common/common.hh>
+#include <gazebo/transport/TransportTypes.hh>
 
 namespace gazebo
 {

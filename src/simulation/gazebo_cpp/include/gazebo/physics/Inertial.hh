@@ -5,6 +5,7 @@
 #include <sdf/sdf.hh>
 
 #include <gazebo/physics/PhysicsTypes.hh>
+#include <gazebo/common/common.hh>
 
 namespace gazebo
 {

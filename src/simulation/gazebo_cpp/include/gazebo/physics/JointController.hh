@@ -5,6 +5,8 @@
 #include <gazebo/common/PID.hh>
 #include <gazebo/common/Time.hh>
 #include <gazebo/physics/PhysicsTypes.hh>
+#include <gazebo/common/common.hh>
+#include <gazebo/transport/TransportTypes.hh>
 
 namespace gazebo
 {

@@ -1,6 +1,8 @@
 #pragma once
 #include <ignition/math/Vector3.hh>
 
+#include <gazebo/common/common.hh>
+
 namespace gazebo
 {
 namespace physics

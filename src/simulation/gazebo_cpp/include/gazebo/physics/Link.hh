@@ -9,6 +9,7 @@
 #include <gazebo/common/Event.hh>
 #include <gazebo/physics/Entity.hh>
 #include <gazebo/physics/Inertial.hh>
+#include <gazebo/physics/Joint.hh>
 
 namespace gazebo
 {

@@ -10,6 +10,8 @@
 
 #include <gazebo/physics/ContactManager.hh>
 #include <gazebo/physics/PhysicsTypes.hh>
+#include <gazebo/common/common.hh>
+#include <gazebo/transport/TransportTypes.hh>
 
 namespace gazebo
 {
@@ -32,7 +34,10 @@ public:
   void SetTargetRealTimeFactor(double factor) { target_factor_ = factor; }
   void SetRealTimeUpdateRate(double rate);
   void SetMaxStepSize(double step);
-  virtual ShapePtr CreateShape(const std::string& type, CollisionPtr collision);  // "ray"; others are null
+  virtual ShapePtr CreateShape(const std::string& type, CollisionPtr collision);  // "ray", "multiray"; others are null
+  /// One that meets nothing by itself, with such a shape.
+  virtual CollisionPtr CreateCollision(const std::string& type, LinkPtr link);
+  CollisionPtr CreateCollision(const std::string& type, const std::string& link);
   virtual JointPtr CreateJoint(const std::string& type, ModelPtr model = ModelPtr());
   virtual void SetGravity(const ignition::math::Vector3d& gravity);
   virtual void SetAutoDisableFlag(bool) {}

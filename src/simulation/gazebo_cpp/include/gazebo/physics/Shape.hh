@@ -7,6 +7,7 @@
 
 #include <gazebo/common/Event.hh>
 #include <gazebo/physics/Base.hh>
+#include <gazebo/physics/Inertial.hh>
 
 namespace gazebo
 {
@@ -21,6 +22,9 @@ public:
   virtual double ComputeVolume() const { return 0; }
   ignition::math::Vector3d Scale() const { return ignition::math::Vector3d::One; }
   virtual void SetScale(const ignition::math::Vector3d&) {}
+
+protected:
+  CollisionPtr collisionParent;  // of those that a plugin makes
 };
 
 class GAZEBO_VISIBLE BoxShape : public Shape
@@ -103,26 +107,36 @@ public:
   explicit HeightmapShape(CollisionPtr parent) : Shape(parent, HEIGHTMAP_SHAPE) {}
 };
 
-/// A ray. Points in the world, or in the frame of the collision that it was made for.
+/// A ray. Points in the world, or in the frame of the collision that it was made for. Without a hit, a search leaves 1000 m and "".
 class GAZEBO_VISIBLE RayShape : public Shape
 {
 public:
-  explicit RayShape(CollisionPtr parent) : Shape(parent, RAY_SHAPE), collision_(parent) {}
-  void SetPoints(const ignition::math::Vector3d& start, const ignition::math::Vector3d& end) { start_ = start, end_ = end; }
-  void RelativePoints(ignition::math::Vector3d& start, ignition::math::Vector3d& end) { start = start_, end = end_; }
-  void GlobalPoints(ignition::math::Vector3d& start, ignition::math::Vector3d& end);
+  explicit RayShape(CollisionPtr parent) : Shape(parent, RAY_SHAPE) { collisionParent = parent; }
+  virtual void SetPoints(const ignition::math::Vector3d& start, const ignition::math::Vector3d& end);
+  ignition::math::Vector3d Start() const { return globalStartPos; }  // in the world, as of the last Update() or SetPoints()
+  ignition::math::Vector3d End() const { return globalEndPos; }
+  virtual void RelativePoints(ignition::math::Vector3d& start, ignition::math::Vector3d& end)
+  {
+    start = relativeStartPos, end = relativeEndPos;
+  }
+  virtual void GlobalPoints(ignition::math::Vector3d& start, ignition::math::Vector3d& end);
   void Update() override;
-  void GetIntersection(double& distance, std::string& entity);  // m to the next collision, 1000 and "" where there is none
-  double GetLength() const { return length_; }
-  void SetLength(double length) { length_ = length; }
-  float GetRetro() const { return 0; }
-  int GetFiducial() const { return -1; }
+  virtual void GetIntersection(double& distance, std::string& entity);  // m to the next collision
+  double GetLength() const { return contactLen; }
+  virtual void SetLength(double length) { contactLen = length; }
+  float GetRetro() const { return static_cast<float>(contactRetro); }
+  void SetRetro(float retro) { contactRetro = retro; }
+  int GetFiducial() const { return contactFiducial; }
+  void SetFiducial(int fiducial) { contactFiducial = fiducial; }
   std::string CollisionName() const { return hit_; }
 
+protected:
+  void SetCollisionName(const std::string& name) { hit_ = name; }
+  ignition::math::Vector3d relativeStartPos, relativeEndPos, globalStartPos, globalEndPos;
+  double contactLen = 1000, contactRetro = 0;
+  int contactFiducial = -1;
+
 private:
-  CollisionPtr collision_;
-  ignition::math::Vector3d start_, end_;
-  double length_ = 1000;
   std::string hit_;
 };
 

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include <gazebo/physics/PhysicsTypes.hh>
+#include <gazebo/common/common.hh>
 
 namespace gazebo
 {

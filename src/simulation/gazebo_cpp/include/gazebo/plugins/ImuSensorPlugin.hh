@@ -1,6 +1,8 @@
 #pragma once
 #include <gazebo/common/Plugin.hh>
 #include <gazebo/sensors/ImuSensor.hh>
+#include <gazebo/physics/physics.hh>
+#include <gazebo/sensors/sensors.hh>
 
 namespace gazebo
 {

@@ -21,6 +21,7 @@
 #include <gazebo/rendering/Distortion.hh>
 #include <gazebo/rendering/RenderTypes.hh>
 #include <gazebo/transport/transport.hh>
+#include <gazebo/common/common.hh>
 
 namespace gazebo
 {

@@ -10,6 +10,9 @@
 #include <gazebo/common/Time.hh>
 #include <gazebo/rendering/RenderTypes.hh>
 #include <gazebo/util/system.hh>
+#include <gazebo/common/common.hh>
+#include <gazebo/rendering/Visual.hh>
+#include <gazebo/transport/TransportTypes.hh>
 
 namespace gazebo
 {

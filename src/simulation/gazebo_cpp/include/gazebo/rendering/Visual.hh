@@ -16,6 +16,7 @@
 #include <gazebo/rendering/DynamicLines.hh>
 #include <gazebo/rendering/RenderTypes.hh>
 #include <gazebo/util/system.hh>
+#include <gazebo/common/common.hh>
 
 namespace gazebo
 {

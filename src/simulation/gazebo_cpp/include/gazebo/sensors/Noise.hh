@@ -8,6 +8,7 @@
 #include <sdf/sdf.hh>
 
 #include <gazebo/sensors/SensorTypes.hh>
+#include <gazebo/common/common.hh>
 
 namespace gazebo
 {

@@ -18,6 +18,8 @@
 #include <gazebo/sensors/Noise.hh>
 #include <gazebo/sensors/SensorTypes.hh>
 #include <gazebo/transport/TransportTypes.hh>
+#include <gazebo/common/common.hh>
+#include <gazebo/rendering/RenderTypes.hh>
 
 namespace gazebo
 {

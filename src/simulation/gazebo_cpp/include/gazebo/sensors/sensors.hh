@@ -19,3 +19,4 @@
 #include <gazebo/sensors/SensorsIface.hh>
 #include <gazebo/sensors/SonarSensor.hh>
 #include <gazebo/sensors/WideAngleCameraSensor.hh>
+#include <gazebo/physics/physics.hh>

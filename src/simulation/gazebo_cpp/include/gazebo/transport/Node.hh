@@ -18,6 +18,7 @@
 #include <gazebo/msgs/msgs.hh>
 #include <gazebo/transport/Publisher.hh>
 #include <gazebo/transport/Subscriber.hh>
+#include <gazebo/common/common.hh>
 
 namespace gazebo
 {

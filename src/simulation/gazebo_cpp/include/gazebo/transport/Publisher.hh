@@ -6,6 +6,7 @@
 
 #include <gazebo/common/Time.hh>
 #include <gazebo/transport/TransportTypes.hh>
+#include <gazebo/common/common.hh>
 
 namespace gazebo
 {

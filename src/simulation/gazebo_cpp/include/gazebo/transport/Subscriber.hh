@@ -3,6 +3,7 @@
 #include <string>
 
 #include <gazebo/transport/TransportTypes.hh>
+#include <gazebo/common/common.hh>
 
 namespace gazebo
 {

@@ -1,2 +1,3 @@
 #pragma once
 #include <gazebo/util/system.hh>
+#include <gazebo/common/common.hh>

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 import xml.etree.ElementTree as ET
+from collections.abc import Callable
 from dataclasses import replace
 
 from gazebo_msgs.srv import SpawnModel
@@ -18,6 +20,17 @@ _UNFIT = (
     "GazeboRosApiPlugin SpawnModel Failure: input model_xml not SDF or URDF, or cannot be converted to Gazebo compatible "
     "format."
 )  # Gazebo's words
+
+
+def with_package_folders(text: str, find: Callable[[str], str | None]) -> str:
+    """A URDF whose plugins get folders where ``package://NAME`` stands, as gazebo_ros_api_plugin hands them over; they open such files as
+    they are. :param find: the folder of ``package://NAME``, or None, and it stays as it is.
+    """
+
+    def put(block: re.Match) -> str:
+        return re.sub(r"package://[^/\s<>\"'&]+", lambda name: find(name.group()) or name.group(), block.group())
+
+    return re.sub(r"<plugin\b.*?</plugin\s*>", put, text, flags=re.DOTALL)
 
 
 class SpawnServices:
@@ -50,7 +63,8 @@ class SpawnServices:
         """
         invalid = "Failure - entity format is invalid."
         try:
-            entity = Entity(request.model_xml, self._server.finder)
+            text = with_package_folders(request.model_xml, self._server.finder.find) if urdf_only else request.model_xml
+            entity = Entity(text, self._server.finder)
         except DescriptionError as error:
             if urdf_only:
                 raise worded(invalid, f"model '{request.model_name}': {error}") from error

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import xml.etree.ElementTree as ET
-from dataclasses import replace
 from typing import cast
 
 from ode_sim.description.finder import ResourceFinder
@@ -68,20 +67,26 @@ class Entity:
 
     def model(self, name: str | None = None) -> tuple[Model, list[Problem]]:
         """The model, and what was noticed while reading it. :param name: takes the place of the one in the text."""
+        self._call_it(name)
         if self.kind == "urdf":
             model = urdf_to_model(cast(Element, self._element), self._reader)
         elif self.kind in ("model", "actor"):
             model = self._reader.model(self._element)
         else:
             raise fault(self._element, "is no <model>")
-        return (replace(model, name=name) if name else model), self._reader.problems
+        return model, self._reader.problems
 
     def light(self, name: str | None = None) -> tuple[Light, list[Problem]]:
         """The light, with ``name`` as for :meth:`model`."""
         if self.kind != "light":
             raise fault(self._element, "is no <light>")
-        light = self._reader.light(self._element)
-        return (replace(light, name=name) if name else light), self._reader.problems
+        self._call_it(name)
+        return self._reader.light(self._element), self._reader.problems
+
+    def _call_it(self, name: str | None) -> None:
+        # in the text, as Gazebo does: there it may have none
+        if name:
+            self._element.set("name", name)
 
 
 def root_kind(text: str, finder: ResourceFinder | None = None) -> str:
@@ -111,8 +116,9 @@ def read_urdf(text: str, *, name: str | None = None, finder: ResourceFinder | No
     reader = SdfReader(finder, os.path.dirname(file))
     root = parse_xml(text, file)
     reader.warn_of_text(root)
-    model = urdf_to_model(root, reader)
-    return (replace(model, name=name) if name else model), reader.problems
+    if name:
+        root.set("name", name)
+    return urdf_to_model(root, reader), reader.problems
 
 
 def read_sdf_model(

@@ -1,2 +1,18 @@
-#error \
-    "the classes of Gazebo over ODE are not here: a plugin that derives from them or calls ODE itself cannot be built; gazebo/physics/*.hh has what it can ask"
+#pragma once
+#include <gazebo/physics/MultiRayShape.hh>
+#include <gazebo/physics/ode/ODETypes.hh>
+
+namespace gazebo
+{
+namespace physics
+{
+
+/// Rays that a plugin adds; they are looked for all together.
+class GAZEBO_VISIBLE ODEMultiRayShape : public MultiRayShape
+{
+public:
+  explicit ODEMultiRayShape(CollisionPtr parent) : MultiRayShape(parent) {}
+};
+
+}  // namespace physics
+}  // namespace gazebo

@@ -1,2 +1,2 @@
 #error \
-    "the classes of Gazebo over ODE are not here: a plugin that derives from them or calls ODE itself cannot be built; gazebo/physics/*.hh has what it can ask"
+    "joints, surfaces and meshes of Gazebo over ODE are not here, rays are (ODERayShape.hh): a plugin that derives from this class cannot be built; gazebo/physics/*.hh has what it can ask"

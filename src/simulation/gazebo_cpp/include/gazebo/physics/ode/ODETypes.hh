@@ -1,2 +1,20 @@
-#error \
-    "the classes of Gazebo over ODE are not here: a plugin that derives from them or calls ODE itself cannot be built; gazebo/physics/*.hh has what it can ask"
+#pragma once
+#include <boost/shared_ptr.hpp>
+
+#include <gazebo/ode/common.h>
+
+namespace gazebo
+{
+namespace physics
+{
+#define GZ_PHYSICS_ODE(name) \
+  class name;                \
+  typedef boost::shared_ptr<name> name##Ptr;
+GZ_PHYSICS_ODE(ODECollision)
+GZ_PHYSICS_ODE(ODELink)
+GZ_PHYSICS_ODE(ODEMultiRayShape)
+GZ_PHYSICS_ODE(ODEPhysics)
+GZ_PHYSICS_ODE(ODERayShape)
+#undef GZ_PHYSICS_ODE
+}  // namespace physics
+}  // namespace gazebo

@@ -1,0 +1,3 @@
+// Gazebo has an ODE of its own under this name; here it is the system's.
+#pragma once
+#include <ode/collision.h>
