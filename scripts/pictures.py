@@ -33,6 +33,7 @@ def main() -> int:
     if unknown:
         print(f"scripts/pictures: there is no picture {unknown[0]}; there are {', '.join(NAMES)}", file=sys.stderr)
         return 2
+    chosen.out.mkdir(parents=True, exist_ok=True)
     options = Options(chosen.out, chosen.house)
     for name in chosen.names or [name for name in NAMES if name not in FROM_OUTSIDE or chosen.house]:
         try:

@@ -2,6 +2,8 @@
 
 #include <cstring>
 #include <dlfcn.h>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 #include <compiled_plugins/guard.h>
@@ -30,6 +32,14 @@ std::string trimmed(std::string text)
   return text;
 }
 
+/// Whether the library asks sdformat for what an element stands in.
+bool asks_for_parents(const std::string& library)
+{
+  std::ifstream file(library, std::ios::binary);
+  const std::string all{ std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
+  return all.find("7Element9GetParent") != std::string::npos;
+}
+
 }  // namespace
 
 template <class F>
@@ -54,7 +64,8 @@ void LoadedPlugin::call(const char* what, F f)
 
 LoadedPlugin::LoadedPlugin(const std::string& library, const std::string& file, const std::string& name,
                            const std::string& label)
-  : label_(strdup(label.c_str()))  // never freed: handlers of signals and threads of plugins read it
+  : library_(library)
+  , label_(strdup(label.c_str()))  // never freed: handlers of signals and threads of plugins read it
 {
   void* handle = nullptr;
   call("library's start", [&] { handle = dlopen(library.c_str(), RTLD_LAZY | RTLD_LOCAL); });
@@ -124,7 +135,14 @@ void LoadedPlugin::LoadWorld(int index, const std::string& text)
   if (!world_)
     wrong_kind(kind_, "world");
   const physics::WorldPtr world = physics::get_world();
-  const sdf::ElementPtr element = plugin_element(world->SDF(), index, text);
+  // sdformat takes megabytes for each model of a world: its text is read for those who look around in it, or ask for World::SDF().
+  // For others a world stands around the element that has nothing else in it.
+  const sdf::ElementPtr element =
+      asks_for_parents(library_)
+          ? plugin_element(world->SDF(), index, text)
+          : plugin_element(
+                around_ = world_element("<sdf version='1.6'><world name='w'>" + text + "</world></sdf>", world->Name()), 0,
+                text);
   call("Load()", [&] { world_->Load(world, element); });
   call("Init()", [&] { world_->Init(); });
 }

@@ -26,6 +26,8 @@ public:
 private:
   template <class F>
   void call(const char* what, F f);
+  std::string library_;
+  sdf::ElementPtr around_;  // what the element of a world plugin stands in
   const char* label_;
   PluginType kind_;
   boost::shared_ptr<ModelPlugin> model_;

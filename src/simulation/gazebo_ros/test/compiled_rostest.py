@@ -196,6 +196,13 @@ class CompiledTest(Case):
     def services():
         return {name for name, _ in rospy.get_master().getSystemState()[2][2]}
 
+    def test_the_element_of_a_world_plugin_stands_in_its_world(self):
+        told = []
+        subscriber = rospy.Subscriber("/neighbour/told", String, lambda m: told.append(m.data))
+        self.wait(lambda: told)
+        subscriber.unregister()
+        self.assertEqual(told, ["world compiled, plugin keeper, world compiled, plugin neighbour"])
+
     def test_world_plugin_inserts_hears_and_removes(self):
         self.wait(lambda: "loaded hello in compiled" in self.told or "reset" in self.told)
         self.orders.publish("insert")
