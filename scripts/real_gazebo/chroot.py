@@ -100,7 +100,7 @@ def environment(place: str) -> dict:
         "GAZEBO_MODEL_DATABASE_URI": "",
         "GAZEBO_MASTER_URI": f"http://127.0.0.1:{free_port()}",
         "GAZEBO_IP": "127.0.0.1",
-        "GAZEBO_PLUGIN_PATH": "/truth",
+        "GAZEBO_PLUGIN_PATH": "/truth:/usr/lib/x86_64-linux-gnu/gazebo-11/plugins",
         "GAZEBO_RESOURCE_PATH": "/usr/share/gazebo-11",
         "GAZEBO_MODEL_PATH": place,
         "LC_ALL": "C",

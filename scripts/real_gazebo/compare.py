@@ -65,10 +65,20 @@ def core_files() -> list[str]:
     return [ode_sim._core.__file__, *glob.glob(os.path.join(os.path.dirname(ode_sim.__file__), "**", "*.py"), recursive=True)]
 
 
+def plugin_files() -> list[str]:
+    """Libraries of the plugins in C++, which scenes on the server load."""
+    prefixes = os.environ.get("CMAKE_PREFIX_PATH", "").split(":")
+    return [
+        file for prefix in prefixes for name in ("libgazebo*.so", "lib*Plugin.so") for file in glob.glob(os.path.join(prefix, "lib", name))
+    ]
+
+
 def kept_run(scene: Scene, solver: str) -> Record | None:
-    """A run of this scene, maybe one that was kept since ode_sim was last changed; None, with a line, where none can be had."""
+    """A run of this scene, maybe one that was kept since what it runs was last changed; None, with a line, where none can be had."""
     path = os.path.join(KEPT, solver, f"{scene.name}-{scene.digest()}.csv.gz")
-    if os.path.exists(path) and os.path.getmtime(path) > max(map(os.path.getmtime, core_files())):
+    if os.path.exists(path) and os.path.getmtime(path) > max(
+        map(os.path.getmtime, core_files() + (plugin_files() if scene.server else []))
+    ):
         return Record.read(path)
     try:
         record = run_ours(scene, solver)

@@ -20,6 +20,7 @@ TITLES = {
     "robots": "Wheels, casters and grippers",
     "worlds": "Files, worlds and fields of force",
     "sensors": "Sensors",
+    "plugins": "Plugins of Gazebo itself",
 }
 HEAD = """# Parity with Gazebo Classic 11.1
 

@@ -6,6 +6,7 @@ from real_gazebo import (
     scenes_joints,
     scenes_linkages,
     scenes_piles,
+    scenes_plugins,
     scenes_robots,
     scenes_sensors,
     scenes_surfaces,
@@ -25,5 +26,6 @@ FAMILIES = (
     scenes_fields,
     scenes_whole,
     scenes_sensors,
+    scenes_plugins,
 )
 __all__ = ["FAMILIES", "SCENES"]

@@ -151,6 +151,19 @@ Vector3d Link::WorldLinearVel(const Vector3d& offset, const ignition::math::Quat
 Vector3d Link::WorldCoGLinearVel() const { return ign(core_->velocity_at(core_->com_W())); }
 Vector3d Link::WorldAngularVel() const { return ign(core_->w); }
 
+Vector3d Link::WorldWindLinearVel() const
+{
+  const WorldPtr& world = GetModel()->GetWorld();
+  if (!windy_ || !world->WindEnabled())
+    return {};
+  if (const uint64_t step = world->Iterations(); step != wind_of_step_)
+  {
+    wind_of_step_ = step;
+    wind_ = world->Wind().WorldLinearVel(this);
+  }
+  return wind_;
+}
+
 Vector3d Link::WorldLinearAccel() const
 {
   if (!watched_)

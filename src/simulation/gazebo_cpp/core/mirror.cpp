@@ -7,6 +7,7 @@
 #include <gazebo/physics/ode/ODEPhysics.hh>
 
 #include "contacts.hpp"
+#include "sdf_text.hpp"
 #include "topics.hpp"
 #include "transport.hpp"
 
@@ -241,6 +242,32 @@ void Mirror::addJoint(Model& model, const JointRecord& record)
   model.AddChild(joint);
 }
 
+namespace
+{
+
+void read_wind_mode(const sdf::ElementPtr& element, bool& windy)
+{
+  if (element && element->HasElement("enable_wind"))
+    windy = element->Get<bool>("enable_wind");
+}
+
+}  // namespace
+
+// Its text is read for nothing else.
+void Mirror::readWindModes(Model& model)
+{
+  const sdf::ElementPtr element = model.GetSDF();
+  bool all = false;
+  read_wind_mode(element, all);
+  for (auto each = inside(element, "link"); each; each = each->GetNextElement("link"))
+    if (const LinkPtr link = model.GetLink(each->Get<std::string>("name")))
+    {
+      bool windy = all;
+      read_wind_mode(each, windy);
+      link->SetWindMode(windy);
+    }
+}
+
 void Mirror::Add(const ModelRecord& record)
 {
   const boost::shared_ptr<Actor> actor(record.actor ? new Actor(BasePtr()) : nullptr);
@@ -262,6 +289,8 @@ void Mirror::Add(const ModelRecord& record)
   if (!model->links_.empty())
     model->X_LM_ = ign(record.X_WM) - model->links_.front()->WorldPose();
   model->SetInitialRelativePose(ign(record.X_WM));
+  if (model->text_.find("<enable_wind") != std::string::npos)
+    readWindModes(*model);
   {
     const std::lock_guard<std::mutex> lock(world_->models_mutex_);
     world_->models_.push_back(model);

@@ -118,6 +118,7 @@ public:
 
 private:
   void addLink(Model& model, const LinkRecord& record);
+  void readWindModes(Model& model);
   void addJoint(Model& model, const JointRecord& record);
   void accelerations();
   WorldPtr world_;

@@ -25,6 +25,13 @@ const sdf::ElementPtr Model::GetSDF()
   return sdf;
 }
 
+void Model::SetWindMode(bool enable)
+{
+  for (const LinkPtr& link : links_)
+    link->SetWindMode(enable);
+}
+bool Model::WindMode() const { return !links_.empty() && links_.front()->WindMode(); }
+
 bool Model::IsStatic() const { return core_ && core_->is_static; }
 
 const ignition::math::Pose3d& Model::WorldPose() const

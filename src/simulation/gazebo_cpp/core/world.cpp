@@ -34,6 +34,25 @@ const sdf::ElementPtr World::SDF()
   return sdf_;
 }
 
+Wind& World::Wind() const
+{
+  if (!wind_)
+  {
+    wind_.reset(new class Wind);
+    if (text_.find("<wind") != std::string::npos)
+      if (const sdf::ElementPtr told = inside(const_cast<World*>(this)->SDF(), "wind"))
+        if (told->HasElement("linear_velocity"))
+          wind_->SetLinearVel(told->Get<Vector3d>("linear_velocity"));
+  }
+  return *wind_;
+}
+
+Vector3d Wind::WorldLinearVel(const Entity* entity) const { return function_ ? function_(this, entity) : velocity_; }
+Vector3d Wind::RelativeLinearVel(const Entity* entity) const
+{
+  return entity->WorldPose().Rot().RotateVectorReverse(WorldLinearVel(entity));
+}
+
 Vector3d World::Gravity() const { return ign(core_->settings().gravity); }
 void World::SetGravity(const Vector3d& gravity)
 {

@@ -201,7 +201,7 @@ class CompiledTest(Case):
         subscriber = rospy.Subscriber("/neighbour/told", String, lambda m: told.append(m.data))
         self.wait(lambda: told)
         subscriber.unregister()
-        self.assertEqual(told, ["world compiled, plugin keeper, world compiled, plugin neighbour"])
+        self.assertEqual(told, ["world compiled, plugin wind, world compiled, plugin neighbour"])
 
     def test_world_plugin_inserts_hears_and_removes(self):
         self.wait(lambda: "loaded hello in compiled" in self.told or "reset" in self.told)

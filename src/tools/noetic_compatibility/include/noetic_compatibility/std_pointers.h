@@ -34,55 +34,56 @@ struct MutableParameter
 }  // namespace noetic_compatibility
 
 // A pointer to a message is sent as the message.
-#define NOETIC_COMPATIBILITY_SENT_AS(TEMPLATE, POINTER, ...) \
-  namespace message_traits \
-  { \
-  TEMPLATE struct MD5Sum<POINTER> : MD5Sum<__VA_ARGS__> \
-  { \
-    using MD5Sum<__VA_ARGS__>::value; \
-    static const char* value(const POINTER&) { return MD5Sum<__VA_ARGS__>::value(); } \
-  }; \
-  TEMPLATE struct DataType<POINTER> : DataType<__VA_ARGS__> \
-  { \
-    using DataType<__VA_ARGS__>::value; \
-    static const char* value(const POINTER&) { return DataType<__VA_ARGS__>::value(); } \
-  }; \
-  } \
-  namespace serialization \
-  { \
-  TEMPLATE struct Serializer<POINTER> \
-  { \
-    template <typename Stream> \
-    static void write(Stream& stream, const POINTER& message) \
-    { \
-      stream.next(*message); \
-    } \
+#define NOETIC_COMPATIBILITY_SENT_AS(TEMPLATE, POINTER, ...)                                           \
+  namespace message_traits                                                                             \
+  {                                                                                                    \
+  TEMPLATE struct MD5Sum<POINTER> : MD5Sum<__VA_ARGS__>                                                \
+  {                                                                                                    \
+    using MD5Sum<__VA_ARGS__>::value;                                                                  \
+    static const char* value(const POINTER&) { return MD5Sum<__VA_ARGS__>::value(); }                  \
+  };                                                                                                   \
+  TEMPLATE struct DataType<POINTER> : DataType<__VA_ARGS__>                                            \
+  {                                                                                                    \
+    using DataType<__VA_ARGS__>::value;                                                                \
+    static const char* value(const POINTER&) { return DataType<__VA_ARGS__>::value(); }                \
+  };                                                                                                   \
+  }                                                                                                    \
+  namespace serialization                                                                              \
+  {                                                                                                    \
+  TEMPLATE struct Serializer<POINTER>                                                                  \
+  {                                                                                                    \
+    template <typename Stream>                                                                         \
+    static void write(Stream& stream, const POINTER& message)                                          \
+    {                                                                                                  \
+      stream.next(*message);                                                                           \
+    }                                                                                                  \
     static uint32_t serializedLength(const POINTER& message) { return serializationLength(*message); } \
-  }; \
+  };                                                                                                   \
   }
 
-#define NOETIC_COMPATIBILITY_STD_POINTERS(TEMPLATE, ...) \
-  namespace noetic_compatibility \
-  { \
-  TEMPLATE struct HasStdPointers<__VA_ARGS__> : std::true_type \
-  { \
-  }; \
-  } \
-  namespace ros \
-  { \
-  NOETIC_COMPATIBILITY_SENT_AS(TEMPLATE, std::shared_ptr<__VA_ARGS__>, __VA_ARGS__) \
-  NOETIC_COMPATIBILITY_SENT_AS(TEMPLATE, std::shared_ptr<const __VA_ARGS__>, __VA_ARGS__) \
-  TEMPLATE struct ParameterAdapter<const std::shared_ptr<const __VA_ARGS__>&> : noetic_compatibility::ConstParameter<__VA_ARGS__> \
-  { \
-  }; \
-  TEMPLATE struct ParameterAdapter<std::shared_ptr<const __VA_ARGS__>> : noetic_compatibility::ConstParameter<__VA_ARGS__> \
-  { \
-  }; \
+#define NOETIC_COMPATIBILITY_STD_POINTERS(TEMPLATE, ...)                                                                      \
+  namespace noetic_compatibility                                                                                              \
+  {                                                                                                                           \
+  TEMPLATE struct HasStdPointers<__VA_ARGS__> : std::true_type                                                                \
+  {                                                                                                                           \
+  };                                                                                                                          \
+  }                                                                                                                           \
+  namespace ros                                                                                                               \
+  {                                                                                                                           \
+  NOETIC_COMPATIBILITY_SENT_AS(TEMPLATE, std::shared_ptr<__VA_ARGS__>, __VA_ARGS__)                                           \
+  NOETIC_COMPATIBILITY_SENT_AS(TEMPLATE, std::shared_ptr<const __VA_ARGS__>, __VA_ARGS__)                                     \
+  TEMPLATE struct ParameterAdapter<const std::shared_ptr<const __VA_ARGS__>&>                                                 \
+    : noetic_compatibility::ConstParameter<__VA_ARGS__>                                                                       \
+  {                                                                                                                           \
+  };                                                                                                                          \
+  TEMPLATE struct ParameterAdapter<std::shared_ptr<const __VA_ARGS__>> : noetic_compatibility::ConstParameter<__VA_ARGS__>    \
+  {                                                                                                                           \
+  };                                                                                                                          \
   TEMPLATE struct ParameterAdapter<const std::shared_ptr<__VA_ARGS__>&> : noetic_compatibility::MutableParameter<__VA_ARGS__> \
-  { \
-  }; \
-  TEMPLATE struct ParameterAdapter<std::shared_ptr<__VA_ARGS__>> : noetic_compatibility::MutableParameter<__VA_ARGS__> \
-  { \
-  }; \
+  {                                                                                                                           \
+  };                                                                                                                          \
+  TEMPLATE struct ParameterAdapter<std::shared_ptr<__VA_ARGS__>> : noetic_compatibility::MutableParameter<__VA_ARGS__>        \
+  {                                                                                                                           \
+  };                                                                                                                          \
   }
 #endif

@@ -31,8 +31,8 @@ public:
   virtual bool GetEnabled() const;
   virtual void SetGravityMode(bool on);
   virtual bool GetGravityMode() const;
-  virtual void SetWindMode(bool) {}
-  virtual bool WindMode() const { return false; }
+  virtual void SetWindMode(bool enable) { windy_ = enable; }  // <enable_wind> of the link or of its model
+  virtual bool WindMode() const { return windy_; }
   virtual void SetSelfCollide(bool collide);
   bool GetSelfCollide() const;
   void SetCollideMode(const std::string& mode);
@@ -100,8 +100,8 @@ public:
   double GetWorldEnergyKinetic() const;
   double GetWorldEnergy() const { return GetWorldEnergyPotential() + GetWorldEnergyKinetic(); }
   void MoveFrame(const ignition::math::Pose3d& from, const ignition::math::Pose3d& to, bool preserve_velocity = false);
-  Vector3d WorldWindLinearVel() const { return {}; }
-  Vector3d RelativeWindLinearVel() const { return {}; }
+  Vector3d WorldWindLinearVel() const;  // once in each step; none where the wind does not count
+  Vector3d RelativeWindLinearVel() const { return local(WorldWindLinearVel()); }
   virtual void FillMsg(msgs::Link& message);
   std::shared_ptr<ode_sim::Link> Core() const { return core_; }
 
@@ -118,6 +118,9 @@ private:
   std::vector<std::string> sensors_;
   event::EventT<void(bool)> enabled_;
   mutable bool watched_ = false;
+  bool windy_ = false;
+  mutable Vector3d wind_;
+  mutable uint64_t wind_of_step_ = ~0ULL;
   mutable Vector3d v_, w_, a_, alpha_;  // of the last step
 };
 

@@ -62,8 +62,8 @@ public:
   double GetWorldEnergy() const { return GetWorldEnergyPotential() + GetWorldEnergyKinetic(); }
   JointPtr CreateJoint(const std::string& name, const std::string& type, LinkPtr parent, LinkPtr child);
   bool RemoveJoint(const std::string& name);
-  void SetWindMode(bool) {}
-  bool WindMode() const { return false; }
+  void SetWindMode(bool enable);  // of all its links
+  bool WindMode() const;          // of its first one
   virtual void FillMsg(msgs::Model& message);
   boost::shared_ptr<Model> shared_from_this();
 

@@ -14,6 +14,7 @@
 #include <gazebo/msgs/msgs.hh>
 #include <gazebo/physics/Base.hh>
 #include <gazebo/physics/PhysicsTypes.hh>
+#include <gazebo/physics/Wind.hh>
 
 namespace gazebo
 {
@@ -74,8 +75,9 @@ public:
   std::mutex& WorldPoseMutex() const { return pose_mutex_; }
   bool PhysicsEnabled() const { return true; }
   void SetPhysicsEnabled(bool enable);
-  bool WindEnabled() const { return false; }
-  void SetWindEnabled(bool) {}
+  bool WindEnabled() const { return windy_; }
+  void SetWindEnabled(bool enable) { windy_ = enable; }
+  class Wind& Wind() const;
   bool AtmosphereEnabled() const { return false; }
   void SetAtmosphereEnabled(bool) {}
   void PublishModelPose(ModelPtr) {}
@@ -95,7 +97,8 @@ private:
   common::Time start_, paused_since_;
   mutable std::mutex pose_mutex_, models_mutex_;
   Model_V models_;
-  bool paused_ = false;
+  bool paused_ = false, windy_ = true;
+  mutable std::unique_ptr<class Wind> wind_;  // made when it is first asked for
   sdf::ElementPtr sdf_;
 };
 

@@ -24,7 +24,7 @@ _UNFIT = (
 
 def with_package_folders(text: str, find: Callable[[str], str | None]) -> str:
     """A URDF whose plugins get folders where ``package://NAME`` stands, as gazebo_ros_api_plugin hands them over; they open such files as
-    they are. :param find: the folder of ``package://NAME``, or None, and it stays as it is.
+    they are. :param text: of a URDF. :param find: the folder of ``package://NAME``, or None, and it stays as it is.
     """
 
     def put(block: re.Match) -> str:

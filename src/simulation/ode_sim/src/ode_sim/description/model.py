@@ -247,6 +247,7 @@ class Link:
     gravity: bool = True
     self_collide: bool | None = None  # None: the model's
     kinematic: bool = False
+    enable_wind: bool | None = None  # None: the model's
     linear_decay: float = 0.0
     angular_decay: float = 0.0
     source: Source = Source()
@@ -354,6 +355,7 @@ class Model:
     plugins: tuple[Plugin, ...] = ()
     static: bool = False
     self_collide: bool = False
+    enable_wind: bool = False
     allow_auto_disable: bool = True
     actor: Actor | None = None  # its first link is the model's frame, then the bones of its skin
     source: Source = Source()
@@ -427,6 +429,7 @@ class World:
     name: str = "default"
     gravity: Vec3 = (0.0, 0.0, -9.8)
     magnetic_field: Vec3 = (5.5645e-6, 22.8758e-6, -42.3884e-6)
+    wind: Vec3 = (0.0, 0.0, 0.0)  # m/s; nothing is blown by it but what plugins blow
     physics: Physics = Physics()
     scene: Scene = Scene()
     models: tuple[Model, ...] = ()

@@ -37,6 +37,7 @@ from ode_sim.description.xmlsource import is_true, source_of, text_of
 
 _UNSCALED = (1.0, 1.0, 1.0)
 _STRONGEST_FIELD = 1e6  # T
+_STRONGEST_WIND = 1e4  # m/s
 _LONGEST_TIME = 1e9  # s; in nanoseconds it still fits into 64 bits
 
 
@@ -125,6 +126,7 @@ class SdfReader(SdfActors):
             name=element.get("name") or "default",
             gravity=self._gravity(element, default.gravity),
             magnetic_field=self.vector(element, "magnetic_field", default.magnetic_field, most=_STRONGEST_FIELD),
+            wind=self.vector(element, "wind/linear_velocity", default.wind, most=_STRONGEST_WIND),
             physics=self._physics(element),
             scene=replace(self._scene(element.find("scene")), roads=tuple(contents.roads)),
             models=tuple(models),

@@ -98,6 +98,7 @@ class SdfModels(SdfJoints):
             plugins=tuple(parts.plugins),
             static=static,
             self_collide=self.boolean(element, "self_collide", False),
+            enable_wind=self.boolean(element, "enable_wind", False),
             allow_auto_disable=self.boolean(element, "allow_auto_disable", True),
             source=source_of(element),
         )
@@ -202,7 +203,7 @@ class SdfModels(SdfJoints):
                 f"{quoted(plugin.filename)}: a plugin inside a link is never started; write it into the "
                 "model, or into a sensor (in a URDF: <gazebo> without reference)",
             )
-        collide = element.find("self_collide")
+        collide, blown = element.find("self_collide"), element.find("enable_wind")
         return Link(
             name=name,
             pose=x_ml,
@@ -214,6 +215,7 @@ class SdfModels(SdfJoints):
             gravity=self.boolean(element, "gravity", True),
             self_collide=is_true(text_of(collide)) if collide is not None else None,
             kinematic=self.boolean(element, "kinematic", False),
+            enable_wind=is_true(text_of(blown)) if blown is not None else None,
             linear_decay=self.number(element, "velocity_decay/linear", 0.0, most=_STIFFEST),
             angular_decay=self.number(element, "velocity_decay/angular", 0.0, most=_STIFFEST),
             source=source_of(element),

@@ -35,6 +35,8 @@ def world_text(world: d.World) -> str:
     top = ET.SubElement(root, "world", name=world.name)
     _leaf(top, "gravity", world.gravity)
     _leaf(top, "magnetic_field", world.magnetic_field)
+    if any(world.wind):
+        _leaf(ET.SubElement(top, "wind"), "linear_velocity", world.wind)
     _physics(top, world.physics)
     scene = ET.SubElement(top, "scene")
     for tag in ("ambient", "background", "shadows", "grid"):
@@ -109,6 +111,7 @@ def _model(parent: ET.Element, model: d.Model) -> None:
     _pose(element, model.pose)
     _leaf(element, "static", model.static, False)
     _leaf(element, "self_collide", model.self_collide, False)
+    _leaf(element, "enable_wind", model.enable_wind, False)
     _leaf(element, "allow_auto_disable", model.allow_auto_disable, True)
     for link in model.links:
         _link(element, link)
@@ -158,6 +161,7 @@ def _link(parent: ET.Element, link: d.Link) -> None:
         _leaf(inertial, "inertia/" + name, getattr(link.inertial, name))
     _leaf(element, "gravity", link.gravity, True)
     _leaf(element, "self_collide", link.self_collide)
+    _leaf(element, "enable_wind", link.enable_wind)
     _leaf(element, "kinematic", link.kinematic, False)
     _leaf(element, "velocity_decay/linear", link.linear_decay, 0.0)
     _leaf(element, "velocity_decay/angular", link.angular_decay, 0.0)
