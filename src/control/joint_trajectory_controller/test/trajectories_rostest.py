@@ -13,6 +13,7 @@ from trajectory_msgs.msg import JointTrajectory
 
 REST = [0.0, 0.0]
 TARGET = [0.5, -0.4]
+LONG = (8.0, [2.0, 2.0], [0.0, 0.0])  # under way still when a loaded machine comes to stop it
 
 
 class Behaviour:
@@ -134,7 +135,7 @@ class Behaviour:
             self.assertTrue(0.05 < position < 1.9, position)
 
     def test_empty_topic_cancels_topic(self):
-        self.publish((2.0, [2.0, 2.0], REST))
+        self.publish(LONG)
         self.wait_moved()
         self.publish()
         self.assertStoppedOnTheWay()
@@ -161,14 +162,14 @@ class Behaviour:
         self.assertStoppedOnTheWay()
 
     def test_cancelled_goal_stops(self):
-        goal = self.send((2.0, [2.0, 2.0], REST))
+        goal = self.send(LONG)
         self.wait_moved()
         goal.cancel()
         self.assertEqual(goal.finish()[0], GoalStatus.PREEMPTED)
         self.assertStoppedOnTheWay()
 
     def test_stopping_the_controller_preempts_and_commands_are_refused_then(self):
-        goal = self.send((2.0, [2.0, 2.0], REST))
+        goal = self.send(LONG)
         self.wait_moved()
         client.switch(stop=[self.controller])
         self.assertEqual(goal.finish()[0], GoalStatus.PREEMPTED)

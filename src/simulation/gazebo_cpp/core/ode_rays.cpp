@@ -2,7 +2,9 @@
 // stands for all that there is, and a ray meets there what the simulator's own rays meet.
 #include <gazebo/physics/physics.hh>
 
+#include <algorithm>
 #include <unordered_map>
+#include <vector>
 
 #include <gazebo/physics/ode/ODECollision.hh>
 #include <gazebo/physics/ode/ODEPhysics.hh>
