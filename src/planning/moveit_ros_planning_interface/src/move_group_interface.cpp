@@ -27,6 +27,8 @@ namespace {
 
 const double POLL = 0.005;        // s between two looks for a server
 const double SAY_SO_AFTER = 5.0;  // s
+// rospy, in which move_group is written, does not hear of a client that comes while another of the same process goes: it comes again.
+const double COME_AGAIN_AFTER = 3.0;  // s
 
 [[noreturn]] void refuse(const std::string& why) {
   ROS_FATAL_STREAM_NAMED(LOGNAME, why);
@@ -38,9 +40,15 @@ void connect(std::unique_ptr<actionlib::SimpleActionClient<Action>>& client, ros
              const ros::WallTime& until, double allotted) {
   client = std::make_unique<actionlib::SimpleActionClient<Action>>(nh, name, false);
   const ros::WallTime began = ros::WallTime::now();
+  ros::WallTime came = began;
   bool said = false;
   while (nh.ok() && !client->isServerConnected() && (until.isZero() || ros::WallTime::now() < until)) {
     ros::WallDuration(POLL).sleep();
+    if ((ros::WallTime::now() - came).toSec() > COME_AGAIN_AFTER) {
+      client.reset();  // its topics go first, or nobody is told
+      client = std::make_unique<actionlib::SimpleActionClient<Action>>(nh, name, false);
+      came = ros::WallTime::now();
+    }
     if (!said && (ros::WallTime::now() - began).toSec() > SAY_SO_AFTER) {
       ROS_WARN_STREAM_NAMED(LOGNAME, "Still waiting for move_group action server '"
                                          << nh.resolveName(name)
