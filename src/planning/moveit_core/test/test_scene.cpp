@@ -9,38 +9,7 @@
 #include <moveit/trajectory_processing/iterative_time_parameterization.h>
 #include <moveit/trajectory_processing/time_optimal_trajectory_generation.h>
 
-#include "arm.hpp"
-
-using planning_scene::PlanningScene;
-using planning_scene::PlanningScenePtr;
-
-namespace
-{
-moveit_msgs::CollisionObject box(const std::string& id, double x, double y, double z, double edge)
-{
-  moveit_msgs::CollisionObject object;
-  object.header.frame_id = "floor";
-  object.id = id;
-  object.primitives.resize(1);
-  object.primitives[0].type = shape_msgs::SolidPrimitive::BOX;
-  object.primitives[0].dimensions.assign(3, edge);
-  object.primitive_poses.resize(1);
-  object.primitive_poses[0].position.x = x;
-  object.primitive_poses[0].position.y = y;
-  object.primitive_poses[0].position.z = z;
-  object.primitive_poses[0].orientation.w = 1.0;
-  object.pose.orientation.w = 1.0;
-  object.operation = moveit_msgs::CollisionObject::ADD;
-  return object;
-}
-
-PlanningScenePtr readyScene()
-{
-  const auto scene = std::make_shared<PlanningScene>(makeArm());
-  scene->getCurrentStateNonConst().setToDefaultValues("manipulator", "ready");
-  return scene;
-}
-}  // namespace
+#include "scenes.hpp"
 
 // The arm stands upright: the fingers' lower edges are at 1.32 m, upper's end at 0.85 m; the box's face is at 1.95 m, lower's at 0.02 m.
 // FCL's distance of two boxes whose faces are parallel is some millimetres off.

@@ -9,38 +9,7 @@
 #include <moveit/kinematic_constraints/utils.h>
 #include <moveit/robot_state/conversions.h>
 
-#include "arm.hpp"
-
-using planning_scene::PlanningScene;
-using planning_scene::PlanningScenePtr;
-
-namespace
-{
-moveit_msgs::CollisionObject box(const std::string& id, double x, double y, double z, double edge)
-{
-  moveit_msgs::CollisionObject object;
-  object.header.frame_id = "floor";
-  object.id = id;
-  object.primitives.resize(1);
-  object.primitives[0].type = shape_msgs::SolidPrimitive::BOX;
-  object.primitives[0].dimensions.assign(3, edge);
-  object.primitive_poses.resize(1);
-  object.primitive_poses[0].position.x = x;
-  object.primitive_poses[0].position.y = y;
-  object.primitive_poses[0].position.z = z;
-  object.primitive_poses[0].orientation.w = 1.0;
-  object.pose.orientation.w = 1.0;
-  object.operation = moveit_msgs::CollisionObject::ADD;
-  return object;
-}
-
-PlanningScenePtr readyScene()
-{
-  const auto scene = std::make_shared<PlanningScene>(makeArm());
-  scene->getCurrentStateNonConst().setToDefaultValues("manipulator", "ready");
-  return scene;
-}
-}  // namespace
+#include "scenes.hpp"
 
 // The format, and what stays, is that of upstream's saveGeometryToStream() and loadGeometryFromStream().
 TEST(Scene, objectsGoToATextAndBack)

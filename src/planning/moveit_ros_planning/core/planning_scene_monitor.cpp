@@ -6,6 +6,7 @@
 #include <optional>
 
 #include <moveit/utils/message_checks.h>
+#include <moveit/utils/xmlrpc_casts.h>
 
 #include "log_names.hpp"
 
@@ -19,11 +20,15 @@ using Value = XmlRpc::XmlRpcValue;
 // A number of the parameters; what is none is told, and left out.
 std::optional<double> number(const std::string& where, const Value& value)
 {
-  Value given = value;
-  if (given.getType() == Value::TypeInt)
-    return static_cast<int>(given);
-  if (given.getType() == Value::TypeDouble && std::isfinite(static_cast<double>(given)))
-    return static_cast<double>(given);
+  try
+  {
+    const double given = moveit::core::parseDouble(value);
+    if (std::isfinite(given))
+      return given;
+  }
+  catch (const XmlRpc::XmlRpcException&)
+  {
+  }
   ROS_WARN_NAMED(log_names::PLANNING_SCENE_MONITOR, "%s: ignored, a number is expected", where.c_str());
   return std::nullopt;
 }

@@ -62,6 +62,8 @@ Vector3d Collision::WorldLinearVel() const
 }
 Vector3d Collision::WorldAngularVel() const
 {
+  if (core_)
+    return ign(core_->link->w);
   const LinkPtr link = GetLink();
   return link ? link->WorldAngularVel() : Vector3d();
 }

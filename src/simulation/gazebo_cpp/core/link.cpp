@@ -153,8 +153,10 @@ Vector3d Link::WorldAngularVel() const { return ign(core_->w); }
 
 Vector3d Link::WorldWindLinearVel() const
 {
-  const WorldPtr& world = GetModel()->GetWorld();
-  if (!windy_ || !world->WindEnabled())
+  if (!windy_)
+    return {};
+  const WorldPtr world = GetModel()->GetWorld();
+  if (!world->WindEnabled())
     return {};
   if (const uint64_t step = world->Iterations(); step != wind_of_step_)
   {
