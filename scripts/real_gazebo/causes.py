@@ -53,7 +53,9 @@ SHARE = "which of several points bears how much is left open by the law; the sum
 FIRST = "of two boxes of one size, real Gazebo tells the other one first, and the mirror for compiled plugins the sensor's own; not mended"
 FORCE = "force z of the first point on the first body, N"
 IMU_ROWS = (*(f"{c} of m::l::s at 0.4 s" for c in ("qx", "qz", "wx", "wy", "wz", "ax", "ay", "az")), "wy of m::l::s at 0.7 s")
+DEEP = "real Gazebo reads the lower 8 of 16 bits, so that its ground is a saw; here all 16 count"
 BOTH = (
+    (DEEP, ("heightmap_deep", *(f"z of ball {i} at 3 s" for i in (1, 2, 3)))),
     (SHARE, ("contact_box", FORCE)),
     (FIRST, ("contact_two", "own collision named first (1) or second (2)", FORCE)),
     (NEARER, ("ray_room", "beam 15, m", "beam 18, m")),

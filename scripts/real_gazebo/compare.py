@@ -62,7 +62,9 @@ def run_ours(scene: Scene, solver: str) -> Record:
 def core_files() -> list[str]:
     import ode_sim
 
-    return [ode_sim._core.__file__, *glob.glob(os.path.join(os.path.dirname(ode_sim.__file__), "**", "*.py"), recursive=True)]
+    # A devel space has a stub for the package; its sources are further on in the path.
+    folders = dict.fromkeys([os.path.dirname(ode_sim.__file__), *ode_sim.__path__])
+    return [ode_sim._core.__file__, *(file for folder in folders for file in glob.glob(os.path.join(folder, "**", "*.py"), recursive=True))]
 
 
 def plugin_files() -> list[str]:

@@ -242,16 +242,16 @@ for label, physics, step, words in (
 # ---------------------------------------------------------------------------------------------------- heightmap
 
 
-def grey_png(rows) -> bytes:
-    """An 8-bit grey picture of these rows of bytes."""
+def grey_png(rows, bits=8, colours=1) -> bytes:
+    """A picture of these rows of values: grey ones of ``bits`` bits, or with ``colours=3`` red, green, blue in turn."""
 
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
-    raw = b"".join(b"\0" + bytes(row) for row in rows)
+    raw = b"".join(b"\0" + b"".join(value.to_bytes(bits // 8, "big") for value in row) for row in rows)
     return (
         b"\x89PNG\r\n\x1a\n"
-        + chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 0, 0, 0, 0))
+        + chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]) // colours, len(rows), bits, 2 if colours == 3 else 0, 0, 0, 0))
         + chunk(b"IDAT", zlib.compress(raw, 9))
         + chunk(b"IEND", b"")
     )
@@ -298,3 +298,36 @@ scene(
     2.2,
     files={"map.png": BOWL},
 )
+
+
+def shelves(*values, colours=1, bits=8):
+    """Flat ground of four parts along x, 2 m each, of these values or colours."""
+    row = [v for x in range(65) for v in (values[min(3, x // 16)] if colours == 3 else (values[min(3, x // 16)],))]
+    return grey_png([row] * 65, bits, colours)
+
+
+def balls_on_shelves(z):
+    return world(terrain(z), *(ball(f"b{i}", 0.1, 1, f"{x} 0 4 0 0 0", surface(1.0)) for i, x in enumerate((-3, -1, 1, 3))))
+
+
+for name, what, law, z, picture in (
+    ("dim", "a picture whose brightest pixel is 128 of 255", "Gazebo: the brightest pixel is <size> high, whatever it is", 2, shelves(0, 32, 64, 128)),
+    ("lifted", "a picture whose darkest pixel is 100 of 255", "Gazebo: black is 0, so that no part is", 2, shelves(100, 150, 200, 250)),
+    ("even", "a picture of one grey", "Gazebo: the brightest pixel is <size> high", 2, shelves(77, 77, 77, 77)),
+    ("black", "a black picture", "flat, at 0", 2, shelves(0, 0, 0, 0)),
+    ("sunk", "<size> with a negative z", "Gazebo: turned over, black is the highest", -2, shelves(0, 32, 64, 128)),
+    ("coloured", "a picture in colours", "Gazebo: blue counts", 2, shelves((200, 0, 0), (0, 200, 0), (0, 0, 200), (200, 200, 200), colours=3)),
+    ("tinted", "a picture whose brightest red is none of its brightest blue", "Gazebo: blue counts, and its brightest is <size> high", 2, shelves((250, 0, 0), (0, 0, 100), (0, 220, 200), (50, 50, 50), colours=3)),
+    ("deep", "a picture of 16 bits", "the brightest pixel is <size> high; Gazebo reads the lower 8 bits", 2, shelves(0, 8000, 30000, 60000, bits=16)),
+):
+    scene(
+        f"heightmap_{name}",
+        f"balls on four flat parts of a heightmap: {what}",
+        law,
+        balls_on_shelves(z),
+        tuple(
+            Row(f"z of ball {i} at 3 s", lambda r, i=i: r.at(f"model:b{i}", "z", 3.0), gazebo=(1e-3, 1e-3), default=(2e-3, 2e-3)) for i in range(4)
+        ),
+        3.0,
+        files={"map.png": picture},
+    )

@@ -53,7 +53,7 @@ def test_a_row_of_pixels_is_no_ground(tmp_path, size):
 
 
 def terrain(folder, grey, size, pose):
-    """A world of a map of these grey values (rows, columns), and its triangles (n, 3, 3) in it: each cell has two, on either side of the
+    """A world of a map of these grey values (rows, columns), the highest of which is ``size[2]`` high, and its triangles (n, 3, 3): each cell has two, on either side of the
     diagonal from its right end in the upper row to its left end in the lower, as in ODE's heightfield.cpp."""
     from PIL import Image
 
@@ -63,7 +63,7 @@ def terrain(folder, grey, size, pose):
     world.spawn(Model("ground", pose, (Link("l", collisions=(Collision("c", Pose(), shape),)),), static=True))
     rows, columns = grey.shape
     y, x = np.meshgrid(np.linspace(size[1] / 2, -size[1] / 2, rows), np.linspace(-size[0] / 2, size[0] / 2, columns), indexing="ij")
-    points = np.stack([x, y, grey / 65535.0 * size[2]], axis=-1)
+    points = np.stack([x, y, grey / max(1, grey.max()) * size[2]], axis=-1)
     a, b, c, d = points[:-1, :-1], points[:-1, 1:], points[1:, :-1], points[1:, 1:]
     triangles = np.concatenate([np.stack(three, axis=2).reshape(-1, 3, 3) for three in ((a, b, c), (d, c, b))])
     return world, triangles @ rotation(pose).T + pose.p
@@ -103,7 +103,7 @@ def test_rays_meet_the_triangles_from_above_and_below(tmp_path, pose):
 def test_rays_along_the_lines_of_the_grid(tmp_path):
     """Upright, along a row, along a column, along a diagonal, on the border, beside it, along a flat, below all of it."""
     ramp = np.add.outer(np.arange(5), np.zeros(5)) * 10000
-    world, triangles = terrain(tmp_path, ramp, (4.0, 4.0, 6.5535), Pose())  # 1 m a row, down towards +y
+    world, triangles = terrain(tmp_path, ramp, (4.0, 4.0, 4.0), Pose())  # 1 m a row, down towards +y
     for origin, direction, distance in (
         ((0, 0, 9), (0, 0, -1), 7.0),
         ((1, 1, 9), (0, 0, -1), 8.0),

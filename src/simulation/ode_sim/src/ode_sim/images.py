@@ -26,13 +26,17 @@ def read_rgba(path: str, most: int = MOST_PIXELS) -> np.ndarray:
     return _pixels(path, lambda mode: "RGBA", most)
 
 
-def read_grey(path: str, most: int = MOST_PIXELS) -> np.ndarray:
+def read_relief(path: str, most: int = MOST_PIXELS) -> np.ndarray:
     """(H, W) float64 of the file ``path`` from 0 (black) to 1, first row at the top; of 16 bits where the file has them.
+
+    Of a picture in colours, blue is what counts, as in Gazebo (``scripts/truth compare heightmap_tinted``).
 
     :param most: as for :func:`read_rgba`.
     :raises DescriptionError: as :func:`read_rgba`.
     """
-    pixels = _pixels(path, lambda mode: "I" if mode.startswith("I") else "L", most)
+    pixels = _pixels(path, lambda mode: "I" if mode.startswith("I") else "L" if mode in ("1", "L", "LA") else "RGB", most)
+    if pixels.ndim == 3:
+        pixels = pixels[..., 2]
     return np.clip(pixels / (255.0 if pixels.dtype == np.uint8 else 65535.0), 0.0, 1.0)
 
 

@@ -62,10 +62,12 @@ class SdfShapes(SdfValues):
             return self._mesh(shape)
         if shape.tag == "heightmap":
             uri = text_of(shape.find("uri"))
+            x, y, z = self.vector(shape, "size", (1.0, 1.0, 1.0))
+            self._sizes(shape, (x, y, abs(z)))
             return Heightmap(
                 self._file(shape, uri),
                 uri,
-                self._sizes(shape, self.vector(shape, "size", (1.0, 1.0, 1.0))),
+                (x, y, z),
                 self.vector(shape, "pos", (0.0, 0.0, 0.0), most=FARTHEST),
                 self.whole(shape, "sampling", 2, 0, 1000),
             )
