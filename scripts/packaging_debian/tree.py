@@ -207,7 +207,12 @@ def not_installed(sources: Path, tree: Path) -> list[str]:
             if len(inside.parts) == 1:
                 if path.suffix not in (".xml", ".yaml", ".launch"):
                     continue
-            elif inside.parts[0] in _NOT_INSTALLED or inside.parts[0].startswith(".") or path.suffix == ".pyc" or path.name == "README.md":
+            elif (
+                inside.parts[0] in _NOT_INSTALLED
+                or inside.parts[0].startswith(".")
+                or path.parent.name == "__pycache__"
+                or path.name == "README.md"
+            ):
                 continue
             elif inside.parts[0] == "src":
                 places = [tree / "lib/python3/dist-packages" / inside.relative_to("src")]

@@ -12,6 +12,7 @@
 #include <gazebo/common/common.hh>
 #include <gazebo/gazebo.hh>
 #include <gazebo/physics/physics.hh>
+#include <gazebo/transport/transport.hh>
 
 struct Deed
 {
@@ -170,6 +171,20 @@ public:
         if (auto link = Link(deed.on))
           link->SetKinematic(v[0] > 0);
       }
+      else if (deed.kind == "vel_cmd")
+      {  // x, yaw, as the drives of Gazebo itself are told
+        if (!node_)
+        {
+          node_.reset(new gazebo::transport::Node);
+          node_->Init(world_->Name());
+        }
+        gazebo::msgs::Pose command;
+        gazebo::msgs::Set(&command, ignition::math::Pose3d(v[0], 0, 0, 0, 0, v[1]));
+        commands_ = node_->Advertise<gazebo::msgs::Pose>("~/" + deed.on + "/vel_cmd");
+        WaitFor([&] { return commands_->HasConnections(); });
+        commands_->Publish(command, true);
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      }
       else if (deed.kind == "spawn")
       {
         std::ifstream file(deed.on);
@@ -196,6 +211,8 @@ private:
   }
 
   gazebo::physics::WorldPtr world_;
+  gazebo::transport::NodePtr node_;
+  gazebo::transport::PublisherPtr commands_;
   std::vector<Deed> deeds_;
   long steps_ = 0;
 };

@@ -121,6 +121,9 @@ private:
           WriteMotion("link", Short(link->GetScopedName()), link);
       for (const auto& joint : model->GetJoints())
         WriteJoint(model, joint);
+      for (const auto& link : model->GetLinks())
+        for (std::size_t i = 0; i < link->BatteryCount(); ++i)
+          Row("battery", Short(link->GetScopedName()) + "::" + link->Battery(i)->Name(), { link->Battery(i)->Voltage() });
     }
     for (const auto& inner : model->NestedModels())
       WriteModel(inner);

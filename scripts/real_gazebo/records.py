@@ -118,6 +118,10 @@ class Record:
         rows = self.series[f"joint{axis or ''}:{joint}"]
         return float(np.interp(time, rows[:, 0], rows[:, 2]))
 
+    def voltage(self, battery: str, time: float) -> float:
+        rows = self.series[f"battery:{battery}"]
+        return float(np.interp(time, rows[:, 0], rows[:, 1]))
+
     def angles(self, joint: str, axis: int = 0) -> np.ndarray:
         return self.series[f"joint{axis or ''}:{joint}"][:, 1]
 

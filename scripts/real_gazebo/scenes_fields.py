@@ -311,14 +311,38 @@ def balls_on_shelves(z):
 
 
 for name, what, law, z, picture in (
-    ("dim", "a picture whose brightest pixel is 128 of 255", "Gazebo: the brightest pixel is <size> high, whatever it is", 2, shelves(0, 32, 64, 128)),
+    (
+        "dim",
+        "a picture whose brightest pixel is 128 of 255",
+        "Gazebo: the brightest pixel is <size> high, whatever it is",
+        2,
+        shelves(0, 32, 64, 128),
+    ),
     ("lifted", "a picture whose darkest pixel is 100 of 255", "Gazebo: black is 0, so that no part is", 2, shelves(100, 150, 200, 250)),
     ("even", "a picture of one grey", "Gazebo: the brightest pixel is <size> high", 2, shelves(77, 77, 77, 77)),
     ("black", "a black picture", "flat, at 0", 2, shelves(0, 0, 0, 0)),
     ("sunk", "<size> with a negative z", "Gazebo: turned over, black is the highest", -2, shelves(0, 32, 64, 128)),
-    ("coloured", "a picture in colours", "Gazebo: blue counts", 2, shelves((200, 0, 0), (0, 200, 0), (0, 0, 200), (200, 200, 200), colours=3)),
-    ("tinted", "a picture whose brightest red is none of its brightest blue", "Gazebo: blue counts, and its brightest is <size> high", 2, shelves((250, 0, 0), (0, 0, 100), (0, 220, 200), (50, 50, 50), colours=3)),
-    ("deep", "a picture of 16 bits", "the brightest pixel is <size> high; Gazebo reads the lower 8 bits", 2, shelves(0, 8000, 30000, 60000, bits=16)),
+    (
+        "coloured",
+        "a picture in colours",
+        "Gazebo: blue counts",
+        2,
+        shelves((200, 0, 0), (0, 200, 0), (0, 0, 200), (200, 200, 200), colours=3),
+    ),
+    (
+        "tinted",
+        "a picture whose brightest red is none of its brightest blue",
+        "Gazebo: blue counts, and its brightest is <size> high",
+        2,
+        shelves((250, 0, 0), (0, 0, 100), (0, 220, 200), (50, 50, 50), colours=3),
+    ),
+    (
+        "deep",
+        "a picture of 16 bits",
+        "the brightest pixel is <size> high; Gazebo reads the lower 8 bits",
+        2,
+        shelves(0, 8000, 30000, 60000, bits=16),
+    ),
 ):
     scene(
         f"heightmap_{name}",
@@ -326,7 +350,8 @@ for name, what, law, z, picture in (
         law,
         balls_on_shelves(z),
         tuple(
-            Row(f"z of ball {i} at 3 s", lambda r, i=i: r.at(f"model:b{i}", "z", 3.0), gazebo=(1e-3, 1e-3), default=(2e-3, 2e-3)) for i in range(4)
+            Row(f"z of ball {i} at 3 s", lambda r, i=i: r.at(f"model:b{i}", "z", 3.0), gazebo=(1e-3, 1e-3), default=(2e-3, 2e-3))
+            for i in range(4)
         ),
         3.0,
         files={"map.png": picture},

@@ -1,9 +1,12 @@
-"""Plugins that come with Gazebo itself: lift and drag, buoyancy, wind, first velocities."""
+"""Plugins that come with Gazebo itself: lift and drag, buoyancy, wind, first velocities, batteries, motors, drives."""
 
 from __future__ import annotations
 
-from real_gazebo.scene import Row, Scene, add
-from real_gazebo.sdf import box, collision, inertial, joint, link, model, sphere, world
+import math
+
+from real_gazebo.scene import Deed, Row, Scene, add
+from real_gazebo.scenes_robots import differential, skid, turned
+from real_gazebo.sdf import axis, box, collision, ground, inertial, joint, link, model, sphere, world
 
 NEAR = (1e-4, 1e-5)
 
@@ -22,8 +25,8 @@ def rows(body: str, *wanted, default=NEAR):
     )
 
 
-def scene(name: str, what: str, law: str, text: str, measured, seconds: float = 1.0) -> Scene:
-    return add(Scene(name, "plugins", what, law, text, measured, seconds, 0.05, server=True))
+def scene(name: str, what: str, law: str, text: str, measured, seconds: float = 1.0, deeds=()) -> Scene:
+    return add(Scene(name, "plugins", what, law, text, measured, seconds, 0.05, deeds, server=True))
 
 
 def wing(name: str, elements: str, first: str, pose: str, more: str = "", centre: str = "0.05 0 0.02 0 0 0") -> str:
@@ -180,4 +183,110 @@ scene(
         )
     ),
     rows("b", ("x", 0.5), ("y", 0.5), ("z", 0.5), ("qz", 0.5)),
+)
+
+
+def within(text: str, robot: str) -> str:
+    """A model with one more element."""
+    return robot.replace("</model>", text + "</model>")
+
+
+scene(
+    "drive_plugin",
+    "DiffDrivePlugin: vel_cmd of 0.2 m/s and a yaw of 0.3",
+    "the wheels' distance and the largest side of a wheel decide; a positive yaw turns to the right",
+    world(
+        ground(),
+        within(plugin("DiffDrive", "<left_joint>left_joint</left_joint><right_joint>right_joint</right_joint>"), differential("cylinder")),
+    ),
+    (
+        Row(
+            "way from 1 to 4 s, m", lambda r: r.way("model:r", 1, 4), law=4 / 3 * math.sin(0.45), gazebo=(1e-3, 1e-4), default=(0.01, 1e-3)
+        ),
+        turned(law=-0.9),
+    ),
+    4.2,
+    (Deed("vel_cmd", "r", "0.2 0.3", 0.2),),
+)
+skid_names = skid("sphere")
+for side in ("left", "right"):
+    for end in ("front", "rear"):
+        skid_names = skid_names.replace(f"'{side}{end}_joint'", f"'{side}_{end}'")
+scene(
+    "skid_plugin",
+    "SkidSteerDrivePlugin: vel_cmd of 0.2 m/s and a yaw of 0.15",
+    "the joints get their speeds once: what follows is friction and inertia",
+    world(ground(), within(plugin("SkidSteerDrive"), skid_names), gravity="0 0 0"),
+    tuple(
+        Row(f"rate of {name} at {t:g} s, rad/s", lambda r, name=name, t=t: r.rate(f"r::{name}", t), gazebo=NEAR, default=NEAR)
+        for name in ("left_front", "left_rear", "right_front", "right_rear")
+        for t in (0.1, 0.5)
+    ),
+    1.0,
+    (Deed("vel_cmd", "r", "0.2 0.15", 0.2),),
+)
+BATTERY = (
+    "<link_name>l</link_name><battery_name>b</battery_name><open_circuit_voltage_constant_coef>12.694</open_circuit_voltage_constant_coef>"
+    "<open_circuit_voltage_linear_coef>-3.1424</open_circuit_voltage_linear_coef><initial_charge>0.0110</initial_charge>"
+    "<capacity>0.0120</capacity><resistance>0.061523</resistance><smooth_current_tau>1.9499</smooth_current_tau>"
+)
+CONSUMER = "<link_name>l</link_name><battery_name>b</battery_name><power_load>{}</power_load>"
+powered = link("l", inertial(1, 0.1), "<gravity>0</gravity><battery name='b'><voltage>12.592</voltage></battery>")
+scene(
+    "battery_linear",
+    "LinearBatteryPlugin with two consumers of 6.6 and 20 W; a battery that nobody empties",
+    "u = e0 + e1 (1 - q / c) - r i",
+    world(
+        model(
+            "m",
+            powered,
+            plugin("LinearBattery", BATTERY),
+            plugin("LinearBatteryConsumer", CONSUMER.format(6.6)),
+            plugin("LinearBatteryConsumer", CONSUMER.format(20)),
+        ),
+        model("n", powered, pose="5 0 0 0 0 0"),
+    ),
+    tuple(
+        Row(f"voltage of {m} at {t:g} s, V", lambda r, m=m, t=t: r.voltage(f"{m}::l::b", t), gazebo=NEAR, default=NEAR)
+        for m, t in (("m", 0.1), ("m", 1.0), ("m", 5.0), ("m", 12.0), ("n", 5.0))
+    ),
+    12.5,
+)
+
+
+def motor(name: str, kind: str, elements: str) -> str:
+    told = f"<actuator><name>{name}</name><joint>j</joint><index>0</index><type>{kind}</type>{elements}</actuator>"
+    return model(
+        name,
+        link("a", inertial(1, 0.1)),
+        link("w", inertial(1, 0.1)),
+        joint("fixed", "fixed", "world", "a"),
+        joint("j", "revolute", "a", "w", axis("0 0 1")),
+        plugin("Actuator", told),
+        pose=f"0 {len(name)} 1 0 0 0",
+    )
+
+
+MOTORS = ("electric", "limiter", "none", "unlike_any")
+scene(
+    "actuator",
+    "ActuatorPlugin: joints pushed with 3 N m, of motors of each kind",
+    "the limit of the effort is what the speed leaves of the power",
+    world(
+        motor("electric", "electric_motor", "<power>2</power><max_velocity>3</max_velocity><max_torque>1</max_torque>"),
+        motor("limiter", "velocity_limiter", "<max_velocity>3</max_velocity><max_torque>0.1</max_torque>"),
+        motor("none", "null", ""),
+        motor("unlike_any", "steam", "<max_torque>1</max_torque>"),
+    ),
+    tuple(
+        Row(
+            f"rate of {name} at {t:g} s, rad/s",
+            lambda r, name=name, t=t: r.rate(f"{name}::j", t),
+            gazebo=(1e-3, 1e-4),
+            default=(1e-3, 1e-4),
+        )
+        for name in MOTORS
+        for t in (0.1, 0.3, 0.6, 1.0)
+    ),
+    deeds=tuple(Deed("effort", f"{name}::j", "3") for name in MOTORS),
 )

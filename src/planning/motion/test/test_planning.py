@@ -267,17 +267,19 @@ def test_a_range_that_was_asked_for_is_kept(scene, model, wanted):
         assert steps.max() <= wanted * (1 + 1e-9)
 
 
+@pytest.mark.slow
 def test_without_a_range_steps_become_shorter_where_it_is_narrow(scene, model):
-    """At first a fifth of the space, as OMPL has it; what that does not reach, shorter ones do."""
+    """At first a fifth of the space, as OMPL has it; what that does not reach, shorter ones do. Single searches differ by a hundred times,
+    so that sums over few of them say nothing: the middle one of sixty counts."""
     fifth = str(0.2 * np.diff(model.group("arm").position_limits(), axis=0).sum())
     for seed in (1, 2, 3):
         easy = [searched(scene, model, seed, **params) for params in ({}, {"range": "0"}, {"range": fifth})]
         assert easy[0].states == easy[1].states == easy[2].states < 2000
     narrow = caged(model)
-    seeds = range(1, 13)
-    assert sum(searched(narrow, model, seed).states for seed in seeds) < 0.8 * sum(
-        searched(narrow, model, seed, range=fifth).states for seed in seeds
+    shorter, always = (
+        np.median([searched(narrow, model, seed, **params).states for seed in range(60)]) for params in ({}, {"range": fifth})
     )
+    assert shorter < 0.9 * always
 
 
 @pytest.mark.slow

@@ -1,4 +1,4 @@
-// Collision, shapes, surfaces, contacts.
+// Collision, surfaces, contacts.
 #include <gazebo/physics/physics.hh>
 
 #include <algorithm>
@@ -144,69 +144,6 @@ void FrictionPyramid::SetUsePatchRadius(bool use)
 {
   core_->surface.use_patch_radius = use;
   core_->link->model->changed = true;
-}
-
-// -- shapes -------------------------------------------------------------------------------------------------------------------------
-
-void BoxShape::SetSize(const Vector3d& size)
-{
-  const auto core = collision_->Core();
-  change(collision_->GetScopedName(), [&] {
-    const ode_sim::OdeScope scope;
-    for (double side : { size.X(), size.Y(), size.Z() })
-      ode_sim::checked_size(side, "a side of a box");
-    if (ode_sim::World* world = core ? world_of(core->link->model) : nullptr)
-      world->disturb(*core->link->model), core->link->model->changed = true;  // what touches the old size, and the new one
-    if (core && core->geom)
-      dGeomBoxSetLengths(core->geom, size.X(), size.Y(), size.Z());
-    size_ = size;
-  });
-}
-
-Shape::Shape(CollisionPtr parent, EntityType type) : Base(parent)
-{
-  AddType(SHAPE);
-  AddType(type);
-}
-
-void RayShape::GlobalPoints(Vector3d& start, Vector3d& end)
-{
-  const Pose3d pose = collisionParent ? collisionParent->WorldPose() : Pose3d();
-  start = pose.CoordPositionAdd(relativeStartPos), end = pose.CoordPositionAdd(relativeEndPos);
-}
-
-void RayShape::SetPoints(const Vector3d& start, const Vector3d& end)
-{
-  relativeStartPos = start, relativeEndPos = end;
-  GlobalPoints(globalStartPos, globalEndPos);
-}
-
-void RayShape::Update()
-{
-  double distance;
-  std::string entity;
-  GetIntersection(distance, entity);
-}
-
-void RayShape::GetIntersection(double& distance, std::string& entity)
-{
-  GlobalPoints(globalStartPos, globalEndPos);
-  const Vector3d &start = globalStartPos, way = globalEndPos - start;
-  const double origin[3] = { start.X(), start.Y(), start.Z() }, direction[3] = { way.X(), way.Y(), way.Z() };
-  double range = 0;
-  int32_t hit = -1;
-  const WorldPtr world = Mirror::Get().GetWorld();
-  if (world && way.IsFinite())
-  {
-    const boost::recursive_mutex::scoped_lock lock(step_mutex());
-    ode_sim::cast_rays(world->Core()->scene(), origin, direction, 1, way.Length(), {}, &range, &hit);
-  }
-  const Collision* found = hit >= 0 ? collision_of(hit) : nullptr;
-  distance = found ? range : 1000;
-  contactLen = distance;
-  contactRetro = found ? found->GetLaserRetro() : 0;
-  entity = found ? found->GetScopedName() : "";
-  SetCollisionName(entity);
 }
 
 // -- contacts -----------------------------------------------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 #pragma once
 #include <exception>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include <boost/thread/recursive_mutex.hpp>
@@ -34,6 +35,12 @@ void change(const std::string& who, const std::function<void()>& f);
 
 /// The world of a model of the core; null when it has been removed.
 inline ode_sim::World* world_of(const ode_sim::Model* model) { return model ? model->world : nullptr; }
+
+/// An axis of a joint; null where it has none of that number, or a plugin has made it.
+inline ode_sim::Axis* axis_of(const std::shared_ptr<ode_sim::Joint>& core, unsigned int index)
+{
+  return core && index < static_cast<unsigned int>(core->axis_count) ? &core->axes[index] : nullptr;
+}
 
 }  // namespace physics
 }  // namespace gazebo

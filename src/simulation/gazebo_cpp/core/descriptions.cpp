@@ -11,38 +11,6 @@ namespace physics
 namespace
 {
 
-void fill(const Shape& shape, msgs::Geometry& message)
-{
-  if (const auto* box = dynamic_cast<const BoxShape*>(&shape))
-  {
-    message.set_type(msgs::Geometry::BOX);
-    msgs::Set(message.mutable_box()->mutable_size(), box->Size());
-  }
-  else if (const auto* sphere = dynamic_cast<const SphereShape*>(&shape))
-  {
-    message.set_type(msgs::Geometry::SPHERE);
-    message.mutable_sphere()->set_radius(sphere->GetRadius());
-  }
-  else if (const auto* cylinder = dynamic_cast<const CylinderShape*>(&shape))
-  {
-    message.set_type(msgs::Geometry::CYLINDER);
-    message.mutable_cylinder()->set_radius(cylinder->GetRadius());
-    message.mutable_cylinder()->set_length(cylinder->GetLength());
-  }
-  else if (const auto* plane = dynamic_cast<const PlaneShape*>(&shape))
-  {
-    message.set_type(msgs::Geometry::PLANE);
-    msgs::Set(message.mutable_plane()->mutable_normal(), plane->Normal());
-    msgs::Set(message.mutable_plane()->mutable_size(), plane->Size());
-  }
-  else if (const auto* mesh = dynamic_cast<const MeshShape*>(&shape))
-  {
-    message.set_type(msgs::Geometry::MESH);
-    message.mutable_mesh()->set_filename(mesh->GetMeshURI());
-    msgs::Set(message.mutable_mesh()->mutable_scale(), mesh->Size());
-  }
-}
-
 msgs::Joint::Type type_of(const Joint& joint)
 {
   const std::pair<Base::EntityType, msgs::Joint::Type> types[] = {
@@ -66,7 +34,7 @@ void Collision::FillMsg(msgs::Collision& message)
   message.set_laser_retro(GetLaserRetro());
   msgs::Set(message.mutable_pose(), RelativePose());
   if (shape_)
-    fill(*shape_, *message.mutable_geometry());
+    shape_->FillMsg(*message.mutable_geometry());
 }
 
 void Link::FillMsg(msgs::Link& message)

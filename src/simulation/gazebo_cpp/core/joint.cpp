@@ -25,11 +25,6 @@ namespace
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-ode_sim::Axis* axis_of(const std::shared_ptr<ode_sim::Joint>& core, unsigned int index)
-{
-  return core && index < static_cast<unsigned int>(core->axis_count) ? &core->axes[index] : nullptr;
-}
-
 /// As descriptions write "none".
 double written(double limit) { return std::isinf(limit) ? std::copysign(1e16, limit) : limit; }
 double read(double limit) { return std::abs(limit) >= ode_sim::kUnlimited ? std::copysign(ode_sim::kInf, limit) : limit; }
@@ -434,50 +429,6 @@ void Joint::SetUpperLimit(unsigned int index, double limit)
   }
   else if (auto* axis = axis_of(core_, index))
     axis->upper = std::max(read(limit), axis->lower), core_->model->dirty = true;
-}
-
-// -- geometry -----------------------------------------------------------------------------------------------------------------------
-
-void Joint::SetAxis(unsigned int index, const Vector3d& direction)
-{
-  auto* axis = axis_of(core_, index);
-  if (!axis || !(direction.Length() > 1e-9) || !direction.IsFinite())
-    return;
-  const auto model = boost::dynamic_pointer_cast<Model>(GetParent() ? GetParent() : BasePtr());
-  const Vector3d world = model ? model->WorldPose().Rot().RotateVector(direction) : direction;
-  axis->xyz = ode(ParentWorldPose().Rot().RotateVectorReverse(world.Normalized()));
-  core_->model->dirty = true;
-}
-
-Vector3d Joint::LocalAxis(unsigned int index) const
-{
-  const auto* axis = axis_of(core_, index);
-  return axis ? ign(axis->xyz) : Vector3d();
-}
-
-// The first axis goes with the parent, the second with the child.
-Vector3d Joint::GlobalAxis(unsigned int index) const
-{
-  const auto* axis = axis_of(core_, index);
-  return axis ? ign(rotate(index == 0 ? core_->frame_W().q : core_->child_frame_W().q, axis->xyz)) : Vector3d();
-}
-
-Vector3d Joint::Anchor(unsigned int) const { return WorldPose().Pos(); }
-
-Pose3d Joint::InitialAnchorPose() const { return core_ ? ign(core_->X_CJ) : Pose3d(); }
-Pose3d Joint::WorldPose() const
-{
-  return core_ ? ign(core_->child->X_WL * core_->X_CJ) : child_ ? child_->WorldPose() : Pose3d();
-}
-Pose3d Joint::ParentWorldPose() const { return core_ ? ign(core_->frame_W()) : WorldPose(); }
-
-double Joint::GetInertiaRatio(unsigned int index) const
-{
-  const Vector3d axis = GlobalAxis(index);
-  if (!parent_ || !child_)
-    return 0.0;
-  const double child = axis.Dot(child_->WorldInertiaMatrix() * axis);
-  return child > 0 ? axis.Dot(parent_->WorldInertiaMatrix() * axis) / child : 0.0;
 }
 
 }  // namespace physics

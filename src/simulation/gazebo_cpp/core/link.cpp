@@ -1,6 +1,8 @@
 // Link.
 #include <gazebo/physics/physics.hh>
 
+#include <algorithm>
+
 #include <limits.hpp>
 
 #include "mirror.hpp"
@@ -272,6 +274,18 @@ CollisionPtr Link::GetCollision(const std::string& name)
     if (collision->GetName() == name || collision->GetScopedName() == name)
       return collision;
   return CollisionPtr();
+}
+
+common::BatteryPtr Link::Battery(const std::string& name) const
+{
+  const auto found = std::find_if(batteries_.begin(), batteries_.end(),
+                                  [&name](const common::BatteryPtr& battery) { return battery->Name() == name; });
+  return found == batteries_.end() ? common::BatteryPtr() : *found;
+}
+
+common::BatteryPtr Link::Battery(std::size_t index) const
+{
+  return index < batteries_.size() ? batteries_[index] : common::BatteryPtr();
 }
 
 CollisionPtr Link::GetCollision(unsigned int index) const

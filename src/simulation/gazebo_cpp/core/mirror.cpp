@@ -164,12 +164,15 @@ ShapePtr make_shape(const CollisionPtr& collision, const CollisionRecord& r)
   if (r.kind == "cylinder" || r.kind == "capsule")
     return ShapePtr(new CylinderShape(collision, n(0), n(1)));
   if (r.kind == "plane")
-    return ShapePtr(new PlaneShape(collision, { n(0), n(1), n(2) }));
+    return ShapePtr(new PlaneShape(collision, { n(0), n(1), n(2) }, { n(3), n(4) }));
   if (r.kind == "mesh")
     return ShapePtr(new MeshShape(collision, r.uri, { n(0), n(1), n(2) }));
   if (r.kind == "heightmap")
-    return ShapePtr(new HeightmapShape(collision));
-  return ShapePtr(new Shape(collision, Base::POLYLINE_SHAPE));
+    return ShapePtr(new HeightmapShape(collision, r.uri, { n(0), n(1), n(2) }, { n(3), n(4), n(5) }, static_cast<int>(n(6))));
+  std::vector<ignition::math::Vector2d> corners;
+  for (std::size_t i = 1; i + 1 < r.numbers.size(); i += 2)
+    corners.emplace_back(n(i), n(i + 1));
+  return ShapePtr(new PolylineShape(collision, n(0), corners));
 }
 
 Base::EntityType type_of(const std::string& type)
@@ -268,6 +271,18 @@ void Mirror::readWindModes(Model& model)
     }
 }
 
+void Mirror::readBatteries(Model& model)
+{
+  for (auto each = inside(model.GetSDF(), "link"); each; each = each->GetNextElement("link"))
+    if (const LinkPtr link = model.GetLink(each->Get<std::string>("name")))
+      for (auto battery = inside(each, "battery"); battery; battery = battery->GetNextElement("battery"))
+      {
+        link->batteries_.push_back(std::make_shared<common::Battery>());
+        link->batteries_.back()->Load(battery);
+        batteries_.push_back(link->batteries_.back());
+      }
+}
+
 void Mirror::Add(const ModelRecord& record)
 {
   const boost::shared_ptr<Actor> actor(record.actor ? new Actor(BasePtr()) : nullptr);
@@ -291,6 +306,8 @@ void Mirror::Add(const ModelRecord& record)
   model->SetInitialRelativePose(ign(record.X_WM));
   if (model->text_.find("<enable_wind") != std::string::npos)
     readWindModes(*model);
+  if (record.text.find("<battery") != std::string::npos)
+    readBatteries(*model);
   {
     const std::lock_guard<std::mutex> lock(world_->models_mutex_);
     world_->models_.push_back(model);
@@ -316,8 +333,12 @@ void Mirror::Remove(const std::string& name)
     models.erase(std::find(models.begin(), models.end(), model));
   }
   for (const LinkPtr& link : model->links_)
+  {
     for (const CollisionPtr& collision : link->collisions_)
       number_collision(collision->core_->id, nullptr);
+    for (const common::BatteryPtr& battery : link->batteries_)
+      batteries_.erase(std::find(batteries_.begin(), batteries_.end(), battery));
+  }
   const WorldLock::Without unlocked;
   event::Events::deleteEntity(name);
 }
@@ -362,6 +383,8 @@ void Mirror::before(int64_t time_ns)
   for (const ModelPtr& model : world_->models_)
     if (model->controller_)
       model->controller_->Update();
+  for (const common::BatteryPtr& battery : batteries_)
+    battery->Update();
   event::Events::beforePhysicsUpdate(info);
   frozen_.reset(new boost::recursive_mutex::scoped_lock(step_mutex()));
 }

@@ -57,7 +57,7 @@ struct Host
   std::function<void(const std::string&, const std::vector<double>&)> insert;  // SDF of a model; x y z qx qy qz qw, or nothing
   std::function<void(const std::string&, const std::string&, const std::string&)> plugin;  // of the world: file, name, <plugin>
   std::function<void(const std::string&)> remove;                                          // name of a model
-  std::function<void(const std::string&)> order;              // pause, unpause, reset, reset_poses, reset_time
+  std::function<void(const std::string&)> order;              // pause, unpause, reset, reset_poses, reset_time [ns]
   std::function<void(unsigned int)> step;                     // so many steps, while paused
   std::function<void(const std::string&, double)> parameter;  // of Physics
   /// Draws a picture of now: number of the camera, model::link::sensor, which of its cameras, how it looks, what is wanted; false: left out.
@@ -114,15 +114,18 @@ public:
   void before(int64_t time_ns) override;
   void after(int64_t time_ns) override;
   int64_t Now() const { return now_ns_; }
+  void SetNow(int64_t time_ns) { last_ns_ += time_ns - now_ns_, now_ns_ = time_ns; }  // until the end of this step
   void Watch(const LinkPtr& link);
 
 private:
   void addLink(Model& model, const LinkRecord& record);
   void readWindModes(Model& model);
+  void readBatteries(Model& model);
   void addJoint(Model& model, const JointRecord& record);
   void accelerations();
   WorldPtr world_;
   std::atomic<int64_t> now_ns_{ 0 };
+  std::vector<common::BatteryPtr> batteries_;
   int64_t last_ns_ = 0;
   std::vector<boost::weak_ptr<Link>> watched_;
   Topics* topics_ = nullptr;  // as long as the process

@@ -77,7 +77,8 @@ void MultiRayShape::Init()
   if (fan_ || !scanElem)
     return;
   offset = collisionParent ? collisionParent->RelativePose() : Pose3d();
-  for (const ode_sim::Vec3& direction : ode_sim::RayFan(law(horizontal_), law(vertical_), min_, max_).directions())
+  const ode_sim::RayFan fan(law(horizontal_), law(vertical_), min_, max_);
+  for (const ode_sim::Vec3& direction : fan.directions())
   {
     const Vector3d axis = offset.Rot() * ign(direction);
     AddRay(axis * min_ + offset.Pos(), axis * max_ + offset.Pos());

@@ -4,6 +4,7 @@
 #include <gazebo/physics/ode/ODEMultiRayShape.hh>
 #include <gazebo/physics/physics.hh>
 
+#include <cmath>
 #include <iostream>
 
 #include <limits.hpp>
@@ -51,6 +52,46 @@ Vector3d Wind::WorldLinearVel(const Entity* entity) const { return function_ ? f
 Vector3d Wind::RelativeLinearVel(const Entity* entity) const
 {
   return entity->WorldPose().Rot().RotateVectorReverse(WorldLinearVel(entity));
+}
+
+class Atmosphere& World::Atmosphere() const
+{
+  if (!atmosphere_)
+    atmosphere_.reset(
+        new AdiabaticAtmosphere(*const_cast<World*>(this), text_.find("<atmosphere") == std::string::npos
+                                                               ? sdf::ElementPtr()
+                                                               : inside(const_cast<World*>(this)->SDF(), "atmosphere")));
+  return *atmosphere_;
+}
+
+// The standard atmosphere of ISO 2533 below 11 km, with the world's own gravity.
+const double Atmosphere::MOLAR_MASS = 0.0289644;            // kg/mol
+const double Atmosphere::IDEAL_GAS_CONSTANT_R = 8.3144621;  // J/(mol K)
+
+Atmosphere::Atmosphere(class World& world, const sdf::ElementPtr& sdf) : world_(world)
+{
+  const auto number = [&sdf](const char* tag, double& value) {
+    if (inside(sdf, tag))
+      value = sdf->Get<double>(tag);
+  };
+  number("temperature", temperature_);
+  number("temperature_gradient", gradient_);
+  number("pressure", pressure_);
+}
+
+double Atmosphere::Temperature(double altitude) const { return temperature_ + gradient_ * altitude; }
+
+double Atmosphere::Pressure(double altitude) const
+{
+  const double exponent = world_.Gravity().Length() * MOLAR_MASS / IDEAL_GAS_CONSTANT_R;
+  if (gradient_ == 0)
+    return pressure_ * std::exp(-exponent * altitude / temperature_);
+  return pressure_ * std::pow(Temperature(altitude) / temperature_, -exponent / gradient_);
+}
+
+double Atmosphere::MassDensity(double altitude) const
+{
+  return Pressure(altitude) * MOLAR_MASS / (IDEAL_GAS_CONSTANT_R * Temperature(altitude));
 }
 
 Vector3d World::Gravity() const { return ign(core_->settings().gravity); }
@@ -164,6 +205,12 @@ void order(const char* what)
 
 void World::Reset() { order("reset"); }
 void World::ResetTime() { order("reset_time"); }
+void World::SetSimTime(const common::Time& time)
+{
+  const int64_t ns = static_cast<int64_t>(time.sec) * 1000000000 + time.nsec;
+  Mirror::Get().SetNow(ns);  // who asks in this step is told so already
+  order(("reset_time " + std::to_string(ns)).c_str());
+}
 void World::ResetEntities(Base::EntityType) { order("reset_poses"); }
 
 void World::ResetPhysicsStates()

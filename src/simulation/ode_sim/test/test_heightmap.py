@@ -53,8 +53,11 @@ def test_a_row_of_pixels_is_no_ground(tmp_path, size):
 
 
 def terrain(folder, grey, size, pose):
-    """A world of a map of these grey values (rows, columns), the highest of which is ``size[2]`` high, and its triangles (n, 3, 3): each cell has two, on either side of the
-    diagonal from its right end in the upper row to its left end in the lower, as in ODE's heightfield.cpp."""
+    """A world of a map of these grey values (rows, columns), the highest of which is ``size[2]`` high, and its triangles (n, 3, 3) in it.
+
+    Each cell has two, on either side of the diagonal from its right end in the upper row to its left end in the lower, as in ODE's
+    heightfield.cpp.
+    """
     from PIL import Image
 
     Image.fromarray(grey.astype(np.uint16)).save(folder / "map.png")

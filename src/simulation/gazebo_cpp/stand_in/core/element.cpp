@@ -50,6 +50,8 @@ void Element::Describe(const internal::Description* description)
     AddValue(description->type, description->fallback, false);
 }
 
+ElementPtr Element::GetParent() const { return parent_.lock(); }
+
 ElementPtr Element::Clone() const
 {
   const ElementPtr clone = std::make_shared<Element>();

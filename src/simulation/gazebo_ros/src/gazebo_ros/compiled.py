@@ -317,7 +317,8 @@ class Bridge:
             "reset_time": server.reset_time,
             "reset_poses": server.reset_world,
         }
-        self._later(orders[what], what)
+        name, _, time_ns = what.partition(" ")
+        self._later((lambda: server.reset_time(int(time_ns))) if time_ns else orders[name], what)
 
     def _step(self, steps: int) -> None:
         self._later(lambda: self._server.request_steps(steps), f"{steps} steps")
@@ -357,8 +358,10 @@ def _collision(handle) -> tuple[str, int, str, list[float], str, float]:
         "sphere": lambda g: (g.radius,),
         "cylinder": lambda g: (g.radius, g.length),
         "capsule": lambda g: (g.radius, g.length),
-        "plane": lambda g: g.normal,
+        "plane": lambda g: (*g.normal, *g.size),
         "mesh": lambda g: g.scale,
+        "polyline": lambda g: (g.height, *(number for point in g.points for number in point)),
+        "heightmap": lambda g: (*g.size, *g.pos, g.sampling),
     }
     return (
         handle.name,

@@ -301,9 +301,12 @@ class Server:
         self.world.reset()
         self._time_went_back()
 
-    def reset_time(self) -> None:
-        """Time back to 0, all else as it is. Physics thread."""
-        self.world.reset_time()
+    def reset_time(self, time_ns: int = 0) -> None:
+        """Time back to 0, or to what it is to be; all else as it is. Physics thread.
+
+        :param time_ns: the time that it is then
+        """
+        self.world.reset_time(time_ns)
         self._time_went_back()
 
     def _time_went_back(self) -> None:

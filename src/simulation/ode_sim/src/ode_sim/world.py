@@ -326,11 +326,14 @@ class World:
         self.reset_poses()
         self._random.restart()
 
-    def reset_time(self) -> None:
-        """Time 0; where everything is, how it moves and how many steps were taken stays."""
+    def reset_time(self, time_ns: int = 0) -> None:
+        """Another time; where everything is, how it moves and how many steps were taken stays.
+
+        :param time_ns: the time that it is then
+        """
         for actor in self.actors.values():
-            actor.shift(-self.core.time_ns)
-        self.core.time_ns = 0
+            actor.shift(time_ns - self.core.time_ns)
+        self.core.time_ns = time_ns
 
     def reset_poses(self) -> None:
         """Models back to where they were spawned, at rest. Time goes on and joints stay at their angles, but for those by which the first

@@ -30,11 +30,13 @@ class UpdateInfo;
 class Time;
 class PID;
 class Animation;
+class Battery;
 class PoseAnimation;
 class NumericAnimation;
 typedef boost::shared_ptr<Animation> AnimationPtr;
 typedef boost::shared_ptr<PoseAnimation> PoseAnimationPtr;
 typedef boost::shared_ptr<NumericAnimation> NumericAnimationPtr;
+typedef std::shared_ptr<Battery> BatteryPtr;
 typedef std::map<std::string, std::string> StrStr_M;
 typedef boost::shared_ptr<SphericalCoordinates> SphericalCoordinatesPtr;
 }  // namespace common

@@ -1,6 +1,7 @@
 #pragma once
 #include <gazebo/common/Animation.hh>
 #include <gazebo/common/Assert.hh>
+#include <gazebo/common/Battery.hh>
 #include <gazebo/common/CommonTypes.hh>
 #include <gazebo/common/Console.hh>
 #include <gazebo/common/Event.hh>

@@ -91,8 +91,14 @@ public:
   virtual void SetUpperLimit(unsigned int index, double limit);
   virtual void SetProvideFeedback(bool enable);
   virtual void CacheForceTorque() {}
-  void SetStopStiffness(unsigned int, double) {}
-  void SetStopDissipation(unsigned int, double) {}
+  // Numbers of <limit> that ODE's stops do not use; they are kept.
+  void SetStopStiffness(unsigned int index, double stiffness) { params_["stop_stiffness" + std::to_string(index)] = stiffness; }
+  void SetStopDissipation(unsigned int index, double dissipation)
+  {
+    params_["stop_dissipation" + std::to_string(index)] = dissipation;
+  }
+  double GetStopStiffness(unsigned int index) const { return stop("stiffness", index, 1e8); }
+  double GetStopDissipation(unsigned int index) const { return stop("dissipation", index, 1); }
 
   virtual void SetAxis(unsigned int index, const Vector3d& axis);  // model axes
   Vector3d LocalAxis(unsigned int index) const;                    // joint frame
@@ -103,7 +109,11 @@ public:
   Pose3d WorldPose() const;
   Pose3d ParentWorldPose() const;
   Pose3d AnchorErrorPose() const { return WorldPose() - ParentWorldPose(); }
-  double GetInertiaRatio(unsigned int index) const;
+  double GetInertiaRatio(unsigned int index) const;                       // of the child about the axis to that of the parent
+  double InertiaRatio(const Vector3d& axis) const;                        // world axes
+  ignition::math::Quaterniond AxisFrame(unsigned int index) const;        // of the axis' frame in the world
+  ignition::math::Quaterniond AxisFrameOffset(unsigned int index) const;  // in the joint's frame
+  double GetWorldEnergyPotentialSpring(unsigned int index) const;         // J
   virtual void FillMsg(msgs::Joint& message);
   template <typename T>
   event::ConnectionPtr ConnectJointUpdate(T subscriber)
@@ -115,6 +125,8 @@ public:
 private:
   friend class Mirror;
   bool firm() const;
+  double stop(const std::string& what, unsigned int index, double otherwise) const;
+  bool inModelAxes(unsigned int index) const;
   std::shared_ptr<ode_sim::Joint> core_;
   LinkPtr parent_, child_;
   std::weak_ptr<int> alive_;

@@ -6,6 +6,7 @@
 #include <ignition/math/Matrix3.hh>
 #include <ignition/math/Quaternion.hh>
 
+#include <gazebo/common/Battery.hh>
 #include <gazebo/common/Event.hh>
 #include <gazebo/physics/Entity.hh>
 #include <gazebo/physics/Inertial.hh>
@@ -102,6 +103,9 @@ public:
   void MoveFrame(const ignition::math::Pose3d& from, const ignition::math::Pose3d& to, bool preserve_velocity = false);
   Vector3d WorldWindLinearVel() const;  // once in each step; none where the wind does not count
   Vector3d RelativeWindLinearVel() const { return local(WorldWindLinearVel()); }
+  common::BatteryPtr Battery(const std::string& name) const;
+  common::BatteryPtr Battery(std::size_t index) const;
+  std::size_t BatteryCount() const { return batteries_.size(); }
   virtual void FillMsg(msgs::Link& message);
   std::shared_ptr<ode_sim::Link> Core() const { return core_; }
 
@@ -116,6 +120,7 @@ private:
   std::shared_ptr<ode_sim::Link> core_;
   Collision_V collisions_;
   std::vector<std::string> sensors_;
+  std::vector<common::BatteryPtr> batteries_;
   event::EventT<void(bool)> enabled_;
   mutable bool watched_ = false;
   bool windy_ = false;

@@ -83,4 +83,5 @@ struct Model;
 struct Link;
 struct Joint;
 struct Shape;
+struct HeightGrid;
 }  // namespace ode_sim

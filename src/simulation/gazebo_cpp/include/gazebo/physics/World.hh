@@ -12,6 +12,7 @@
 #include <gazebo/common/Time.hh>
 #include <gazebo/common/UpdateInfo.hh>
 #include <gazebo/msgs/msgs.hh>
+#include <gazebo/physics/Atmosphere.hh>
 #include <gazebo/physics/Base.hh>
 #include <gazebo/physics/PhysicsTypes.hh>
 #include <gazebo/physics/Wind.hh>
@@ -50,6 +51,7 @@ public:
   void Reset();
   void ResetPhysicsStates();
   common::Time SimTime() const;
+  void SetSimTime(const common::Time& time);  // the world goes on from there
   common::Time PauseTime() const;
   common::Time StartTime() const { return start_; }
   common::Time RealTime() const;
@@ -78,8 +80,9 @@ public:
   bool WindEnabled() const { return windy_; }
   void SetWindEnabled(bool enable) { windy_ = enable; }
   class Wind& Wind() const;
-  bool AtmosphereEnabled() const { return false; }
-  void SetAtmosphereEnabled(bool) {}
+  bool AtmosphereEnabled() const { return airy_; }
+  void SetAtmosphereEnabled(bool enable) { airy_ = enable; }
+  class Atmosphere& Atmosphere() const;
   void PublishModelPose(ModelPtr) {}
   void PublishModelScale(ModelPtr) {}
   uint32_t Iterations() const;
@@ -97,8 +100,9 @@ private:
   common::Time start_, paused_since_;
   mutable std::mutex pose_mutex_, models_mutex_;
   Model_V models_;
-  bool paused_ = false, windy_ = true;
-  mutable std::unique_ptr<class Wind> wind_;  // made when it is first asked for
+  bool paused_ = false, windy_ = true, airy_ = true;
+  mutable std::unique_ptr<class Wind> wind_;              // made when it is first asked for
+  mutable std::unique_ptr<class Atmosphere> atmosphere_;  // likewise
   sdf::ElementPtr sdf_;
 };
 

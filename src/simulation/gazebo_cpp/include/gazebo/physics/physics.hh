@@ -1,6 +1,7 @@
 #pragma once
 #include <gazebo/gazebo_config.h>
 #include <gazebo/physics/Actor.hh>
+#include <gazebo/physics/AdiabaticAtmosphere.hh>
 #include <gazebo/physics/Base.hh>
 #include <gazebo/physics/Collision.hh>
 #include <gazebo/physics/Contact.hh>

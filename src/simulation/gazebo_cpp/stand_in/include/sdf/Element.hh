@@ -33,7 +33,7 @@ public:
 
   ElementPtr Clone() const;
   void Copy(const ElementPtr element);
-  ElementPtr GetParent() const { return parent_.lock(); }
+  ElementPtr GetParent() const;  // in the library, whose name tells what a plugin asks for (core/loader.cpp)
   void SetParent(const ElementPtr parent) { parent_ = parent; }
   void SetName(const std::string& name) { name_ = name; }
   const std::string& GetName() const { return name_; }

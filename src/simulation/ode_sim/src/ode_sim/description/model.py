@@ -248,6 +248,7 @@ class Link:
     self_collide: bool | None = None  # None: the model's
     kinematic: bool = False
     enable_wind: bool | None = None  # None: the model's
+    batteries: tuple[tuple[str, float], ...] = ()  # names and voltages, V; plugins in C++ make something of them
     linear_decay: float = 0.0
     angular_decay: float = 0.0
     source: Source = Source()

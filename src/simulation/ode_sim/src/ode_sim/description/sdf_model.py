@@ -216,6 +216,7 @@ class SdfModels(SdfJoints):
             self_collide=is_true(text_of(collide)) if collide is not None else None,
             kinematic=self.boolean(element, "kinematic", False),
             enable_wind=is_true(text_of(blown)) if blown is not None else None,
+            batteries=tuple((e.get("name") or "", self.number(e, "voltage", 0.0)) for e in element.findall("battery")),
             linear_decay=self.number(element, "velocity_decay/linear", 0.0, most=_STIFFEST),
             angular_decay=self.number(element, "velocity_decay/angular", 0.0, most=_STIFFEST),
             source=source_of(element),

@@ -163,6 +163,8 @@ def _link(parent: ET.Element, link: d.Link) -> None:
     _leaf(element, "self_collide", link.self_collide)
     _leaf(element, "enable_wind", link.enable_wind)
     _leaf(element, "kinematic", link.kinematic, False)
+    for name, voltage in link.batteries:
+        _leaf(ET.SubElement(element, "battery", name=name), "voltage", voltage)
     _leaf(element, "velocity_decay/linear", link.linear_decay, 0.0)
     _leaf(element, "velocity_decay/angular", link.angular_decay, 0.0)
     for collision in link.collisions:
