@@ -289,7 +289,7 @@ def test_formats(studio_of, name, shape_, dtype):
     assert image.shape == shape_ and image.dtype == dtype
     assert (
         image[24, 32].tolist()
-        == {"L8": 159, "L16": 159 * 257, "B8G8R8": [64, 128, 255], "R16G16B16": [255 * 257, 128 * 257, 64 * 257], "BAYER_RGGB8": 255}[name]
+        == {"L8": 255, "L16": 255 * 257, "B8G8R8": [64, 128, 255], "R16G16B16": [255 * 257, 128 * 257, 64 * 257], "BAYER_RGGB8": 255}[name]
     )
 
 

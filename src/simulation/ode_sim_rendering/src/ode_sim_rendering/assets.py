@@ -52,10 +52,18 @@ def look_of(material: d.Material | None, own: d.Material | None, transparency: f
     named = material if material is not None and _says_something(material) else own
     diffuse = (named and named.diffuse) or (named and named.ambient) or _WHITE
     ambient = (named and named.ambient) or diffuse
-    specular = (named and named.specular) or _BLACK
+    specular = (named and named.shininess > 0.0 and named.specular) or _BLACK
     emissive = (named and named.emissive) or _BLACK
     alpha = min(1.0, max(0.0, diffuse[3] * (1.0 - transparency)))
-    return Look(ambient[:3], diffuse[:3], specular[:3], emissive[:3], alpha, named.texture if named else "")
+    return Look(
+        ambient[:3],
+        diffuse[:3],
+        specular[:3],
+        emissive[:3],
+        alpha,
+        named.texture if named else "",
+        named.shininess if named else _SHININESS,
+    )
 
 
 def _says_something(material: d.Material) -> bool:

@@ -157,6 +157,18 @@ class Camera:
         f = self.focal_length
         return np.stack([(self.width - 1) / 2 - f * p_C[:, 1] / p_C[:, 0], (self.height - 1) / 2 - f * p_C[:, 2] / p_C[:, 0]], axis=1)
 
+    def projection(self, width: int, height: int) -> np.ndarray:
+        """(4,4): clip coordinates from the camera frame (x forward, y left, z up) for ``width`` x ``height`` pixels, rows downwards."""
+        f, near, far = self.focal_length, self.near, self.far
+        return np.array(
+            [
+                [0, -2 * f / width, 0, 0],
+                [0, 0, -2 * f / height, 0],
+                [(far + near) / (far - near), 0, 0, -2 * far * near / (far - near)],
+                [1, 0, 0, 0],
+            ]
+        )
+
 
 def _number(element: ET.Element | None, path: str, default: float) -> float:
     text = element.findtext(path) if element is not None else None

@@ -47,6 +47,8 @@ def add_noise(rgb: np.ndarray, camera: Camera, seed: int, time_ns: int) -> np.nd
 def encode(rgb: np.ndarray, encoding: str) -> np.ndarray:
     """``rgb``, (H,W,3) bytes, as an image of a sensor_msgs ``encoding``: (H,W) or (H,W,3), uint8 or uint16.
 
+    A camera without colours shows what is red: Gazebo's does, and thresholds are tuned to it.
+
     :raises ValueError: an encoding that is not known.
     """
     if encoding == "rgb8":
@@ -54,9 +56,9 @@ def encode(rgb: np.ndarray, encoding: str) -> np.ndarray:
     if encoding == "bgr8":
         return cv2.cvtColor(rgb, cv2.COLOR_RGB2BGR)
     if encoding == "mono8":
-        return cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY)
+        return np.ascontiguousarray(rgb[..., 0])
     if encoding == "mono16":
-        return cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY).astype(np.uint16) * 257
+        return rgb[..., 0].astype(np.uint16) * 257
     if encoding == "rgb16":
         return rgb.astype(np.uint16) * 257
     if encoding in _BAYER:

@@ -336,7 +336,7 @@ class Renderer:
             except ValueError:
                 raise ValueError(f"camera '{camera.name}' is on link '{camera.link}', which is not in the scene") from None
         X_CW = np.linalg.inv(X_WC)
-        clip = self._projection(camera, width, height) @ X_CW
+        clip = camera.projection(width, height) @ X_CW
         world = np.concatenate([matrices, np.eye(4)[None]])[self._links] @ self._local  # row -1: the world itself
         seen = self._in_view(camera, width, height, X_CW, world)
         instances = self._fixed.copy()
@@ -404,25 +404,17 @@ class Renderer:
         if uniforms is not None and "lights" in program:
             lights = program["lights"]  # a compiler leaves out the end of the array if the shader does not read it
             lights.write(uniforms.reshape(-1, 4)[: lights.array_length].tobytes())
+        if "fog" in program:
+            fog = self._scene.scene.fog
+            program["fog"].value = (fog.start, fog.end, fog.density)
+        if "fog_color" in program:
+            program["fog_color"].value = self._scene.scene.fog.color[:3]
         if "eye" in program:
             program["eye"].value = tuple(eye)
         if "shadow_map" in program and self._shadow is not None:
             self._shadow.bind(program)
         batch.instances.write(instances.tobytes())
         self._vertex_array(batch, flags, program).render(instances=len(instances))
-
-    @staticmethod
-    def _projection(camera: Camera, width: int, height: int) -> np.ndarray:
-        """Clip coordinates from the camera frame (x forward, y left, z up), rows of the image downwards."""
-        f, near, far = camera.focal_length, camera.near, camera.far
-        return np.array(
-            [
-                [0, -2 * f / width, 0, 0],
-                [0, 0, -2 * f / height, 0],
-                [(far + near) / (far - near), 0, 0, -2 * far * near / (far - near)],
-                [1, 0, 0, 0],
-            ]
-        )
 
     def _in_view(self, camera: Camera, width: int, height: int, X_CW: np.ndarray, world: np.ndarray) -> np.ndarray:
         """(P,) bool: parts whose bounding sphere touches the view pyramid."""
@@ -442,10 +434,11 @@ class Renderer:
     def _program(self, flags: frozenset):
         lights = self._light_kinds if "color" in flags else ()
         sun = self._sun if "color" in flags else -1
-        key = (flags, lights, sun)
+        fog = self._scene.scene.fog.kind if "color" in flags and self._scene.scene.fog else ""
+        key = (flags, lights, sun, fog)
         if key not in self._programs:
             self._programs[key] = self._ctx.program(
-                vertex_shader=shaders.vertex_shader(flags, lights), fragment_shader=shaders.fragment_shader(flags, lights, sun)
+                vertex_shader=shaders.vertex_shader(flags, lights), fragment_shader=shaders.fragment_shader(flags, lights, sun, fog)
             )
         return self._programs[key]
 

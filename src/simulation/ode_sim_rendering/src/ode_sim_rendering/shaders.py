@@ -97,10 +97,14 @@ float lit() {
 """
 
 
-def fragment_shader(flags: frozenset, lights: Sequence[str] = (), shadow_of: int = -1) -> str:
+# Of the colour behind the fog, by the distance z along the optical axis: the part that is left. fog: start, end, density.
+_FOGS = {"linear": "clamp((fog.y - z) / (fog.y - fog.x), 0.0, 1.0)", "exp": "exp(-fog.z * z)", "exp2": "exp(-fog.z * fog.z * z * z)"}
+
+
+def fragment_shader(flags: frozenset, lights: Sequence[str] = (), shadow_of: int = -1, fog: str = "") -> str:
     """``flags``: as for :func:`vertex_shader`; ``lights``: kind of each light (directional, point, spot).
 
-    ``shadow_of``: index of the one with a shadow map, -1 for none.
+    ``shadow_of``: index of the one with a shadow map, -1 for none. ``fog``: linear, exp, exp2, '' for none.
     """
     head, body, target = ["#version 330"], [], 0
     if "color" in flags:
@@ -125,6 +129,9 @@ def fragment_shader(flags: frozenset, lights: Sequence[str] = (), shadow_of: int
             body += ["seen *= texture(image, v_uv);", "if (seen.a < 0.02) discard;"]
         if specular:
             body.append("seen.rgb += v_specular.rgb * gloss;")
+        if fog:
+            head += ["uniform vec3 fog, fog_color;"]
+            body += ["float z = 1.0 / gl_FragCoord.w;", f"seen.rgb = mix(fog_color, seen.rgb, {_FOGS[fog]});"]
         body.append("color = seen;")
     if "depth" in flags:
         head.append(f"layout(location = {target}) out float depth;")

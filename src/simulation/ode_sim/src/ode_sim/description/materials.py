@@ -243,7 +243,7 @@ def _material_of(name: str, statements: list[list[str]], folders: list[str], par
         if words[0] == "set" and len(words) > 2:
             variables.setdefault(words[1], words[2:])
     colours: dict[str, Rgba] = {}
-    texture = ""
+    texture, shininess = "", 0.0
     for words in statements:
         key, values = words[0], [value for word in words[1:] for value in variables.get(word, [word])]
         if key in ("ambient", "diffuse", "specular", "emissive") and key not in colours:
@@ -254,10 +254,13 @@ def _material_of(name: str, statements: list[list[str]], folders: list[str], par
             if len(numbers) >= 3 and all(abs(value) <= _BRIGHTEST for value in numbers):
                 alpha = numbers[3] if key == "diffuse" and len(numbers) > 3 else 1.0
                 colours[key] = (numbers[0], numbers[1], numbers[2], alpha)
+                if key == "specular" and len(numbers) > 3:  # the last one is the exponent
+                    shininess = numbers[-1]
         elif key == "texture" and values and not texture:
             places = [os.path.join(folder, values[0]) for folder in folders]
             found = [place for place in places if os.path.isfile(place)]
             texture = os.path.abspath(found[0]) if found else ""
     if parent is not None:
-        return replace(parent, name=name, texture=texture or parent.texture, **colours)
-    return Material(name, texture=texture, **colours)
+        shininess = shininess if "specular" in colours else parent.shininess
+        return replace(parent, name=name, texture=texture or parent.texture, shininess=shininess, **colours)
+    return Material(name, texture=texture, shininess=shininess, **colours)

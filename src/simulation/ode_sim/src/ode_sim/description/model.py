@@ -126,6 +126,7 @@ class Material:
     specular: Rgba | None = None
     emissive: Rgba | None = None
     texture: str = ""
+    shininess: float = 10.0  # exponent of the highlight that ``specular`` makes; 0: there is none, as of an SDF's colours in Gazebo 11
 
 
 @dataclass(frozen=True)
@@ -411,12 +412,27 @@ class WorldState:
 
 
 @dataclass(frozen=True)
+class Fog:
+    """``kind``: linear from ``start`` to ``end`` (m along the optical axis), or exp or exp2 of ``density`` (1/m); else there is none."""
+
+    kind: str = ""
+    color: Rgba = (1.0, 1.0, 1.0, 1.0)
+    start: float = 1.0
+    end: float = 100.0
+    density: float = 1.0
+
+    def __bool__(self) -> bool:
+        return self.kind in ("exp", "exp2") or (self.kind == "linear" and self.end > self.start)
+
+
+@dataclass(frozen=True)
 class Scene:
     ambient: Rgba = (0.4, 0.4, 0.4, 1.0)
     background: Rgba = (0.7, 0.7, 0.7, 1.0)
     shadows: bool = True
     grid: bool = True
     sky: bool = False
+    fog: Fog = Fog()
     roads: tuple[Visual, ...] = ()  # ribbons, in the world frame
 
     @property

@@ -16,6 +16,7 @@ from ode_sim import math3
 from ode_sim.description.model import (
     FARTHEST,
     DescriptionError,
+    Fog,
     Light,
     LinkState,
     Model,
@@ -219,6 +220,19 @@ class SdfReader(SdfActors):
             shadows=self.boolean(element, "shadows", True),
             grid=self.boolean(element, "grid", True),
             sky=element.find("sky") is not None,
+            fog=self._fog(element.find("fog")),
+        )
+
+    def _fog(self, element: ET.Element | None) -> Fog:
+        if element is None:
+            return Fog()
+        default = Fog()
+        return Fog(
+            kind=text_of(element.find("type")),
+            color=self.rgba(element, "color", default.color),
+            start=self.number(element, "start", default.start),
+            end=self.number(element, "end", default.end),
+            density=self.number(element, "density", default.density),
         )
 
     def _state(self, element: ET.Element | None) -> WorldState | None:

@@ -41,6 +41,9 @@ def world_text(world: d.World) -> str:
     scene = ET.SubElement(top, "scene")
     for tag in ("ambient", "background", "shadows", "grid"):
         _leaf(scene, tag, getattr(world.scene, tag))
+    if world.scene.fog:
+        for tag, value in vars(world.scene.fog).items():
+            _leaf(scene, "fog/" + ("type" if tag == "kind" else tag), value)
     if world.scene.sky:
         ET.SubElement(scene, "sky")
     if any(world.spherical_coordinates):
