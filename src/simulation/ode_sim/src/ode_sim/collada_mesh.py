@@ -27,6 +27,9 @@ _START_TAG = re.compile(rb"""<([A-Za-z_][^\s<>/"']*)((?:\s+[^\s<>/="']+\s*=\s*(?
 _LONE_AMPERSAND = re.compile(rb"&(?!(?:amp|lt|gt|quot|apos|#\d+|#x[0-9A-Fa-f]+);)")
 _ENCODING = re.compile(rb"""\s*<\?xml[^>]*\sencoding\s*=\s*["']([^"']*)["']""")
 
+# What Gazebo 11 takes for an ambient colour that is black or not there (its own pictures: test_rendering_gazebo.py).
+_SHADE = (0.4, 0.4, 0.4, 1.0)
+
 
 def read_dae(path: str, data: bytes) -> list[MeshPart]:
     """The shapes of the visual scene of ``data``, in metres; ``path`` is where it was read, for errors and textures.
@@ -293,13 +296,16 @@ def _material(material, path: str) -> Material:
     if diffuse is not None and alpha != 1.0:
         diffuse = diffuse[:3] + (alpha,)
     emissive = colour(effect.emission)
+    ambient = colour(effect.ambient) if isinstance(effect.ambient, (tuple, list)) else None
+    shininess = getattr(effect, "shininess", None)
     return Material(
         getattr(material, "name", "") or "",
-        ambient=diffuse,
+        ambient=ambient if ambient and any(ambient[:3]) else _SHADE,
         diffuse=diffuse,
         specular=colour(effect.specular),
         emissive=emissive if emissive and any(emissive[:3]) else None,
         texture=texture,
+        shininess=float(shininess) if isinstance(shininess, (int, float)) else 0.0,
     )
 
 

@@ -255,6 +255,8 @@ def _read_mtl(path: str) -> dict[str, Material]:
                 colour = _numbers(words[1:4])
                 if len(colour) == 3:
                     current[key.capitalize()] = tuple(colour)
+            elif key == "ns" and (value := _numbers(words[1:2])):
+                current["Ns"] = value[0]
             elif key in ("d", "tr") and (value := _numbers(words[-1:])):
                 current["d"] = value[0] if key == "d" else 1.0 - value[0]
             elif key == "map_kd" and len(words) > 1:
@@ -266,7 +268,9 @@ def _read_mtl(path: str) -> dict[str, Material]:
         colour = {key: given[key] + alpha if key in given else None for key in ("Ka", "Kd", "Ks", "Ke")}
         texture = given.get("map_Kd", "")
         diffuse = (1.0, 1.0, 1.0) + alpha if texture else colour["Kd"]
-        return Material(name, ambient=diffuse, diffuse=diffuse, specular=colour["Ks"], emissive=colour["Ke"], texture=texture)
+        # As Gazebo 11's pictures have it (test_rendering_gazebo.py): what is not given is black, the exponent 1.
+        ambient = colour["Ka"] or ((0.0, 0.0, 0.0) + alpha if given else None)
+        return Material(name, ambient, diffuse, colour["Ks"], colour["Ke"], texture, given.get("Ns", 1.0))
 
     return {name: material(name, given) for name, given in materials.items()}
 

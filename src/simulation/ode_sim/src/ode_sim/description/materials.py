@@ -23,6 +23,7 @@ class _Look:
     alpha: float = 1.0
     glows: bool = False
     specular: Rgb = (0.0, 0.0, 0.0)
+    shininess: float = 0.0
     texture: str = ""  # file below media/materials/textures; the colour stands in for it when it is not there
 
 
@@ -36,9 +37,15 @@ _BASE: dict[str, Rgb] = {
     "Turquoise": (0, 1, 1),
 }
 
+_DIM = (0.1, 0.1, 0.1)
 _LOOKS: dict[str, _Look] = {
-    **{name: _Look(rgb) for name, rgb in _BASE.items()},
-    **{name + "Glow": _Look(rgb, glows=True) for name, rgb in _BASE.items()},
+    **{name: _Look(rgb, specular=_DIM, shininess=1.0) for name, rgb in _BASE.items()},
+    **{name + "Glow": _Look(rgb, glows=True, specular=_DIM, shininess=1.0) for name, rgb in _BASE.items()},
+    "White": _Look((1, 1, 1), specular=_DIM, shininess=128.0),
+    "WhiteGlow": _Look((1, 1, 1), glows=True, specular=_DIM, shininess=128.0),
+    "RedGlow": _Look((1, 0, 0), glows=True),
+    "Yellow": _Look((1, 1, 0)),
+    "YellowGlow": _Look((1, 1, 0), glows=True),
     **{name + "Transparent": _Look(_BASE[name], alpha=0.5) for name in ("Red", "Green", "Blue", "Yellow")},
     "GreyTransparent": _Look((0.5, 0.5, 0.5), alpha=0.5),
     "BlackTransparent": _Look((0, 0, 0), alpha=0.5),
@@ -46,25 +53,25 @@ _LOOKS: dict[str, _Look] = {
     "DarkMagentaTransparent": _Look((0.6, 0, 0.6), alpha=0.5),
     "BlueLaser": _Look((0, 0, 1), alpha=0.4),
     "LightBlueLaser": _Look((0.5, 0.5, 1), alpha=0.4),
-    "Grey": _Look((0.7, 0.7, 0.7), ambient=(0.3, 0.3, 0.3), specular=(0.01, 0.01, 0.01)),
-    "DarkGrey": _Look((0.175, 0.175, 0.175), specular=(0.01, 0.01, 0.01)),
-    "Black": _Look((0, 0, 0)),
-    "FlatBlack": _Look((0.1, 0.1, 0.1), specular=(0.01, 0.01, 0.01)),
-    "RedBright": _Look((0.87, 0.26, 0.07)),
-    "SkyBlue": _Look((0, 0, 1), ambient=(0.13, 0.44, 0.70)),
+    "Grey": _Look((0.7, 0.7, 0.7), ambient=(0.3, 0.3, 0.3), specular=(0.01, 0.01, 0.01), shininess=1.5),
+    "DarkGrey": _Look((0.175, 0.175, 0.175), specular=(0.175, 0.175, 0.175), shininess=1.5),
+    "Black": _Look((0, 0, 0), specular=_DIM, shininess=5.0),
+    "FlatBlack": _Look((0.1, 0.1, 0.1), specular=(0.01, 0.01, 0.01), shininess=1.0),
+    "RedBright": _Look((0.87, 0.26, 0.07), specular=(0.87, 0.26, 0.07), shininess=1.0),
+    "SkyBlue": _Look((0, 0, 1), ambient=(0.13, 0.44, 0.70), specular=_DIM, shininess=1.0),
     "DarkYellow": _Look((0.7, 0.7, 0)),
-    "ZincYellow": _Look((0.9725, 0.9529, 0.2078)),
-    "Orange": _Look((1, 0.5088, 0.0468)),
-    "Indigo": _Look((0.33, 0, 0.5)),
-    "Gold": _Look((0.8, 0.6488, 0.1208), ambient=(0.4, 0.2487, 0.0208)),
-    "Pioneer2Body": _Look((0.6812, 0.0009, 0.0009)),
+    "ZincYellow": _Look((0.9725, 0.9529, 0.2078), specular=(0.9725, 0.9529, 0.2078), shininess=1.0),
+    "Orange": _Look((1, 0.5088, 0.0468), specular=(0.5, 0.5, 0.5), shininess=128.0),
+    "Indigo": _Look((0.33, 0, 0.5), specular=_DIM, shininess=1.0),
+    "Gold": _Look((0.8, 0.6488, 0.1208), ambient=(0.4, 0.2487, 0.0208), specular=(0.4, 0.4, 0.4), shininess=12.5),
+    "Pioneer2Body": _Look((0.6812, 0.0009, 0.0009), ambient=(0.4812, 0.0001, 0.0001), specular=(0.5, 0.5, 0.5), shininess=12.5),
     "LightOn": _Look((0, 1, 0), glows=True),
     "LightOff": _Look((1, 0, 0), glows=True),
     # textured ones; the colour is the mean of the texture
-    "Wood": _Look((0.62, 0.43, 0.26), texture="wood.png"),
+    "Wood": _Look((0.62, 0.43, 0.26), specular=(0.2, 0.2, 0.2), shininess=12.5, texture="wood.png"),
     "WoodFloor": _Look((0.55, 0.36, 0.20), texture="wood_floor.png"),
     "WoodPallet": _Look((0.70, 0.55, 0.36), texture="wood_pallet.png"),
-    "Bricks": _Look((0.56, 0.30, 0.24), texture="bricks.png"),
+    "Bricks": _Look((0.56, 0.30, 0.24), specular=(0.2, 0.2, 0.2), shininess=12.5, texture="bricks.png"),
     "CeilingTiled": _Look((0.82, 0.82, 0.79), texture="ceiling_tiled.png"),
     "PaintedWall": _Look((0.85, 0.83, 0.78), texture="painted_wall.png"),
     "Grass": _Look((0.28, 0.42, 0.18), texture="grass.png"),
@@ -109,6 +116,7 @@ def gazebo_material(name: str, finder: ResourceFinder | None = None) -> Material
         specular=rgba(look.specular),
         emissive=rgba(look.diffuse) if look.glows else None,
         texture=texture or "",
+        shininess=look.shininess,
     )
 
 
