@@ -24,8 +24,8 @@ PHONG = (
     "</diffuse><specular><color>0.8 0.8 0.8 1</color></specular><shininess><float>40</float></shininess></{0}>"
 )
 LAMBERT = (
-    "<lambert><emission><color>0.1 0 0 1</color></emission><ambient><color>0.2 0.1 0 1</color></ambient><diffuse><color>0.7 0.5 0.1 1</color>"
-    "</diffuse></lambert>"
+    "<lambert><emission><color>0.1 0 0 1</color></emission><ambient><color>0.2 0.1 0 1</color></ambient>"
+    "<diffuse><color>0.7 0.5 0.1 1</color></diffuse></lambert>"
 )
 MTL = """newmtl shiny\nKa 0.1 0.1 0.1\nKd 0.2 0.5 0.2\nKs 0.9 0.9 0.9\nNs 50
 newmtl dull\nKa 0 0 0\nKd 0.6 0.2 0.2\nKs 0 0 0\nNs 10
