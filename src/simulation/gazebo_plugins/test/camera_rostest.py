@@ -168,7 +168,7 @@ class Cameras(unittest.TestCase):
     def test_encodings(self):
         grey = self.take("/rig_ns/grey/image_raw")[0]
         self.assertEqual((grey.encoding, grey.step), ("mono8", 160))
-        self.assertEqual(picture(grey)[60, 80 - OFF], 76)  # 0.299 of red
+        self.assertEqual(picture(grey)[60, 80 - OFF], 255)  # what is red, as in Gazebo: test_rendering_gazebo.py of ode_sim_rendering
         bayer = self.take("/bayer/image_raw")[0]
         self.assertEqual((bayer.encoding, bayer.step), ("bayer_grbg8", 160))
         # OpenCV names a cell by its second row

@@ -6,6 +6,7 @@
 #include <ignition/math/Vector3.hh>
 
 #include <gazebo/common/Event.hh>
+#include <gazebo/msgs/msgs.hh>
 #include <gazebo/physics/Base.hh>
 #include <gazebo/physics/Inertial.hh>
 
