@@ -1,6 +1,7 @@
 // Batteries: bookkeeping alone, the laws are plugins'.
 #include <gazebo/common/Battery.hh>
 #include <gazebo/common/Console.hh>
+#include <gazebo/common/Event.hh>
 
 namespace gazebo
 {
@@ -23,30 +24,51 @@ uint32_t Battery::AddConsumer()
   return next_++;
 }
 
+bool Battery::known(uint32_t consumer) const
+{
+  if (loads_.count(consumer))
+    return true;
+  gzerr << "battery '" << name_ << "' has no consumer " << consumer << "; AddConsumer() makes one\n";
+  return false;
+}
+
 bool Battery::SetPowerLoad(uint32_t consumer, double load)
 {
-  const auto found = loads_.find(consumer);
-  if (found == loads_.end())
-    gzerr << "battery '" << name_ << "' has no consumer " << consumer << "; AddConsumer() makes one\n";
-  else
-    found->second = load;
-  return found != loads_.end();
+  if (!known(consumer))
+    return false;
+  loads_[consumer] = load;
+  return true;
 }
 
 bool Battery::PowerLoad(uint32_t consumer, double& load) const
 {
-  const auto found = loads_.find(consumer);
-  if (found == loads_.end())
-    gzerr << "battery '" << name_ << "' has no consumer " << consumer << "; AddConsumer() makes one\n";
-  else
-    load = found->second;
-  return found != loads_.end();
+  if (!known(consumer))
+    return false;
+  load = loads_.at(consumer);
+  return true;
 }
+
+void Battery::SetUpdateFunc(Law law) { law_ = std::move(law), owner_ = internal::CurrentPlugin(); }
 
 void Battery::Update()
 {
-  if (law_)
+  if (!law_)
+    return;
+  const internal::Running running(owner_, "law of a battery");
+  try
+  {
     voltage_ = law_(shared_from_this());
+  }
+  catch (const std::exception& error)
+  {
+    law_ = nullptr;
+    internal::Failed(owner_, "law of a battery", error.what());
+  }
+  catch (...)
+  {
+    law_ = nullptr;
+    internal::Failed(owner_, "law of a battery", nullptr);
+  }
 }
 
 }  // namespace common

@@ -57,7 +57,7 @@ struct Host
   std::function<void(const std::string&, const std::vector<double>&)> insert;  // SDF of a model; x y z qx qy qz qw, or nothing
   std::function<void(const std::string&, const std::string&, const std::string&)> plugin;  // of the world: file, name, <plugin>
   std::function<void(const std::string&)> remove;                                          // name of a model
-  std::function<void(const std::string&)> order;              // pause, unpause, reset, reset_poses, reset_time [ns]
+  std::function<void(const std::string&)> order;              // pause, unpause, reset, reset_poses, reset_time, set_time NS
   std::function<void(unsigned int)> step;                     // so many steps, while paused
   std::function<void(const std::string&, double)> parameter;  // of Physics
   /// Draws a picture of now: number of the camera, model::link::sensor, which of its cameras, how it looks, what is wanted; false: left out.

@@ -209,7 +209,7 @@ void World::SetSimTime(const common::Time& time)
 {
   const int64_t ns = static_cast<int64_t>(time.sec) * 1000000000 + time.nsec;
   Mirror::Get().SetNow(ns);  // who asks in this step is told so already
-  order(("reset_time " + std::to_string(ns)).c_str());
+  order(("set_time " + std::to_string(ns)).c_str());
 }
 void World::ResetEntities(Base::EntityType) { order("reset_poses"); }
 

@@ -5,6 +5,8 @@
 #include <gazebo/gazebo.hh>
 #include <gazebo/physics/physics.hh>
 
+#include "named.hpp"
+
 namespace gazebo
 {
 
@@ -19,7 +21,8 @@ public:
       read(*model, each);
     update_ = event::Events::ConnectWorldUpdateBegin([this](const common::UpdateInfo&) {
       for (const Actuator& actuator : actuators_)
-        actuator.joint->SetEffortLimit(actuator.index, limit(actuator));
+        if (const double most = limit(actuator); most != actuator.joint->GetEffortLimit(actuator.index))
+          actuator.joint->SetEffortLimit(actuator.index, most);  // a change of a joint is looked at by the whole model
     });
   }
 
@@ -46,10 +49,7 @@ private:
         throw std::runtime_error("<actuator> without <" + std::string(tag) + ">");
       return sdf->Get<double>(tag);
     };
-    const std::string name = sdf->HasElement("joint") ? sdf->Get<std::string>("joint") : "";
-    made.joint = model.GetJoint(name);
-    if (!made.joint)
-      throw std::runtime_error("<actuator>: the model has no joint '" + name + "'");
+    made.joint = named_joint(model, sdf, "joint");
     const std::string type = sdf->HasElement("type") ? sdf->Get<std::string>("type") : "null";
     if (type == "electric_motor" || type == "velocity_limiter")
     {
@@ -58,7 +58,7 @@ private:
       made.power = made.law == Law::ELECTRIC_MOTOR ? number("power") : 0;
     }
     else if (type != "null")
-      gzwarn << "<actuator> of joint '" << name << "': the type '" << type
+      gzwarn << "<actuator> of joint '" << made.joint->GetName() << "': the type '" << type
              << "' is none of electric_motor, velocity_limiter and null, and counts as null: no effort\n";
     if (sdf->HasElement("index"))
       made.index = sdf->Get<unsigned int>("index");

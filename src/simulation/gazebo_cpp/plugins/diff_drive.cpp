@@ -1,11 +1,12 @@
 // libDiffDrivePlugin.so, Gazebo's own, of its topics: ~/MODEL/vel_cmd is a pose whose x is m/s ahead and whose yaw is rad/s to the
 // right. ROS robots have libgazebo_ros_diff_drive.so.
 #include <mutex>
-#include <stdexcept>
 
 #include <gazebo/gazebo.hh>
 #include <gazebo/physics/physics.hh>
 #include <gazebo/transport/transport.hh>
+
+#include "named.hpp"
 
 namespace gazebo
 {
@@ -15,14 +16,7 @@ class DiffDrivePlugin : public ModelPlugin
 public:
   void Load(physics::ModelPtr model, sdf::ElementPtr sdf) override
   {
-    const auto joint = [&](const char* tag) {
-      const std::string name = sdf->HasElement(tag) ? sdf->Get<std::string>(tag) : "";
-      const physics::JointPtr found = model->GetJoint(name);
-      if (!found)
-        throw std::runtime_error("<" + std::string(tag) + ">: the model has no joint '" + name + "'");
-      return found;
-    };
-    left_ = joint("left_joint"), right_ = joint("right_joint");
+    left_ = named_joint(*model, sdf, "left_joint"), right_ = named_joint(*model, sdf, "right_joint");
     node_.reset(new transport::Node);
     node_->Init(model->GetWorld()->Name());
     commands_ = node_->Subscribe("~/" + model->GetName() + "/vel_cmd", &DiffDrivePlugin::OnCommand, this);

@@ -2,10 +2,11 @@
 // the part of the velocity that the plugin takes for the one in the plane of lift and drag, and moments are none.
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <gazebo/gazebo.hh>
 #include <gazebo/physics/physics.hh>
+
+#include "named.hpp"
 
 namespace gazebo
 {
@@ -41,10 +42,7 @@ public:
     vector("cp", centre_), vector("forward", forward_), vector("upward", upward_);
     forward_.Normalize(), upward_.Normalize();
     radial_ = sdf->HasElement("radial_symmetry") && sdf->Get<bool>("radial_symmetry");
-    const std::string name = sdf->HasElement("link_name") ? sdf->Get<std::string>("link_name") : "";
-    link_ = name.empty() ? physics::LinkPtr() : model->GetLink(name);
-    if (!link_)
-      throw std::runtime_error("<link_name>: the model has no link '" + name + "'");
+    link_ = named_link(*model, sdf, "link_name");
     if (sdf->HasElement("control_joint_name"))
     {
       const std::string flap = sdf->Get<std::string>("control_joint_name");

@@ -2,9 +2,10 @@
 #include <gazebo/plugins/LinearBatteryPlugin.hh>
 
 #include <cmath>
-#include <stdexcept>
 
 #include <gazebo/gazebo.hh>
+
+#include "named.hpp"
 
 namespace gazebo
 {
@@ -19,20 +20,15 @@ void LinearBatteryPlugin::Load(physics::ModelPtr owner, sdf::ElementPtr element)
 {
   model = owner, sdf = element;
   world = model->GetWorld(), physics = world->Physics();
-  const auto text = [this](const char* tag) { return sdf->HasElement(tag) ? sdf->Get<std::string>(tag) : ""; };
   const auto number = [this](const char* tag) { return sdf->HasElement(tag) ? sdf->Get<double>(tag) : 0.0; };
-  link = model->GetLink(text("link_name"));
-  if (!link)
-    throw std::runtime_error("<link_name>: the model has no link '" + text("link_name") + "'");
+  link = named_link(*model, sdf, "link_name");
   e0 = number("open_circuit_voltage_constant_coef");
   e1 = number("open_circuit_voltage_linear_coef");
   q0 = number("initial_charge");
   c = number("capacity");
   r = number("resistance");
   tau = number("smooth_current_tau");
-  battery = link->Battery(text("battery_name"));
-  if (!battery)
-    throw std::runtime_error("<battery_name>: link '" + link->GetName() + "' has no <battery> '" + text("battery_name") + "'");
+  battery = named_battery(*link, sdf);
   q = q0;
   battery->SetUpdateFunc([this](const common::BatteryPtr&) { return voltage(); });
 }

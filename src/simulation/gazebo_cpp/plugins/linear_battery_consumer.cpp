@@ -4,6 +4,8 @@
 #include <gazebo/gazebo.hh>
 #include <gazebo/physics/physics.hh>
 
+#include "named.hpp"
+
 namespace gazebo
 {
 
@@ -12,14 +14,7 @@ class LinearBatteryConsumerPlugin : public ModelPlugin
 public:
   void Load(physics::ModelPtr model, sdf::ElementPtr sdf) override
   {
-    const auto text = [&sdf](const char* tag) { return sdf->HasElement(tag) ? sdf->Get<std::string>(tag) : ""; };
-    const physics::LinkPtr link = model->GetLink(text("link_name"));
-    if (!link)
-      throw std::runtime_error("<link_name>: the model has no link '" + text("link_name") + "'");
-    battery_ = link->Battery(text("battery_name"));
-    if (!battery_)
-      throw std::runtime_error("<battery_name>: link '" + link->GetName() + "' has no <battery> '" + text("battery_name") +
-                               "'");
+    battery_ = named_battery(*named_link(*model, sdf, "link_name"), sdf);
     if (!sdf->HasElement("power_load"))
       throw std::runtime_error("<power_load>, in W, is missing");
     consumer_ = battery_->AddConsumer();

@@ -3,10 +3,11 @@
 #include <array>
 #include <limits>
 #include <random>
-#include <stdexcept>
 
 #include <gazebo/gazebo.hh>
 #include <gazebo/physics/physics.hh>
+
+#include "named.hpp"
 
 namespace gazebo
 {
@@ -18,10 +19,7 @@ class RandomVelocityPlugin : public ModelPlugin
 public:
   void Load(physics::ModelPtr model, sdf::ElementPtr sdf) override
   {
-    const std::string name = sdf->HasElement("link") ? sdf->Get<std::string>("link") : "";
-    link_ = name.empty() ? physics::LinkPtr() : model->GetLink(name);
-    if (!link_)
-      throw std::runtime_error("<link>: the model has no link '" + name + "'");
+    link_ = named_link(*model, sdf, "link");
     const auto number = [&sdf](const std::string& tag, double otherwise) {
       return sdf->HasElement(tag) ? sdf->Get<double>(tag) : otherwise;
     };

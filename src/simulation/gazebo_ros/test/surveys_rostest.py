@@ -132,6 +132,16 @@ class SurveyTest(HearingCase):
         self.assertEqual(self.lines("arm", ARM.format(more="<time>100</time>"))["time"], ["100"])
         self.sim.step(2)
         self.assertAlmostEqual(self.sim.world().sim_time, 100.002, delta=1.5e-3)
+        self.assertEqual(len(self.told), 1)  # nobody is reset by it
+        self.sim.empty("reset_simulation")
+        self.wait(lambda: self.told[1:] == ["arm\nreset"])
+
+    def test_a_battery_whose_law_throws_keeps_its_voltage_and_the_world_goes_on(self):
+        self.lines("arm", ARM.format(more="<throws/>"))
+        self.sim.step(5)
+        self.wait(lambda: [line for line in self.log if "law of a battery" in line])
+        self.assertIn("told to fail. It is not called any more; the simulation goes on", self.log[-1])
+        self.assertAlmostEqual(self.sim.world().sim_time, 0.005, delta=1e-9)
 
     def test_who_touches_nothing_but_the_target_for_long_enough_says_so(self):
         self.done(self.sim.spawn("cube", TOUCHED.format(target="ground_plane")))

@@ -1,21 +1,12 @@
 """The compiler's own headers, as packages of Noetic's compiler take them for granted."""
 
-import os
 import re
 from pathlib import Path
 
 import pytest
 
 HERE = Path(__file__).resolve().parents[1]
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(
-        not any(
-            (Path(p) / "share/catkin/cmake/absent_packages.cmake").is_file() for p in os.environ.get("CMAKE_PREFIX_PATH", "").split(":")
-        ),
-        reason="no sourced workspace has noetic_compatibility",
-    ),
-]
+pytestmark = pytest.mark.slow
 
 # What `g++ -H` of GCC 10, Debian 11's, shows of its own headers; GCC 12 needs the second include for the first twelve, 14 for all.
 BESIDE = {
@@ -52,7 +43,6 @@ def test_headers_of_the_compiler_bring_what_noetics_bring(package, tmp_path):
         options += f"set_target_properties(s{standard} PROPERTIES CXX_STANDARD {standard})\n"
     ended = package("roscpp", "int p;", after=options)
     assert ended.returncode == 0, ended.stdout + ended.stderr
-    assert "error" not in ended.stderr
 
 
 @pytest.mark.parametrize("standard", ["20", "23"])

@@ -317,8 +317,8 @@ class Bridge:
             "reset_time": server.reset_time,
             "reset_poses": server.reset_world,
         }
-        name, _, time_ns = what.partition(" ")
-        self._later((lambda: server.reset_time(int(time_ns))) if time_ns else orders[name], what)
+        _, _, time_ns = what.partition("set_time ")
+        self._later((lambda: server.set_time(int(time_ns))) if time_ns else orders[what], what)
 
     def _step(self, steps: int) -> None:
         self._later(lambda: self._server.request_steps(steps), f"{steps} steps")

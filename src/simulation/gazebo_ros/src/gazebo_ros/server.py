@@ -301,19 +301,27 @@ class Server:
         self.world.reset()
         self._time_went_back()
 
-    def reset_time(self, time_ns: int = 0) -> None:
-        """Time back to 0, or to what it is to be; all else as it is. Physics thread.
+    def reset_time(self) -> None:
+        """Time back to 0, all else as it is. Physics thread."""
+        self.world.reset_time()
+        self._time_went_back()
+
+    def set_time(self, time_ns: int) -> None:
+        """Another time; no plugin is reset. Physics thread.
 
         :param time_ns: the time that it is then
         """
-        self.world.reset_time(time_ns)
-        self._time_went_back()
+        self.world.set_time(time_ns)
+        self._time_jumped()
 
-    def _time_went_back(self) -> None:
+    def _time_jumped(self) -> None:
         self._set_now()
         self.throttle.restart()
         for sensor in self.plugins.sensors:
             sensor.reset()
+
+    def _time_went_back(self) -> None:
+        self._time_jumped()
         self.plugins.reset(of_world=True)
         self.went_back.call()
 

@@ -1,5 +1,5 @@
 // A model plugin that tells what its model is made of: shapes, height maps, joints, batteries, the air. <resize> gives a ball or a
-// cylinder another size, <time> the world another time, <hear> is a topic of Gazebo's whose numbers it repeats.
+// cylinder another size, <time> the world another time, <hear> is a topic of Gazebo's whose numbers it repeats; with <throws> the law of its battery does.
 #include <gazebo/gazebo.hh>
 #include <gazebo/physics/physics.hh>
 #include <gazebo/transport/transport.hh>
@@ -41,6 +41,9 @@ public:
     const physics::Atmosphere& air = world->Atmosphere();
     text << "air " << air.Type() << " " << air.Temperature(1000) << " " << air.Pressure(1000) << " " << air.MassDensity() << " "
          << air.MassDensity(1000) << "\n";
+    if (sdf->HasElement("throws"))
+      model->GetLink("b")->Battery("bat")->SetUpdateFunc(
+          [](const common::BatteryPtr&) -> double { throw std::runtime_error("told to fail"); });
     if (sdf->HasElement("time"))
     {
       world->SetSimTime(common::Time(sdf->Get<double>("time")));
@@ -48,6 +51,8 @@ public:
     }
     tell(text.str());
   }
+
+  void Reset() override { tell("reset"); }
 
 private:
   void tell(const std::string& what)

@@ -326,7 +326,11 @@ class World:
         self.reset_poses()
         self._random.restart()
 
-    def reset_time(self, time_ns: int = 0) -> None:
+    def reset_time(self) -> None:
+        """Time 0, as :meth:`set_time`."""
+        self.set_time(0)
+
+    def set_time(self, time_ns: int) -> None:
         """Another time; where everything is, how it moves and how many steps were taken stays.
 
         :param time_ns: the time that it is then

@@ -17,7 +17,6 @@ from ode_sim_rendering.geometry import TriMesh
 
 _WHITE = (1.0, 1.0, 1.0, 1.0)
 _BLACK = (0.0, 0.0, 0.0, 1.0)
-_SHININESS = 10.0
 
 
 @dataclass(frozen=True)
@@ -31,7 +30,7 @@ class Look:
     emissive: tuple[float, float, float]
     alpha: float
     texture: str = ""
-    shininess: float = _SHININESS
+    shininess: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -56,13 +55,7 @@ def look_of(material: d.Material | None, own: d.Material | None, transparency: f
     emissive = (named and named.emissive) or _BLACK
     alpha = min(1.0, max(0.0, diffuse[3] * (1.0 - transparency)))
     return Look(
-        ambient[:3],
-        diffuse[:3],
-        specular[:3],
-        emissive[:3],
-        alpha,
-        named.texture if named else "",
-        named.shininess if named else _SHININESS,
+        ambient[:3], diffuse[:3], specular[:3], emissive[:3], alpha, named.texture if named else "", named.shininess if named else 0.0
     )
 
 

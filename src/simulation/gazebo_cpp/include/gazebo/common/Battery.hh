@@ -34,15 +34,17 @@ public:
   bool SetPowerLoad(uint32_t consumer, double load);
   bool PowerLoad(uint32_t consumer, double& load) const;
   const PowerLoad_M& PowerLoads() const { return loads_; }
-  void SetUpdateFunc(Law law) { law_ = std::move(law); }
+  void SetUpdateFunc(Law law);  // what throws is not called again
   void Update();
 
 private:
+  bool known(uint32_t consumer) const;
   std::string name_;
   double first_ = 0, voltage_ = 0;
   uint32_t next_ = 0;
   PowerLoad_M loads_;
   Law law_;
+  const char* owner_ = nullptr;  // the plugin that gave it
 };
 
 }  // namespace common

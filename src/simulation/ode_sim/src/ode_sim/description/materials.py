@@ -27,26 +27,22 @@ class _Look:
     texture: str = ""  # file below media/materials/textures; the colour stands in for it when it is not there
 
 
-_BASE: dict[str, Rgb] = {
-    "White": (1, 1, 1),
-    "Red": (1, 0, 0),
-    "Green": (0, 1, 0),
-    "Blue": (0, 0, 1),
-    "Yellow": (1, 1, 0),
-    "Purple": (1, 0, 1),
-    "Turquoise": (0, 1, 1),
+_DIM = (0.1, 0.1, 0.1)
+_BASE: dict[str, _Look] = {
+    "White": _Look((1, 1, 1), specular=_DIM, shininess=128.0),
+    "Red": _Look((1, 0, 0), specular=_DIM, shininess=1.0),
+    "Green": _Look((0, 1, 0), specular=_DIM, shininess=1.0),
+    "Blue": _Look((0, 0, 1), specular=_DIM, shininess=1.0),
+    "Yellow": _Look((1, 1, 0)),
+    "Purple": _Look((1, 0, 1), specular=_DIM, shininess=1.0),
+    "Turquoise": _Look((0, 1, 1), specular=_DIM, shininess=1.0),
 }
 
-_DIM = (0.1, 0.1, 0.1)
 _LOOKS: dict[str, _Look] = {
-    **{name: _Look(rgb, specular=_DIM, shininess=1.0) for name, rgb in _BASE.items()},
-    **{name + "Glow": _Look(rgb, glows=True, specular=_DIM, shininess=1.0) for name, rgb in _BASE.items()},
-    "White": _Look((1, 1, 1), specular=_DIM, shininess=128.0),
-    "WhiteGlow": _Look((1, 1, 1), glows=True, specular=_DIM, shininess=128.0),
-    "RedGlow": _Look((1, 0, 0), glows=True),
-    "Yellow": _Look((1, 1, 0)),
-    "YellowGlow": _Look((1, 1, 0), glows=True),
-    **{name + "Transparent": _Look(_BASE[name], alpha=0.5) for name in ("Red", "Green", "Blue", "Yellow")},
+    **_BASE,
+    **{name + "Glow": replace(look, glows=True) for name, look in _BASE.items() if name != "Red"},
+    "RedGlow": _Look((1, 0, 0), glows=True),  # which does not shine beside
+    **{name + "Transparent": _Look(_BASE[name].diffuse, alpha=0.5) for name in ("Red", "Green", "Blue", "Yellow")},
     "GreyTransparent": _Look((0.5, 0.5, 0.5), alpha=0.5),
     "BlackTransparent": _Look((0, 0, 0), alpha=0.5),
     "OrangeTransparent": _Look((1, 0.44, 0), alpha=0.4),

@@ -126,7 +126,7 @@ class Material:
     specular: Rgba | None = None
     emissive: Rgba | None = None
     texture: str = ""
-    shininess: float = 10.0  # exponent of the highlight that ``specular`` makes; 0: there is none, as of an SDF's colours in Gazebo 11
+    shininess: float = 0.0  # exponent of the highlight that ``specular`` makes; 0: there is none, as of an SDF's colours in Gazebo 11
 
 
 @dataclass(frozen=True)

@@ -137,8 +137,8 @@ class SdfShapes(SdfValues):
         given = {tag: colour for tag, colour in colours.items() if colour is not None}
         if known is None and not given:
             return Material(name) if name else None
-        scripted = known is not None and colours["specular"] in (None, known.specular)
-        return replace(known or Material(name), shininess=known.shininess if known and scripted else 0.0, **given)
+        base = known or Material(name)
+        return replace(base, shininess=base.shininess if colours["specular"] in (None, base.specular) else 0.0, **given)
 
     def road(self, element: ET.Element) -> Visual:
         """The road of ``element``, a ``<road>``. :raises DescriptionError: it leads nowhere, or is no road."""
