@@ -12,6 +12,8 @@ import unittest
 import roslib.packages
 import rospy
 import rostest
+from dynamic_reconfigure.client import Client
+from dynamic_reconfigure.msg import Config
 from geometry_msgs.msg import Pose, Quaternion
 from moveit_msgs.msg import AttachedCollisionObject, CollisionObject, PlanningScene, PlanningSceneComponents
 from moveit_msgs.srv import ApplyPlanningScene, GetPlanningScene
@@ -179,6 +181,14 @@ class CapabilitiesTest(unittest.TestCase):
         answer = call("/move_group/go_left")
         self.assertEqual((answer.success, answer.message), (True, "Solution was found and executed."))
         states.wait(lambda state: abs(joint_1_of(state) - 1.2) < 1e-3)
+
+    def test_4b_it_obeys_what_is_set_in_move_group(self):
+        heard = Heard("/move_group_capabilities/trajectory_execution/parameter_updates", Config)
+        for margin in (7.5, 0.5):
+            Client("/move_group/trajectory_execution", PATIENCE).update_configuration({"allowed_goal_duration_margin": margin})
+            heard.wait(
+                lambda config, wanted=margin: ("allowed_goal_duration_margin", wanted) in [(d.name, d.value) for d in config.doubles]
+            )
 
     def test_5_a_crash_leaves_move_group_alive(self):
         with self.assertRaises(rospy.ServiceException):

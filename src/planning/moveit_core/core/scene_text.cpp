@@ -95,30 +95,37 @@ public:
       throw problem(std::string("the text ends where ") + what + " is expected");
     return text_.substr(start, at_ - start);
   }
-  double number(const char* what)
+  // As many finite numbers as there are places.
+  template <typename Number>
+  void numbers(const std::vector<Number*>& places, const std::string& what)
   {
-    const std::string found = word(what);
-    std::istringstream stream(found);
-    stream.imbue(std::locale::classic());
-    double value;
-    if (!(stream >> value) || !stream.eof())
-      throw problem("'" + found.substr(0, 20) + "' stands where " + what + " is expected");
-    return value;
+    std::string found;
+    bool good = true;
+    for (Number* place : places)
+    {
+      const std::string one = word(what.c_str());
+      std::istringstream stream(one);
+      stream.imbue(std::locale::classic());
+      good = (stream >> *place) && stream.peek() == std::istringstream::traits_type::eof() && good;
+      found += (found.empty() ? "" : " ") + one;
+    }
+    if (!good)
+      throw problem(what + " is " + std::to_string(places.size()) + (places.size() == 1 ? " number" : " numbers") + ", not '" +
+                    found.substr(0, 60) + "'");
   }
-  std::size_t count(const char* what, std::size_t most = 10000000)
+  std::size_t count(const std::string& what, std::size_t most = 10000000)
   {
-    const double value = number(what);
-    if (value < 0 || value > static_cast<double>(most) || value != static_cast<double>(static_cast<std::size_t>(value)))
-      throw problem(std::string("that is no number of ") + what);
-    return static_cast<std::size_t>(value);
+    const std::string found = word(("the number of " + what).c_str());
+    const bool digits = found.size() < 9 && found.find_first_not_of("0123456789") == std::string::npos;
+    if (!digits || std::stoul(found) > most)
+      throw problem("the number of " + what + " is '" + found.substr(0, 20) + "'");
+    return std::stoul(found);
   }
   geometry_msgs::Pose pose()
   {
     geometry_msgs::Pose pose;
-    for (double* part : { &pose.position.x, &pose.position.y, &pose.position.z })
-      *part = number("a position");
-    for (double* part : { &pose.orientation.x, &pose.orientation.y, &pose.orientation.z, &pose.orientation.w })
-      *part = number("an orientation");
+    numbers<double>({ &pose.position.x, &pose.position.y, &pose.position.z }, "a position");
+    numbers<double>({ &pose.orientation.x, &pose.orientation.y, &pose.orientation.z, &pose.orientation.w }, "a quaternion");
     return pose;
   }
   // Since Noetic three lines stand between "* name" and the first shape: position, orientation, number of shapes.
@@ -149,16 +156,17 @@ void readShape(Reader& reader, moveit_msgs::CollisionObject& object)
     SolidPrimitive primitive;
     primitive.type = kind->second.type;
     primitive.dimensions.resize(kind->second.order.size());
+    std::vector<double*> sizes;
     for (const std::size_t i : kind->second.order)
-      primitive.dimensions[i] = reader.number("a size");
+      sizes.push_back(&primitive.dimensions[i]);
+    reader.numbers(sizes, "a " + name);
     object.primitives.push_back(primitive);
     object.primitive_poses.push_back(reader.pose());
   }
   else if (name == "plane")
   {
     shape_msgs::Plane plane;
-    for (double& value : plane.coef)
-      value = reader.number("a plane");
+    reader.numbers<double>({ &plane.coef[0], &plane.coef[1], &plane.coef[2], &plane.coef[3] }, "a plane");
     object.planes.push_back(plane);
     object.plane_poses.push_back(reader.pose());
   }
@@ -168,12 +176,10 @@ void readShape(Reader& reader, moveit_msgs::CollisionObject& object)
     mesh.vertices.resize(reader.count("vertices"));
     mesh.triangles.resize(reader.count("triangles"));
     for (auto& v : mesh.vertices)
-      for (double* part : { &v.x, &v.y, &v.z })
-        *part = reader.number("a vertex");
+      reader.numbers<double>({ &v.x, &v.y, &v.z }, "a vertex");
     for (auto& t : mesh.triangles)
       for (auto& index : t.vertex_indices)
-        index =
-            static_cast<uint32_t>(reader.count("vertices of a triangle", mesh.vertices.empty() ? 0 : mesh.vertices.size() - 1));
+        index = reader.count("vertices of a triangle", std::max<std::size_t>(mesh.vertices.size(), 1) - 1);
     object.meshes.push_back(mesh);
     object.mesh_poses.push_back(reader.pose());
   }
@@ -253,15 +259,17 @@ moveit_msgs::PlanningScene readScene(const std::string& text, const std::string&
       object.pose = reader.pose();
     moveit_msgs::ObjectColor color;
     color.id = object.id;
+    bool colored = false;
     for (std::size_t left = reader.count("shapes"); left; --left)
     {
       readShape(reader, object);
-      float values[4];
-      for (float& value : values)
-        value = static_cast<float>(reader.number("a colour"));
-      if (values[0] == 0 && values[1] == 0 && values[2] == 0 && values[3] == 0)
-        continue;
-      color.color.r = values[0], color.color.g = values[1], color.color.b = values[2], color.color.a = values[3];
+      std_msgs::ColorRGBA of_shape;
+      reader.numbers<float>({ &of_shape.r, &of_shape.g, &of_shape.b, &of_shape.a }, "a colour");
+      if (of_shape.r != 0 || of_shape.g != 0 || of_shape.b != 0 || of_shape.a != 0)
+      {
+        color.color = of_shape;
+        colored = true;
+      }
     }
     for (std::size_t left = poses ? reader.count("subframes") : 0; left; --left)
     {
@@ -269,7 +277,7 @@ moveit_msgs::PlanningScene readScene(const std::string& text, const std::string&
       object.subframe_poses.push_back(reader.pose());
     }
     scene.world.collision_objects.push_back(object);
-    if (color.color.a > 0)
+    if (colored)
       scene.object_colors.push_back(color);
   }
 }

@@ -3,6 +3,9 @@
 //   move_group_capabilities --move-group NAME --report FD --default PIPELINE [--pipeline NAME]... [--execute] [--debug] CLASS...
 //
 // What has become of each class is written to the file descriptor, a line each: "+CLASS<tab>TITLE" or "-CLASS<tab>WHY".
+#include <dynamic_reconfigure/Config.h>
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <unistd.h>
 
@@ -83,6 +86,33 @@ moveit_cpp::MoveItCppPtr makeMoveItCpp(const Arguments& arguments)
   return std::make_shared<moveit_cpp::MoveItCpp>(options, node);
 }
 
+// What is set in move_group's servers of dynamic_reconfigure holds here as well. In a thread of its own: this process's servers answer
+// in the one in which capabilities work.
+class Follower
+{
+public:
+  Follower(const std::string& move_group, const std::vector<std::string>& servers)
+  {
+    node_.setCallbackQueue(&queue_);
+    for (const std::string& server : servers)
+      settings_.push_back(node_.subscribe<dynamic_reconfigure::Config>(
+          move_group + "/" + server + "/parameter_updates", 1,
+          [set = ros::names::resolve("~" + server + "/set_parameters")](const dynamic_reconfigure::ConfigConstPtr& config) {
+            dynamic_reconfigure::Reconfigure call;
+            call.request.config = *config;
+            if (!ros::service::call(set, call) && ros::ok())
+              ROS_WARN("%s does not take what is set in move_group", set.c_str());
+          }));
+    spinner_.start();
+  }
+
+private:
+  ros::CallbackQueue queue_;
+  ros::NodeHandle node_;
+  std::vector<ros::Subscriber> settings_;
+  ros::AsyncSpinner spinner_{ 1, &queue_ };  // last: it ends before what it uses
+};
+
 using Loader = pluginlib::ClassLoader<move_group::MoveGroupCapability>;
 
 std::vector<move_group::MoveGroupCapabilityPtr> load(Loader& loader, const Arguments& arguments,
@@ -112,6 +142,7 @@ int run(const Arguments& arguments)
   Loader loader("moveit_ros_move_group", "move_group::MoveGroupCapability");
   move_group::MoveGroupContextPtr context;
   std::unique_ptr<move_group::SharedScene> shared;
+  std::unique_ptr<Follower> follower;
   std::vector<move_group::MoveGroupCapabilityPtr> capabilities;
   {
     const Report report(arguments.report);
@@ -127,6 +158,8 @@ int run(const Arguments& arguments)
       return 1;
     }
     shared.reset(new move_group::SharedScene(context->planning_scene_monitor_));
+    if (arguments.execute)
+      follower.reset(new Follower(arguments.move_group, { "trajectory_execution", "plan_execution" }));
     capabilities = load(loader, arguments, context, report);
   }
   ros::waitForShutdown();

@@ -5,6 +5,7 @@
 
 #include "laws/execution.hpp"
 #include "laws/parameters.hpp"
+#include "laws/state_stamps.hpp"
 #include "message_bytes.hpp"
 
 namespace py = pybind11;
@@ -49,6 +50,44 @@ void bindTrajectory(py::module_& m)
       .def("start_deviation", &execution::startDeviation, py::arg("state"), py::arg("tolerance"),
            "One line about the first joint that is not where the trajectory starts; empty when there is none.");
 }
+
+void bindParameters(py::module_& m)
+{
+  using execution::Kind;
+  using execution::Parameter;
+  py::enum_<Kind>(m, "Kind", "Of a parameter's values.")
+      .value("FLAG", Kind::FLAG, "true or false; its value is 1 or 0")
+      .value("COUNT", Kind::COUNT, "a whole number")
+      .value("NUMBER", Kind::NUMBER, "any");
+  py::class_<Parameter>(m, "Parameter", "One of a dynamic_reconfigure server of MoveIt: its own value and its bounds.")
+      .def_readonly("name", &Parameter::name)
+      .def_readonly("description", &Parameter::description)
+      .def_readonly("kind", &Parameter::kind)
+      .def_readonly("value", &Parameter::value)
+      .def_readonly("low", &Parameter::low)
+      .def_readonly("high", &Parameter::high)
+      .def_readonly("level", &Parameter::level)
+      .def("within", &Parameter::within, py::arg("given"),
+           "What is given, inside the bounds; the own value where that is not a number.");
+  m.def("parameters", &execution::parameters, "Those of <ns>/trajectory_execution, in the order in which tools show them.");
+  m.def("plan_parameters", &execution::planParameters, "Those of <ns>/plan_execution.");
+  m.def("scene_parameters", &execution::sceneParameters, "Those of <ns>/planning_scene_monitor.");
+}
+
+void bindStamps(py::module_& m)
+{
+  using state_stamps::Order;
+  py::enum_<Order>(m, "StampOrder", "What a joint state is beside what is known of the joint.")
+      .value("NEWS", Order::NEWS)
+      .value("REPEATED", Order::REPEATED, "older: another publisher has said it since")
+      .value("JUMPED_BACK", Order::JUMPED_BACK, "time goes on from before: all that is known is forgotten");
+  m.def(
+      "stamp_order",
+      [](double known, double stamp, double now) {
+        return state_stamps::order(ros::Time(known), ros::Time(stamp), ros::Time(now));
+      },
+      py::arg("known"), py::arg("stamp"), py::arg("now"), "All in s.");
+}
 }  // namespace
 
 PYBIND11_MODULE(_execution, m)
@@ -69,16 +108,8 @@ PYBIND11_MODULE(_execution, m)
              return execution::Controller{ name, joints, active, preferred };
            }),
            py::arg("name"), py::arg("joints"), py::arg("active") = false, py::arg("preferred") = false);
-  py::class_<execution::Parameter>(m, "Parameter", "One of <ns>/trajectory_execution: its own value and its bounds.")
-      .def_readonly("name", &execution::Parameter::name)
-      .def_readonly("description", &execution::Parameter::description)
-      .def_readonly("flag", &execution::Parameter::flag, "true or false; its value is 1 or 0")
-      .def_readonly("value", &execution::Parameter::value)
-      .def_readonly("low", &execution::Parameter::low)
-      .def_readonly("high", &execution::Parameter::high)
-      .def("within", &execution::Parameter::within, py::arg("given"),
-           "What is given, inside the bounds; the own value where that is not a number.");
-  m.def("parameters", &execution::parameters, "Those of <ns>/trajectory_execution, in the order in which tools show them.");
+  bindParameters(m);
+  bindStamps(m);
   m.def("actuated", &execution::actuated, py::arg("joints"), py::arg("robot"),
         "Those of `joints` that need a controller: not fixed, passive or mimic.");
   m.def("choose", &execution::choose, py::arg("wanted"), py::arg("controllers"), py::arg("manage"),

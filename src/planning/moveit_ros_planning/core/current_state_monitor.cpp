@@ -6,6 +6,7 @@
 
 #include <tf2_eigen/tf2_eigen.h>
 
+#include "laws/state_stamps.hpp"
 #include "log_names.hpp"
 
 namespace planning_scene_monitor
@@ -271,6 +272,25 @@ void CurrentStateMonitor::clearUpdateCallbacks()
   update_callbacks_.clear();
 }
 
+// Whether the stamp is that of a state to be taken. Where time jumped back, what is known is forgotten first.
+bool CurrentStateMonitor::isNews(const moveit::core::JointModel& joint, const ros::Time& stamp)
+{
+  const auto heard = joint_time_.find(&joint);
+  if (heard == joint_time_.end())
+    return true;
+  const state_stamps::Order order = state_stamps::order(heard->second, stamp, ros::Time::now());
+  if (order == state_stamps::Order::JUMPED_BACK)
+  {
+    ROS_WARN_STREAM_NAMED(log_names::CURRENT_STATE_MONITOR,
+                          "New joint state for joint '"
+                              << joint.getName() << "' is not newer than the previous state. Assuming your rosbag looped.");
+    // A static transform, which has no time, is not sent again.
+    for (auto entry = joint_time_.begin(); entry != joint_time_.end();)
+      entry = entry->second.isZero() ? std::next(entry) : joint_time_.erase(entry);
+  }
+  return order != state_stamps::Order::REPEATED;
+}
+
 // Whether the state is another one than before.
 bool CurrentStateMonitor::takeJoint(const sensor_msgs::JointState& joint_state, const ros::Time& stamp, std::size_t i)
 {
@@ -287,21 +307,8 @@ bool CurrentStateMonitor::takeJoint(const sensor_msgs::JointState& joint_state, 
         "joint '" << joint->getName() << "' has the position " << position << " on " << getMonitoredTopic() << ": ignored");
     return false;
   }
-  const auto heard = joint_time_.find(joint);
-  if (heard != joint_time_.end() && heard->second >= stamp)
-  {
-    // Time ran backwards: a simulation was reset, a bag began again. A stamp that comes twice is nothing.
-    if (heard->second > stamp)
-    {
-      ROS_WARN_STREAM_NAMED(log_names::CURRENT_STATE_MONITOR, "New joint state for joint '"
-                                                                  << joint->getName()
-                                                                  << "' is not newer than the "
-                                                                     "previous state. Assuming your rosbag looped.");
-      // A static transform, which has no time, is not sent again.
-      for (auto entry = joint_time_.begin(); entry != joint_time_.end();)
-        entry = entry->second.isZero() ? std::next(entry) : joint_time_.erase(entry);
-    }
-  }
+  if (!isNews(*joint, stamp))
+    return false;
   joint_time_[joint] = stamp;
   const moveit::core::VariableBounds& bounds = joint->getVariableBounds()[0];
   if (bounds.position_bounded_ && !isContinuous(*joint))
@@ -379,7 +386,8 @@ void CurrentStateMonitor::takeTransforms()
         continue;
       }
       const auto heard = joint_time_.find(joint);
-      if (heard != joint_time_.end() && !transform.header.stamp.isZero() && transform.header.stamp <= heard->second)
+      if (heard != joint_time_.end() && !transform.header.stamp.isZero() &&
+          (transform.header.stamp == heard->second || !isNews(*joint, transform.header.stamp)))
         continue;
       joint_time_[joint] = transform.header.stamp;
       std::vector<double> values(joint->getVariableCount());

@@ -2,10 +2,8 @@
 
 #include <ros/console.h>
 
-#include <cmath>
 #include <optional>
 
-#include "laws/parameters.hpp"
 #include "log_names.hpp"
 
 namespace trajectory_execution_manager
@@ -25,26 +23,6 @@ std::optional<double> number(Value& value)
 
 bool holds(const Value& table, const std::string& key) { return table.getType() == Value::TypeStruct && table.hasMember(key); }
 }  // namespace
-
-std::map<std::string, double> readExecution(const ros::NodeHandle& nh)
-{
-  std::map<std::string, double> given;
-  for (const execution::Parameter& each : execution::parameters())
-  {
-    Value value;
-    given[each.name] = each.value;
-    if (!nh.getParam(each.name, value))
-      continue;
-    const bool flag = value.getType() == Value::TypeBoolean;
-    const std::optional<double> found = flag ? static_cast<bool>(value) : number(value);
-    if (flag == each.flag && found)
-      given[each.name] = each.within(*found);
-    else
-      ROS_WARN_NAMED(log_names::TRAJECTORY_EXECUTION_MANAGER, "%s/%s: ignored, %s is expected", nh.getNamespace().c_str(),
-                     each.name.c_str(), each.flag ? "true or false" : "a number");
-  }
-  return given;
-}
 
 std::map<std::string, double> readStartTolerances(const ros::NodeHandle& nh)
 {

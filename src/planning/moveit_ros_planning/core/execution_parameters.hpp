@@ -8,10 +8,6 @@
 
 namespace trajectory_execution_manager
 {
-// What nh, <ns>/trajectory_execution, gives of execution::parameters(), by name: each inside its bounds; what is not given, or of another
-// kind, as it is without.
-std::map<std::string, double> readExecution(const ros::NodeHandle& nh);
-
 // joints_allowed_start_tolerance below nh: rad or m by joint. What is no number of 0 or more is named and left out.
 std::map<std::string, double> readStartTolerances(const ros::NodeHandle& nh);
 

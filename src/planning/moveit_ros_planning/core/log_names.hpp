@@ -14,4 +14,5 @@ constexpr char PLANNING_SCENE_MONITOR[] = "planning_scene_monitor";
 constexpr char RDF_LOADER[] = "rdf_loader";
 constexpr char ROBOT_MODEL_LOADER[] = "robot_model_loader";
 constexpr char TRAJECTORY_EXECUTION_MANAGER[] = "trajectory_execution_manager";
+constexpr char TRAJECTORY_MONITOR[] = "TrajectoryMonitor";
 }  // namespace log_names

@@ -3,8 +3,10 @@
 
 #include <optional>
 
+#include <moveit/planning_scene_monitor/trajectory_monitor.h>
 #include <moveit/utils/message_checks.h>
 
+#include "dynamic_settings.hpp"
 #include "laws/execution.hpp"
 #include "log_names.hpp"
 
@@ -14,6 +16,7 @@ namespace
 {
 using Codes = moveit_msgs::MoveItErrorCodes;
 using planning_scene_monitor::LockedPlanningSceneRO;
+using moveit_ros_planning::DynamicSettings;
 using planning_scene_monitor::PlanningSceneMonitor;
 
 int codeOf(const moveit_controller_manager::ExecutionStatus& status)
@@ -37,7 +40,15 @@ PlanExecution::PlanExecution(const planning_scene_monitor::PlanningSceneMonitorP
     if (type & (PlanningSceneMonitor::UPDATE_GEOMETRY | PlanningSceneMonitor::UPDATE_TRANSFORMS))
       *changed = true;
   });
+  settings_ =
+      std::make_unique<DynamicSettings>(ros::NodeHandle("~/plan_execution"), execution::planParameters(),
+                                        log_names::PLAN_EXECUTION, [this](const DynamicSettings::Values& given) {
+                                          setMaxReplanAttempts(given.at("max_replan_attempts"));
+                                          setTrajectoryStateRecordingFrequency(given.at("record_trajectory_state_frequency"));
+                                        });
 }
+
+PlanExecution::~PlanExecution() = default;
 
 // ---------------------------------------------------------------- planning
 
@@ -63,7 +74,7 @@ void PlanExecution::planAndExecute(ExecutableMotionPlan& plan, const moveit_msgs
 void PlanExecution::replan(ExecutableMotionPlan& plan, const Options& opt)
 {
   preempt_ = false;
-  const unsigned int most = !opt.replan_ ? 1 : (opt.replan_attempts_ > 0 ? opt.replan_attempts_ : default_max_replan_attempts_);
+  const unsigned int most = !opt.replan_ ? 1 : (opt.replan_attempts_ > 0 ? opt.replan_attempts_ : getMaxReplanAttempts());
   bool solved = false, again = true;
   for (unsigned int i = 1; i <= most && again; ++i)
   {
@@ -124,6 +135,11 @@ moveit_msgs::MoveItErrorCodes PlanExecution::executeAndMonitor(ExecutableMotionP
     return result;
   }
   complete_ = invalid_ = false;
+  std::optional<planning_scene_monitor::TrajectoryMonitor> recorder;
+  if (monitor_->getStateMonitor())
+    recorder.emplace(monitor_->getStateMonitor(), recording_frequency_);
+  if (recorder)
+    recorder->startTrajectoryMonitor();
   execution_->execute([this](const moveit_controller_manager::ExecutionStatus&) { complete_ = true; },
                       [this, &plan](std::size_t index) { succeeded(plan, index); });
   bool preempted = false;
@@ -131,6 +147,12 @@ moveit_msgs::MoveItErrorCodes PlanExecution::executeAndMonitor(ExecutableMotionP
   if (preempted || !complete_)
     execution_->stopExecution();
   execution_->waitForExecution();  // its last callback holds the plan
+  if (recorder)
+  {
+    recorder->stopTrajectoryMonitor();
+    plan.executed_trajectory_ = std::make_shared<robot_trajectory::RobotTrajectory>(monitor_->getRobotModel(), "");
+    recorder->swapTrajectory(*plan.executed_trajectory_);
+  }
   result.val = invalid_    ? Codes::MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE
                : preempted ? Codes::PREEMPTED
                            : codeOf(execution_->getLastExecutionStatus());

@@ -8,6 +8,7 @@
 #include <moveit/utils/message_checks.h>
 #include <moveit/utils/xmlrpc_casts.h>
 
+#include "dynamic_settings.hpp"
 #include "log_names.hpp"
 
 namespace planning_scene_monitor
@@ -16,6 +17,7 @@ namespace
 {
 using Lock = boost::unique_lock<boost::shared_mutex>;
 using Value = XmlRpc::XmlRpcValue;
+using moveit_ros_planning::DynamicSettings;
 
 // A number of the parameters; what is none is told, and left out.
 std::optional<double> number(const std::string& where, const Value& value)
@@ -120,10 +122,15 @@ PlanningSceneMonitor::PlanningSceneMonitor(const planning_scene::PlanningScenePt
   initialize(scene);
   spinner_.reset(new ros::AsyncSpinner(1, &queue_));
   spinner_->start();
+  ros::NodeHandle own(moveit_ros_planning::freeNamespace(name_));
+  own.setCallbackQueue(&queue_);  // answers in a program that does not spin
+  settings_ = std::make_unique<DynamicSettings>(own, execution::sceneParameters(), log_names::PLANNING_SCENE_MONITOR,
+                                                [this](const DynamicSettings::Values& given) { configurePublishing(given); });
 }
 
 PlanningSceneMonitor::~PlanningSceneMonitor()
 {
+  settings_.reset();
   stopStateMonitor();
   stopSceneMonitor();
   stopWorldGeometryMonitor();
@@ -399,8 +406,29 @@ void PlanningSceneMonitor::triggerSceneUpdateEvent(SceneUpdateType update_type)
   publisher_.publish(message);
 }
 
+// As upstream: a client that changes anything says all of what is published, whatever the program had asked for.
+void PlanningSceneMonitor::configurePublishing(const std::map<std::string, double>& given)
+{
+  if (given.at("publish_planning_scene") == 0.0)
+    return stopPublishingPlanningScene();
+  int kinds = UPDATE_NONE;
+  for (const auto& [name, kind] :
+       { std::pair("publish_geometry_updates", UPDATE_GEOMETRY), std::pair("publish_state_updates", UPDATE_STATE),
+         std::pair("publish_transforms_updates", UPDATE_TRANSFORMS) })
+    kinds |= given.at(name) != 0.0 ? kind : UPDATE_NONE;
+  setPlanningScenePublishingFrequency(given.at("publish_planning_scene_hz"));
+  startPublishingPlanningScene(static_cast<SceneUpdateType>(kinds));
+}
+
+void PlanningSceneMonitor::stopPublishingPlanningScene()
+{
+  const boost::recursive_mutex::scoped_lock lock(callbacks_mutex_);
+  publisher_.shutdown();
+}
+
 void PlanningSceneMonitor::startPublishingPlanningScene(SceneUpdateType event, const std::string& planning_scene_topic)
 {
+  const boost::recursive_mutex::scoped_lock lock(callbacks_mutex_);
   published_events_ = event;
   publisher_ = nh_.advertise<moveit_msgs::PlanningScene>(planning_scene_topic, 100, true);
   ROS_INFO_NAMED(log_names::PLANNING_SCENE_MONITOR, "Publishing maintained planning scene on '%s'",

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "built_in_controllers.hpp"
+#include "dynamic_settings.hpp"
 #include "execution_parameters.hpp"
 #include "laws/execution.hpp"
 #include "log_names.hpp"
@@ -12,6 +13,8 @@ namespace trajectory_execution_manager
 {
 namespace
 {
+using moveit_ros_planning::DynamicSettings;
+
 double ownOr(const std::map<std::string, double>& own, const std::string& name, double standard)
 {
   const auto found = own.find(name);
@@ -49,13 +52,15 @@ TrajectoryExecutionManager::~TrajectoryExecutionManager()
 void TrajectoryExecutionManager::initialize()
 {
   const ros::NodeHandle settings(node_handle_, "trajectory_execution");
-  const std::map<std::string, double> given = readExecution(settings);
-  execution_duration_monitoring_ = given.at("execution_duration_monitoring") != 0.0;
-  allowed_execution_duration_scaling_ = given.at("allowed_execution_duration_scaling");
-  allowed_goal_duration_margin_ = given.at("allowed_goal_duration_margin");
-  execution_velocity_scaling_ = given.at("execution_velocity_scaling");
-  allowed_start_tolerance_ = given.at("allowed_start_tolerance");
-  wait_for_trajectory_completion_ = given.at("wait_for_trajectory_completion") != 0.0;
+  settings_ = std::make_unique<DynamicSettings>(
+      settings, execution::parameters(), log_names::TRAJECTORY_EXECUTION_MANAGER, [this](const DynamicSettings::Values& given) {
+        execution_duration_monitoring_ = given.at("execution_duration_monitoring") != 0.0;
+        allowed_execution_duration_scaling_ = given.at("allowed_execution_duration_scaling");
+        allowed_goal_duration_margin_ = given.at("allowed_goal_duration_margin");
+        execution_velocity_scaling_ = given.at("execution_velocity_scaling");
+        allowed_start_tolerance_ = given.at("allowed_start_tolerance");
+        wait_for_trajectory_completion_ = given.at("wait_for_trajectory_completion") != 0.0;
+      });
   joints_allowed_start_tolerance_ = readStartTolerances(settings);
   controller_duration_scaling_ = readOfControllers(node_handle_, "allowed_execution_duration_scaling");
   controller_duration_margin_ = readOfControllers(node_handle_, "allowed_goal_duration_margin");

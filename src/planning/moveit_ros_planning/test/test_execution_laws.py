@@ -13,28 +13,57 @@ from moveit_ros_planning import _execution
 from moveit_ros_planning._execution import Controller, StartTolerance
 from trajectory_msgs.msg import JointTrajectoryPoint, MultiDOFJointTrajectoryPoint
 
-#: Of MoveIt's TrajectoryExecutionDynamicReconfigure.cfg, by level.
+_FLAG, _COUNT, _NUMBER = _execution.Kind.FLAG, _execution.Kind.COUNT, _execution.Kind.NUMBER
+#: Of MoveIt's TrajectoryExecution-, PlanExecution- and PlanningSceneMonitorDynamicReconfigure.cfg: name, kind, default, bounds, level.
 _PARAMETERS = [
-    ("execution_duration_monitoring", True, 1, 0, 1),
-    ("allowed_execution_duration_scaling", False, 1.1, 1, 10),
-    ("allowed_goal_duration_margin", False, 0.5, 0.1, 30),
-    ("execution_velocity_scaling", False, 1, 0.1, 10),
-    ("allowed_start_tolerance", False, 0.01, 0, math.inf),
-    ("wait_for_trajectory_completion", True, 1, 0, 1),
+    ("execution_duration_monitoring", _FLAG, 1, 0, 1, 1),
+    ("allowed_execution_duration_scaling", _NUMBER, 1.1, 1, 10, 2),
+    ("allowed_goal_duration_margin", _NUMBER, 0.5, 0.1, 30, 3),
+    ("execution_velocity_scaling", _NUMBER, 1, 0.1, 10, 4),
+    ("allowed_start_tolerance", _NUMBER, 0.01, 0, math.inf, 5),
+    ("wait_for_trajectory_completion", _FLAG, 1, 0, 1, 6),
+]
+_PLAN = [("max_replan_attempts", _COUNT, 5, 0, 1000, 1), ("record_trajectory_state_frequency", _NUMBER, 0, 0, 1000, 6)]
+_SCENE = [
+    ("publish_planning_scene", _FLAG, 0, 0, 1, 1),
+    ("publish_planning_scene_hz", _NUMBER, 4, 0.1, 100, 2),
+    ("publish_geometry_updates", _FLAG, 1, 0, 1, 3),
+    ("publish_state_updates", _FLAG, 0, 0, 1, 4),
+    ("publish_transforms_updates", _FLAG, 0, 0, 1, 5),
 ]
 
 
-def test_parameters_are_those_of_upstream_in_its_order():
-    assert [(each.name, each.flag, each.value, each.low, each.high) for each in _execution.parameters()] == _PARAMETERS
-    assert all(each.description for each in _execution.parameters())
+@pytest.mark.parametrize(
+    "rows, wanted", [(_execution.parameters(), _PARAMETERS), (_execution.plan_parameters(), _PLAN), (_execution.scene_parameters(), _SCENE)]
+)
+def test_parameters_are_those_of_upstream_in_its_order(rows, wanted):
+    assert [(each.name, each.kind, each.value, each.low, each.high, each.level) for each in rows] == wanted
+    assert all(each.description for each in rows)
 
 
-@pytest.mark.parametrize("name, _flag, own, low, high", [row for row in _PARAMETERS if not row[1]])
-def test_a_parameter_outside_its_bounds_is_the_bound_beside_it(name, _flag, own, low, high):
+@pytest.mark.parametrize("name, _kind, own, low, high, _level", [row for row in _PARAMETERS if row[1] == _NUMBER])
+def test_a_parameter_outside_its_bounds_is_the_bound_beside_it(name, _kind, own, low, high, _level):
     (parameter,) = (each for each in _execution.parameters() if each.name == name)
     assert parameter.within(low - 5) == low == parameter.within(-math.inf)
     assert parameter.within(math.inf) == high and parameter.within(low + 1) == low + 1
     assert parameter.within(math.nan) == own
+
+
+@pytest.mark.parametrize(
+    "known, stamp, now, wanted",
+    [
+        (10.0, 10.0, 10.0, "NEWS"),  # two messages of one moment, each with a part of the joints
+        (10.0, 10.1, 10.1, "NEWS"),
+        (10.0, 9.9, 10.0, "REPEATED"),
+        (10.0, 2.0, 10.1, "REPEATED"),  # somebody's old state beside a robot that is heard of
+        (10.0, 0.01, 0.02, "JUMPED_BACK"),  # the simulation was reset
+        (0.4, 0.01, 0.02, "REPEATED"),  # so short ago that it comes by itself
+        (1000.0, 900.0, 1.7e9, "JUMPED_BACK"),  # a bag without a clock that begins again
+        (1000.0, 999.7, 1.7e9, "REPEATED"),  # two nodes in one bag
+    ],
+)
+def test_a_stamp_of_before_is_a_repetition_or_time_that_jumped_back(known, stamp, now, wanted):
+    assert _execution.stamp_order(known, stamp, now) == getattr(_execution.StampOrder, wanted)
 
 
 _JOINTS = (

@@ -272,6 +272,58 @@ TEST(StateMonitor, ignoresWhatIsNoNumberAndTakesJointStatesWithoutAStamp)
   }
 }
 
+// A stamp of before is another publisher's repetition while the robot is heard of, and a bag that began again when it is not. MoveIt 1
+// takes the first for the second.
+TEST(StateMonitor, takesABagThatBeginsAgainAndNoRepetition)
+{
+  planning_scene_monitor::CurrentStateMonitor monitor(loader()->getModel(), nullptr);
+  ros::Publisher joints = ros::NodeHandle().advertise<sensor_msgs::JointState>("late_joint_states", 10, true);
+  monitor.startStateMonitor("late_joint_states");
+  sensor_msgs::JointState state;
+  state.name = { "joint_1", "joint_2", "joint_3", "joint_4", "joint_5", "joint_6" };
+  state.position = { 0.3, 0.1, 0.2, 0.3, 0.4, 0.5 };
+  const auto say = [&](double value, const ros::Time& stamp) {
+    sensor_msgs::JointState marker;  // of another joint: when it is in, what came before it is
+    marker.name = { "finger_joint" };
+    marker.position = { value / 100 };
+    marker.header.stamp = ros::Time::now() + ros::Duration(10.0);
+    state.position[0] = value;
+    state.header.stamp = stamp;
+    joints.publish(state);
+    joints.publish(marker);
+    const ros::WallTime since = ros::WallTime::now();
+    while (monitor.getCurrentState()->getVariablePosition("finger_joint") != value / 100 &&
+           ros::WallTime::now() - since < ros::WallDuration(20))
+      ros::WallDuration(0.01).sleep();
+    return monitor.getCurrentState()->getVariablePosition("joint_1");
+  };
+  const ros::Time now = ros::Time::now();
+  EXPECT_EQ(say(0.31, now + ros::Duration(0.2)), 0.31);
+  EXPECT_EQ(say(0.32, now - ros::Duration(0.1)), 0.31);
+  EXPECT_EQ(say(0.33, now - ros::Duration(60.0)), 0.31);
+  EXPECT_EQ(say(0.34, now + ros::Duration(0.3)), 0.34);
+  EXPECT_TRUE(monitor.haveCompleteState(now));
+
+  planning_scene_monitor::CurrentStateMonitor bag(loader()->getModel(), nullptr);
+  bag.startStateMonitor("bag_joint_states");
+  ros::Publisher recorded = ros::NodeHandle().advertise<sensor_msgs::JointState>("bag_joint_states", 10, true);
+  const auto play = [&](double value, double stamp) {
+    state.name = { "joint_1" };
+    state.position = { value };
+    state.header.stamp = ros::Time(stamp);
+    recorded.publish(state);
+    const ros::WallTime since = ros::WallTime::now();
+    while (bag.getCurrentState()->getVariablePosition("joint_1") != value &&
+           ros::WallTime::now() - since < ros::WallDuration(20))
+      ros::WallDuration(0.01).sleep();
+    return bag.getCurrentState()->getVariablePosition("joint_1");
+  };
+  EXPECT_EQ(play(0.5, 1000.0), 0.5);
+  EXPECT_EQ(play(0.6, 1009.0), 0.6);
+  EXPECT_EQ(play(0.1, 1000.0), 0.1);
+  EXPECT_EQ(play(0.2, 1000.1), 0.2);
+}
+
 int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);

@@ -205,10 +205,12 @@ void PlanningSceneDisplay::startLoading() {
   if (!initialized() || !isEnabled()) return;
   forget();
   const std::string description = robotDescription();
-  jobs_.add([this, generation, description]() { loadInBackground(generation, description); });
+  jobs_.add([this, generation, description, name = getNameStd() + "_planning_scene_monitor"]() {
+    loadInBackground(generation, description, name);
+  });
 }
 
-void PlanningSceneDisplay::loadInBackground(int generation, const std::string& description) {
+void PlanningSceneDisplay::loadInBackground(int generation, const std::string& description, const std::string& name) {
   const auto stale = [this, generation]() { return jobs_.ending() || generation != generation_ || !ros::ok(); };
   const ros::NodeHandle nh("~");
   std::string key;
@@ -229,7 +231,7 @@ void PlanningSceneDisplay::loadInBackground(int generation, const std::string& d
                            : "The text in '" + key + "' is no URDF (check_urdf says where)");
     return;
   }
-  const auto monitor = std::make_shared<planning_scene_monitor::PlanningSceneMonitor>(loader);
+  const auto monitor = std::make_shared<planning_scene_monitor::PlanningSceneMonitor>(loader, nullptr, name);
   if (stale()) return;
   jobs_.later([this, generation, monitor]() {
     if (generation == generation_) adopt(monitor);

@@ -79,7 +79,7 @@ class PlanningSceneDisplay : public rviz::Display {
   void makeSceneProperties();
   void makeRobotProperties();
   void startLoading();
-  void loadInBackground(int generation, const std::string& description);
+  void loadInBackground(int generation, const std::string& description, const std::string& name);
   void adopt(const planning_scene_monitor::PlanningSceneMonitorPtr& monitor);
   void watchMoveGroup(int generation);
   void forget();

@@ -2,8 +2,8 @@
 
 import pytest
 from geometry_msgs.msg import Point, Pose, Quaternion
-from moveit_core import scene_text
 from moveit_msgs.msg import CollisionObject, Constraints, MotionPlanRequest, ObjectColor, PlanningScene, RobotState, RobotTrajectory
+from moveit_ros_planning import scene_text
 from moveit_ros_warehouse import queries
 from moveit_ros_warehouse.storage import StorageError, Warehouse
 from shape_msgs.msg import Mesh, MeshTriangle, Plane, SolidPrimitive

@@ -42,19 +42,22 @@ set(NOETIC_STANDARD_HEADERS
   "variant: exception typeinfo utility |"
   "vector: exception typeinfo |")
 
-# Headers of these names in FOLDER, each of which includes the compiler's and then the others.
-function(noetic_write_standard_headers folder)
-  foreach(line IN LISTS NOETIC_STANDARD_HEADERS)
-    if(NOT line MATCHES "^([a-z_]+):([a-z_ ]*)[|]([a-z_ ]*)$")
-      message(FATAL_ERROR "standard_headers.cmake: '${line}' is no 'header: names | names'.")
-    endif()
-    set(header ${CMAKE_MATCH_1})
-    set(later "${CMAKE_MATCH_3}")
-    string(REGEX MATCHALL "[a-z_]+" always "${CMAKE_MATCH_2}")
+# What a header of this name is to say.
+function(noetic_standard_header header result)
+  string(CONCAT text
+    "#pragma GCC system_header\n"
+    "#ifdef NOETIC_STANDARD_INSIDE\n"
+    "#include_next <${header}>\n"
+    "#else\n"
+    "#define NOETIC_STANDARD_INSIDE\n"
+    "#include_next <${header}>\n"
+    "#undef NOETIC_STANDARD_INSIDE\n")
+  set(line "${NOETIC_STANDARD_HEADERS}")
+  list(FILTER line INCLUDE REGEX "^${header}:")
+  if(line MATCHES ":([a-z_ ]*)[|]([a-z_ ]*)$")
+    set(later "${CMAKE_MATCH_2}")
+    string(REGEX MATCHALL "[a-z_]+" always "${CMAKE_MATCH_1}")
     string(REGEX MATCHALL "[a-z_]+" later "${later}")
-    # Within the library's own headers nothing is added: they are not complete yet. The first that a source includes brings the others.
-    set(text "#pragma GCC system_header\n#ifdef NOETIC_STANDARD_INSIDE\n#include_next <${header}>\n#else\n")
-    string(APPEND text "#define NOETIC_STANDARD_INSIDE\n#include_next <${header}>\n#undef NOETIC_STANDARD_INSIDE\n")
     string(APPEND text "#ifndef NOETIC_STANDARD_${header}\n#define NOETIC_STANDARD_${header}\n")
     foreach(name IN LISTS always)
       string(APPEND text "#include <${name}>\n")
@@ -66,7 +69,33 @@ function(noetic_write_standard_headers folder)
       endforeach()
       string(APPEND text "#endif\n")
     endif()
-    string(APPEND text "#endif\n#endif\n")
-    file(WRITE "${folder}/${header}" "${text}")
+    string(APPEND text "#endif\n")
+  endif()
+  set(${result} "${text}#endif\n" PARENT_SCOPE)
+endfunction()
+
+# For each header of the compiler one in FOLDER, which includes the compiler's and then the others. Within the library's own headers nothing
+# is added: they are not complete yet. The first that a source includes brings the others; so those that bring nothing have one as well
+# (<forward_list> includes <tuple> before it is complete).
+function(noetic_write_standard_headers folder)
+  foreach(library IN LISTS CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES)
+    if(NOT EXISTS "${library}/forward_list")
+      continue()
+    endif()
+    file(GLOB headers RELATIVE "${library}" "${library}/*")
+    list(FILTER headers INCLUDE REGEX "^[a-z_]+$")
+    foreach(header IN LISTS headers)
+      if(IS_DIRECTORY "${library}/${header}")
+        continue()
+      endif()
+      noetic_standard_header("${header}" text)
+      set(before "")
+      if(EXISTS "${folder}/${header}")
+        file(READ "${folder}/${header}" before)
+      endif()
+      if(NOT before STREQUAL text)  # whoever includes it would be compiled again
+        file(WRITE "${folder}/${header}" "${text}")
+      endif()
+    endforeach()
   endforeach()
 endfunction()

@@ -18,21 +18,10 @@ from moveit_msgs.msg import MoveItErrorCodes, PlanningScene, RobotTrajectory
 from trajectory_msgs.msg import JointTrajectoryPoint
 
 from . import _execution  # type: ignore[attr-defined]  # compiled
+from .parameter_tables import table
 from .scene_monitor import GEOMETRY, TRANSFORMS, SceneMonitor
 from .trajectory_execution import ExecutionError, TrajectoryExecution
 
-_PARAMETERS = [
-    Parameter("max_replan_attempts", int, 5, 0, 1000, "Set the maximum number of times a motion is planned again", 1),
-    Parameter(
-        "record_trajectory_state_frequency",
-        float,
-        0.0,
-        0.0,
-        1000.0,
-        "The frequency at which to record states when monitoring trajectories",
-        6,
-    ),
-]
 #: of looking around before a motion: known to clients, but no sensor here can be turned to look
 _SENSING = [
     Parameter("max_safe_path_cost", float, 0.01, 0.0, 1000.0, "The cost of a path above which sensors should look first"),
@@ -86,7 +75,7 @@ class PlanExecution:
         self._monitor = monitor
         self._execution = execution
         self.config: dict[str, Any] = {}
-        self._server = Server(namespace + "plan_execution", _PARAMETERS, self._reconfigure)
+        self._server = Server(namespace + "plan_execution", table(_execution.plan_parameters()), self._reconfigure)
         self._sensing = Server(namespace + "sense_for_plan", _SENSING, lambda config, level: None)
 
     def _reconfigure(self, config, _level) -> None:

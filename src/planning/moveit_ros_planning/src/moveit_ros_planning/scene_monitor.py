@@ -10,28 +10,18 @@ from collections.abc import Set as AbstractSet
 import motion
 import rospy
 import yaml
-from dynamic_parameters import Parameter, Server
+from dynamic_parameters import Server
 from moveit_core import convert, scene_messages, states
 from moveit_core.scene_messages import SceneEditor
 from moveit_msgs.msg import AttachedCollisionObject, CollisionObject, PlanningScene, PlanningSceneWorld
 
+from . import _execution  # type: ignore[attr-defined]  # compiled
+from .parameter_tables import table
 from .robot_model import RobotDescription, prepare_scene
 from .state_monitor import CurrentStateMonitor
 
 #: kinds of change, as bits
 STATE, TRANSFORMS, GEOMETRY, SCENE = 1, 2, 4, 8
-
-_PARAMETERS = [
-    Parameter("publish_planning_scene", bool, False, description="Set to True to publish Planning Scenes", level=1),
-    Parameter(
-        "publish_planning_scene_hz", float, 4.0, 0.1, 100.0, "Set the maximum frequency at which planning scene updates are published", 2
-    ),
-    Parameter("publish_geometry_updates", bool, True, description="Set to True to publish geometry updates of the planning scene", level=3),
-    Parameter("publish_state_updates", bool, False, description="Set to True to publish state updates of the planning scene", level=4),
-    Parameter(
-        "publish_transforms_updates", bool, False, description="Set to True to publish transform updates of the planning scene", level=5
-    ),
-]
 
 
 class SceneMonitor:
@@ -59,13 +49,14 @@ class SceneMonitor:
         self._publishing = ScenePublisher(
             self, rospy.get_param(options + "publish_planning_scene_topic", namespace + "monitored_planning_scene")
         )
+        parameters = table(_execution.scene_parameters())
         unset = {
             entry.name: True
-            for entry in _PARAMETERS
+            for entry in parameters
             if entry.type is bool  # everything is published unless told not to
             and not rospy.has_param(f"{namespace}planning_scene_monitor/{entry.name}")
         }
-        self._server = Server(namespace + "planning_scene_monitor", _PARAMETERS, self._reconfigure, unset)
+        self._server = Server(namespace + "planning_scene_monitor", parameters, self._reconfigure, unset)
 
     def _subscribe(self, options: str) -> None:
         scene_topic = rospy.get_param(options + "monitored_planning_scene_topic", "planning_scene")

@@ -14,8 +14,7 @@ from moveit_core import convert, states
 from moveit_core.errors import one_line
 from sensor_msgs.msg import JointState
 
-#: clock jumps back by more than this (s): a simulation that was reset or a looping bag; all stamps are forgotten
-_JUMP = 0.5
+from . import _execution  # type: ignore[attr-defined]  # compiled
 
 
 class CurrentStateMonitor:
@@ -72,16 +71,15 @@ class CurrentStateMonitor:
                 callback()
 
     def _take(self, message: JointState, stamp: rospy.Time) -> bool:
-        newest = max(self._stamps.values(), default=None)
-        if newest is not None and (newest - stamp).to_sec() > _JUMP and (newest - rospy.Time.now()).to_sec() > _JUMP:
-            rospy.logwarn("time jumped back by %.1f s: all joint states are awaited anew", (newest - stamp).to_sec())
-            self._stamps.clear()
+        now = rospy.Time.now()
         values = {}
         for i, name in enumerate(message.name):
-            if name not in self._single or self._stamps.get(name, stamp) > stamp:
-                continue  # of another robot, or older than what is known: two publishers may repeat each other
+            if name not in self._single:
+                continue  # of another robot
             if not np.isfinite(message.position[i]):
                 rospy.logerr_throttle(5, f"joint '{name}' has the position {message.position[i]} on {self.topic}: ignored")
+                continue
+            if not self._is_news(name, stamp, now):
                 continue
             self._stamps[name] = stamp
             values[name] = self._bounded(name, message.position[i])
@@ -92,6 +90,17 @@ class CurrentStateMonitor:
         if self._dynamics:
             self._take_dynamics(message, values)
         return changed
+
+    def _is_news(self, name: str, stamp: rospy.Time, now: rospy.Time) -> bool:
+        """Whether the stamp is that of a state to be taken. Where time jumped back, what is known is forgotten first."""
+        known = self._stamps.get(name)
+        if known is None:
+            return True
+        order = _execution.stamp_order(known.to_sec(), stamp.to_sec(), now.to_sec())
+        if order == _execution.StampOrder.JUMPED_BACK:
+            rospy.logwarn("New joint state for joint '%s' is not newer than the previous state. Assuming your rosbag looped.", name)
+            self._stamps.clear()
+        return order != _execution.StampOrder.REPEATED
 
     def _bounded(self, name: str, value: float) -> float:
         """Values a rounding error beyond a limit are put on the limit, so that the state is not refused for it."""

@@ -14,7 +14,7 @@ from typing import Any
 
 import genpy
 import rospy
-from dynamic_parameters import Parameter, Server
+from dynamic_parameters import Server
 from moveit_core.controller_manager import ControllerHandle, ControllerManager, ExecutionStatus
 from moveit_core.errors import MoveItError
 from moveit_msgs.msg import MoveItErrorCodes, RobotTrajectory
@@ -22,14 +22,9 @@ from std_msgs.msg import String
 
 from . import _execution  # type: ignore[attr-defined]  # compiled
 from .controllers import ControllerChoice, load_manager
+from .parameter_tables import table
 from .state_monitor import CurrentStateMonitor
 
-_PARAMETERS = [
-    Parameter(each.name, bool, bool(each.value), description=each.description, level=level)
-    if each.flag
-    else Parameter(each.name, float, each.value, each.low, each.high if math.isfinite(each.high) else None, each.description, level)
-    for level, each in enumerate(_execution.parameters(), 1)
-]
 #: parameters that an entry of controller_list may have for its own controller
 _DURATIONS = ("allowed_execution_duration_scaling", "allowed_goal_duration_margin")
 #: a line about the remaining time is printed this often (s)
@@ -73,7 +68,7 @@ class TrajectoryExecution:
         self._last_stop = (-math.inf, rospy.Time())  # when it came: monotonic and ROS time
         self._on_stop: list[Callable[[], None]] = []
         self.config: dict[str, Any] = {}
-        self._server = Server(namespace + "trajectory_execution", _PARAMETERS, self._reconfigure)
+        self._server = Server(namespace + "trajectory_execution", table(_execution.parameters()), self._reconfigure)
         manage = bool(rospy.get_param(namespace + "moveit_manage_controllers", False))
         rospy.loginfo("MoveIt %s allowed to manage controllers", "is" if manage else "is not")
         self.manager: ControllerManager | None = load_manager(model, namespace)

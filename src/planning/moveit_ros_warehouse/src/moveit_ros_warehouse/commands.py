@@ -15,10 +15,10 @@ import node_signals
 import rosgraph
 import rospy
 import tf2_ros
-from moveit_core import scene_text, states
+from moveit_core import states
 from moveit_core.scene_messages import UNNAMED, scene_message
 from moveit_msgs.msg import Constraints, MotionPlanRequest, OrientationConstraint, PlanningScene, RobotState, RobotTrajectory
-from moveit_ros_planning import robot_model
+from moveit_ros_planning import robot_model, scene_text
 from moveit_ros_planning.scene_monitor import SceneMonitor
 
 from . import queries

@@ -1,4 +1,8 @@
-// Text files of scenes (.scene), as upstream's PlanningScene::saveGeometryToStream() writes them; moveit_core's scene_text.py says how.
+// Text files of scenes (.scene), as RViz, the warehouse's tools and PlanningScene::saveGeometryToStream() of MoveIt 1 write them.
+//
+// A scene's name; then for each object "* name", its pose (a line of x y z, a line of the quaternion x y z w), the number of shapes, for
+// each of them its kind, size, pose and colour, and the number of subframes with their names and poses; a line "." ends it. Files of
+// before Noetic have neither object poses nor subframes. Metres.
 #pragma once
 
 #include <moveit_msgs/PlanningScene.h>

@@ -10,6 +10,11 @@
 #include <moveit/planning_scene_monitor/planning_scene_monitor.h>
 #include <moveit/trajectory_execution_manager/trajectory_execution_manager.h>
 
+namespace moveit_ros_planning
+{
+class DynamicSettings;
+}
+
 namespace plan_execution
 {
 MOVEIT_CLASS_FORWARD(PlanExecution);
@@ -31,6 +36,7 @@ public:
 
   PlanExecution(const planning_scene_monitor::PlanningSceneMonitorPtr& planning_scene_monitor,
                 const trajectory_execution_manager::TrajectoryExecutionManagerPtr& trajectory_execution);
+  ~PlanExecution();
 
   const planning_scene_monitor::PlanningSceneMonitorPtr& getPlanningSceneMonitor() const { return monitor_; }
   const trajectory_execution_manager::TrajectoryExecutionManagerPtr& getTrajectoryExecutionManager() const
@@ -39,6 +45,10 @@ public:
   }
   void setMaxReplanAttempts(unsigned int attempts) { default_max_replan_attempts_ = attempts; }
   unsigned int getMaxReplanAttempts() const { return default_max_replan_attempts_; }
+
+  // States a second of what is executed that go into a plan's executed_trajectory_; 0, the default: none.
+  void setTrajectoryStateRecordingFrequency(double hz) { recording_frequency_ = hz; }
+  double getTrajectoryStateRecordingFrequency() const { return recording_frequency_; }
 
   // The result is in plan.error_code_.
   void planAndExecute(ExecutableMotionPlan& plan, const Options& opt);
@@ -57,8 +67,10 @@ private:
 
   planning_scene_monitor::PlanningSceneMonitorPtr monitor_;
   trajectory_execution_manager::TrajectoryExecutionManagerPtr execution_;
-  unsigned int default_max_replan_attempts_ = 5;
+  std::atomic<unsigned int> default_max_replan_attempts_{ 5 };
+  std::atomic<double> recording_frequency_{ 0.0 };
   std::atomic<bool> preempt_{ false }, complete_{ false }, invalid_{ false };
   std::shared_ptr<std::atomic<bool>> scene_changed_;  // the monitor's callback may outlive this
+  std::unique_ptr<moveit_ros_planning::DynamicSettings> settings_;
 };
 }  // namespace plan_execution

@@ -46,7 +46,7 @@ struct ExecutableMotionPlan
   planning_scene_monitor::PlanningSceneMonitorPtr planning_scene_monitor_;
   planning_scene::PlanningSceneConstPtr planning_scene_;
   std::vector<ExecutableTrajectory> plan_components_;
-  robot_trajectory::RobotTrajectoryPtr executed_trajectory_;  // stays null: move_group's Python records it
+  robot_trajectory::RobotTrajectoryPtr executed_trajectory_;  // null where nothing was recorded
   moveit_msgs::MoveItErrorCodes error_code_;
 };
 

@@ -98,6 +98,7 @@ private:
   ros::Time oldest(const std::string& group, bool leave_out_the_unheard) const;
   std::string whatIsWrong(const ros::Time& t) const;
   void take(const sensor_msgs::JointStateConstPtr& joint_state);
+  bool isNews(const moveit::core::JointModel& joint, const ros::Time& stamp);
   bool takeJoint(const sensor_msgs::JointState& joint_state, const ros::Time& stamp, std::size_t i);
   void takeTransforms();
 

@@ -9,10 +9,12 @@
 #include <ros/ros.h>
 #include <tf2_ros/buffer.h>
 
+#include <atomic>
 #include <boost/function.hpp>
 #include <boost/noncopyable.hpp>
 #include <boost/thread/recursive_mutex.hpp>
 #include <boost/thread/shared_mutex.hpp>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,6 +23,11 @@
 #include <moveit/planning_scene/planning_scene.h>
 #include <moveit/planning_scene_monitor/current_state_monitor.h>
 #include <moveit/robot_model_loader/robot_model_loader.h>
+
+namespace moveit_ros_planning
+{
+class DynamicSettings;
+}
 
 namespace planning_scene_monitor
 {
@@ -92,7 +99,7 @@ public:
   // ------------------------------------------------------------ what is told to others
   void startPublishingPlanningScene(SceneUpdateType event,
                                     const std::string& planning_scene_topic = MONITORED_PLANNING_SCENE_TOPIC);
-  void stopPublishingPlanningScene() { publisher_.shutdown(); }
+  void stopPublishingPlanningScene();
   void setPlanningScenePublishingFrequency(double hz) { publishing_frequency_ = hz; }
   double getPlanningScenePublishingFrequency() const { return publishing_frequency_; }
   void providePlanningSceneService(const std::string& service_name = DEFAULT_PLANNING_SCENE_SERVICE);
@@ -116,6 +123,7 @@ public:
 private:
   void initialize(const planning_scene::PlanningScenePtr& scene);
   void configureScene();
+  void configurePublishing(const std::map<std::string, double>& given);
   template <typename Change>
   void change(SceneUpdateType type, const Change& what);
 
@@ -136,7 +144,7 @@ private:
   ros::Time last_update_time_;
   ros::WallTime last_state_update_, last_published_;
   ros::WallDuration state_period_{ 0.03 };
-  double publishing_frequency_ = 2.0;
+  std::atomic<double> publishing_frequency_{ 2.0 };
   int published_events_ = UPDATE_NONE;
   ros::CallbackQueue queue_;
   ros::NodeHandle nh_;
@@ -144,6 +152,7 @@ private:
   ros::Subscriber scene_subscriber_, world_subscriber_, object_subscriber_, attached_subscriber_;
   ros::Publisher publisher_;
   ros::ServiceServer service_;
+  std::unique_ptr<moveit_ros_planning::DynamicSettings> settings_;
 };
 
 // A scene that stays as it is while this, or a copy of it, lives. Without a monitor there is nothing to lock, and no scene.

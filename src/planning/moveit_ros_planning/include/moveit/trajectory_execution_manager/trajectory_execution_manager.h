@@ -23,6 +23,11 @@
 #include <moveit/planning_scene_monitor/current_state_monitor.h>
 #include <moveit/robot_model/robot_model.h>
 
+namespace moveit_ros_planning
+{
+class DynamicSettings;
+}
+
 namespace trajectory_execution_manager
 {
 MOVEIT_CLASS_FORWARD(TrajectoryExecutionManager);
@@ -132,10 +137,12 @@ private:
   int current_ = -1;
   ros::Time current_started_;
 
-  bool execution_duration_monitoring_, wait_for_trajectory_completion_;
-  double allowed_execution_duration_scaling_, allowed_goal_duration_margin_;
-  double allowed_start_tolerance_, execution_velocity_scaling_;
+  // Set by clients of dynamic_reconfigure, too, while a trajectory runs.
+  std::atomic<bool> execution_duration_monitoring_, wait_for_trajectory_completion_;
+  std::atomic<double> allowed_execution_duration_scaling_, allowed_goal_duration_margin_;
+  std::atomic<double> allowed_start_tolerance_, execution_velocity_scaling_;
   // Of the controllers and joints that have their own.
   std::map<std::string, double> controller_duration_scaling_, controller_duration_margin_, joints_allowed_start_tolerance_;
+  std::unique_ptr<moveit_ros_planning::DynamicSettings> settings_;  // ends first: it writes into the above
 };
 }  // namespace trajectory_execution_manager
