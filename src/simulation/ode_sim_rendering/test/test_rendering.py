@@ -77,7 +77,7 @@ def test_depth_is_the_distance_along_the_axis(renderer):
     renderer.set_scene(
         scene_of(
             visual("wall", Box((0.2, 20, 20)), (3.1, 0, 0), RED, rpy=(0, 0, 0)),
-            visual("tilted", Plane(normal=(-1, 0, 0), size=(1, 1)), (2, 0, 0), BLUE, (0, 0, tilt)),
+            visual("tilted", Plane(size=(1, 1)), (2, 0, 0), BLUE, (0, -math.pi / 2, tilt)),
         )
     )
     depth = renderer.depth(CAMERA, ORIGIN)
@@ -146,7 +146,7 @@ def test_lambert_light_and_ambient(renderer):
 
 def test_point_light_attenuation_and_range(renderer):
     scene = Scene(ambient=(0, 0, 0, 1), background=(0, 0, 0, 1), shadows=False)
-    wall = visual("wall", Plane(normal=(-1, 0, 0), size=(20, 20)), (3, 0, 0), (1, 1, 1))
+    wall = visual("wall", Plane(size=(20, 20)), (3, 0, 0), (1, 1, 1), (0, -math.pi / 2, 0))
     lamp = Light("lamp", "point", Pose((1, 0, 0)), range=2.5, constant=0.5, linear=0.1, quadratic=0.2)
     picture = draw(renderer, scene_of(wall, lights=[lamp], scene=scene))
     on_axis = 1 / (0.5 + 0.1 * 2 + 0.2 * 4)
@@ -158,7 +158,7 @@ def test_point_light_attenuation_and_range(renderer):
 
 def test_spot_light_lights_its_cone_only(renderer):
     scene = Scene(ambient=(0, 0, 0, 1), background=(0, 0, 0, 1), shadows=False)
-    wall = visual("wall", Plane(normal=(-1, 0, 0), size=(20, 20)), (3, 0, 0), (1, 1, 1))
+    wall = visual("wall", Plane(size=(20, 20)), (3, 0, 0), (1, 1, 1), (0, -math.pi / 2, 0))
     spot = Light("spot", "spot", direction=(1, 0, 0), range=20, constant=1, linear=0, spot=(0.2, 0.4, 1.0))
     picture = draw(renderer, scene_of(wall, lights=[spot], scene=scene))
     inside, outside = CAMERA.project([[3, 0.1, 0], [3, 3 * math.tan(0.25), 0]])
@@ -169,7 +169,7 @@ def test_light_carried_by_a_link(renderer):
     scene = Scene(ambient=(0, 0, 0, 1), background=(0, 0, 0, 1), shadows=False)
     lamp = Light("lamp", "spot", direction=(1, 0, 0), range=20, linear=0, spot=(0.2, 0.3, 1.0))
     models = [
-        Model("wall", links=(Link("w", visuals=(visual("v", Plane(normal=(-1, 0, 0), size=(9, 9)), (3, 0, 0), (1, 1, 1)),)),)),
+        Model("wall", links=(Link("w", visuals=(visual("v", Plane(size=(9, 9)), (3, 0, 0), (1, 1, 1), (0, -math.pi / 2, 0)),)),)),
         Model("torch", links=(Link("t", lights=(lamp,)),)),
     ]
     described, poses = arrange(models, scene=scene)

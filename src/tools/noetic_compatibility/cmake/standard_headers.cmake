@@ -42,42 +42,43 @@ set(NOETIC_STANDARD_HEADERS
   "variant: exception typeinfo utility |"
   "vector: exception typeinfo |")
 
-# What a header of this name is to say.
-function(noetic_standard_header header result)
-  string(CONCAT text
-    "#pragma GCC system_header\n"
-    "#ifdef NOETIC_STANDARD_INSIDE\n"
-    "#include_next <${header}>\n"
-    "#else\n"
-    "#define NOETIC_STANDARD_INSIDE\n"
-    "#include_next <${header}>\n"
-    "#undef NOETIC_STANDARD_INSIDE\n")
-  set(line "${NOETIC_STANDARD_HEADERS}")
-  list(FILTER line INCLUDE REGEX "^${header}:")
-  if(line MATCHES ":([a-z_ ]*)[|]([a-z_ ]*)$")
-    set(later "${CMAKE_MATCH_2}")
-    string(REGEX MATCHALL "[a-z_]+" always "${CMAKE_MATCH_1}")
-    string(REGEX MATCHALL "[a-z_]+" later "${later}")
-    string(APPEND text "#ifndef NOETIC_STANDARD_${header}\n#define NOETIC_STANDARD_${header}\n")
-    foreach(name IN LISTS always)
-      string(APPEND text "#include <${name}>\n")
-    endforeach()
-    if(later)
-      string(APPEND text "#if __cplusplus >= 201703L\n")
-      foreach(name IN LISTS later)
-        string(APPEND text "#include <${name}>\n")
-      endforeach()
-      string(APPEND text "#endif\n")
-    endif()
-    string(APPEND text "#endif\n")
+# Leaves a file that says so already: whoever includes it would be compiled again.
+function(noetic_write_if_other file text)
+  set(before "")
+  if(EXISTS "${file}")
+    file(READ "${file}" before)
   endif()
-  set(${result} "${text}#endif\n" PARENT_SCOPE)
+  if(NOT before STREQUAL text)
+    file(WRITE "${file}" "${text}")
+  endif()
 endfunction()
 
-# For each header of the compiler one in FOLDER, which includes the compiler's and then the others. Within the library's own headers nothing
-# is added: they are not complete yet. The first that a source includes brings the others; so those that bring nothing have one as well
-# (<forward_list> includes <tuple> before it is complete).
+# For each header of the compiler one in FOLDER, which includes the compiler's. Within the library's own headers nothing is added: they are
+# not complete yet. When the one that a source includes is, noetic_standard_headers brings what comes with it and with all that it included.
 function(noetic_write_standard_headers folder)
+  set(others "#pragma GCC system_header\n")
+  foreach(line IN LISTS NOETIC_STANDARD_HEADERS)
+    if(NOT line MATCHES "^([a-z_]+):([a-z_ ]*)[|]([a-z_ ]*)$")
+      message(FATAL_ERROR "standard_headers.cmake: '${line}' is no 'header: names | names'.")
+    endif()
+    set(header ${CMAKE_MATCH_1})
+    set(later "${CMAKE_MATCH_3}")
+    string(REGEX MATCHALL "[a-z_]+" always "${CMAKE_MATCH_2}")
+    string(REGEX MATCHALL "[a-z_]+" later "${later}")
+    string(APPEND others "#if defined(NOETIC_SEEN_${header}) && !defined(NOETIC_BROUGHT_${header})\n#define NOETIC_BROUGHT_${header}\n")
+    foreach(name IN LISTS always)
+      string(APPEND others "#include <${name}>\n")
+    endforeach()
+    if(later)
+      string(APPEND others "#if __cplusplus >= 201703L\n")
+      foreach(name IN LISTS later)
+        string(APPEND others "#include <${name}>\n")
+      endforeach()
+      string(APPEND others "#endif\n")
+    endif()
+    string(APPEND others "#endif\n")
+  endforeach()
+  noetic_write_if_other("${folder}/noetic_standard_headers" "${others}")
   foreach(library IN LISTS CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES)
     if(NOT EXISTS "${library}/forward_list")
       continue()
@@ -85,16 +86,19 @@ function(noetic_write_standard_headers folder)
     file(GLOB headers RELATIVE "${library}" "${library}/*")
     list(FILTER headers INCLUDE REGEX "^[a-z_]+$")
     foreach(header IN LISTS headers)
-      if(IS_DIRECTORY "${library}/${header}")
-        continue()
-      endif()
-      noetic_standard_header("${header}" text)
-      set(before "")
-      if(EXISTS "${folder}/${header}")
-        file(READ "${folder}/${header}" before)
-      endif()
-      if(NOT before STREQUAL text)  # whoever includes it would be compiled again
-        file(WRITE "${folder}/${header}" "${text}")
+      if(NOT IS_DIRECTORY "${library}/${header}")
+        string(CONCAT text
+          "#pragma GCC system_header\n"
+          "#define NOETIC_SEEN_${header}\n"
+          "#ifdef NOETIC_INSIDE_THE_LIBRARY\n"
+          "#include_next <${header}>\n"
+          "#else\n"
+          "#define NOETIC_INSIDE_THE_LIBRARY\n"
+          "#include_next <${header}>\n"
+          "#undef NOETIC_INSIDE_THE_LIBRARY\n"
+          "#include <noetic_standard_headers>\n"
+          "#endif\n")
+        noetic_write_if_other("${folder}/${header}" "${text}")
       endif()
     endforeach()
   endforeach()

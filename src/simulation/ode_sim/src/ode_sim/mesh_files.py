@@ -267,7 +267,7 @@ def _read_mtl(path: str) -> dict[str, Material]:
         alpha = (given.get("d", 1.0),)
         colour = {key: given[key] + alpha if key in given else None for key in ("Ka", "Kd", "Ks", "Ke")}
         texture = given.get("map_Kd", "")
-        diffuse = (1.0, 1.0, 1.0) + alpha if texture else colour["Kd"]
+        diffuse = colour["Kd"] or ((1.0, 1.0, 1.0) + alpha if texture else None)
         # As Gazebo 11's pictures have it (test_rendering_gazebo.py): what is not given is black, the exponent 1.
         ambient = colour["Ka"] or ((0.0, 0.0, 0.0) + alpha if given else None)
         return Material(name, ambient, diffuse, colour["Ks"], colour["Ke"], texture, given.get("Ns", 1.0))

@@ -10,7 +10,6 @@ from ode_sim.description import model as d
 from ode_sim.description.model import DescriptionError, one_line, quoted
 from ode_sim.heightmap import load_heights
 from ode_sim.images import read_rgba
-from ode_sim.math3 import compose, quat_between
 
 from ode_sim_rendering import geometry
 from ode_sim_rendering.geometry import TriMesh
@@ -22,7 +21,7 @@ _BLACK = (0.0, 0.0, 0.0, 1.0)
 @dataclass(frozen=True)
 class Look:
     """Colours 0..1 as drawn: ``ambient diffuse emissive`` rgb, ``specular`` rgb, ``alpha``; ``texture`` a file or
-    ''."""
+    ''; ``texture_unit``, ``blend`` and ``alpha_above`` as in a material."""
 
     ambient: tuple[float, float, float]
     diffuse: tuple[float, float, float]
@@ -31,6 +30,14 @@ class Look:
     alpha: float
     texture: str = ""
     shininess: float = 0.0
+    texture_unit: d.TextureUnit = d.TextureUnit()
+    blend: str = ""
+    alpha_above: float | None = None
+
+    @property
+    def see_through(self) -> bool:
+        """Whether what is behind shows."""
+        return self.alpha < 1.0 or self.blend not in ("", "replace")
 
 
 @dataclass(frozen=True)
@@ -53,15 +60,29 @@ def look_of(material: d.Material | None, own: d.Material | None, transparency: f
     ambient = (named and named.ambient) or diffuse
     specular = (named and named.shininess > 0.0 and named.specular) or _BLACK
     emissive = (named and named.emissive) or _BLACK
-    alpha = min(1.0, max(0.0, diffuse[3] * (1.0 - transparency)))
+    given = named or d.Material()
+    alpha = min(1.0, max(0.0, (1.0 if given.blend == "replace" else diffuse[3]) * (1.0 - transparency)))
+    if not given.lighting:
+        ambient, diffuse, specular, emissive = _BLACK, _BLACK, _BLACK, _WHITE
     return Look(
-        ambient[:3], diffuse[:3], specular[:3], emissive[:3], alpha, named.texture if named else "", named.shininess if named else 0.0
+        ambient[:3],
+        diffuse[:3],
+        specular[:3],
+        emissive[:3],
+        alpha,
+        given.texture,
+        given.shininess,
+        given.texture_unit,
+        given.blend,
+        given.alpha_above,
     )
 
 
 def _says_something(material: d.Material) -> bool:
-    return bool(material.texture) or any(
-        colour is not None for colour in (material.ambient, material.diffuse, material.specular, material.emissive)
+    return (
+        bool(material.texture)
+        or not material.lighting
+        or any(colour is not None for colour in (material.ambient, material.diffuse, material.specular, material.emissive))
     )
 
 
@@ -113,8 +134,8 @@ class Assets:
         if isinstance(shape, d.Cylinder):
             return self._shape("cylinder"), pose, (shape.radius, shape.radius, shape.length)
         if isinstance(shape, d.Plane):
-            tilt = d.Pose(q=quat_between((0.0, 0.0, 1.0), shape.normal))
-            return self._shape("plane"), compose(pose, tilt), (shape.size[0], shape.size[1], 1.0)
+            # its normal is the collision's alone, in Gazebo as well
+            return self._shape("plane"), pose, (shape.size[0], shape.size[1], 1.0)
         if isinstance(shape, d.Capsule):
             return self._made(shape, lambda: geometry.capsule(shape.radius, shape.length)), pose, one
         if isinstance(shape, d.Polyline):

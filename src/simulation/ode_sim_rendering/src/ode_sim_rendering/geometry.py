@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from ode_sim.description.model import TextureUnit
 from ode_sim.heightmap import thinned
 
 _SEGMENTS = 32  # round shapes; Gazebo draws cylinders and spheres with 32
@@ -14,7 +15,7 @@ _MOST_DRAWN = 513  # rows of a height map; more than half a million triangles on
 
 @dataclass(frozen=True)
 class TriMesh:
-    """``vertices`` (N,3) m, ``normals`` (N,3) unit, ``uv`` (N,2) or None, ``triangles`` (T,3) uint32."""
+    """``vertices`` (N,3) m, ``normals`` (N,3) unit, ``uv`` (N,2) from the image's lower left, or None, ``triangles`` (T,3) uint32."""
 
     vertices: np.ndarray
     normals: np.ndarray
@@ -54,15 +55,23 @@ def _join(*meshes: TriMesh) -> TriMesh:
     )
 
 
+def texture_coordinates(mesh: TriMesh, unit: TextureUnit) -> np.ndarray:
+    """(N,2) places in the image, from its lower left, where ``unit`` puts it on ``mesh``. A mesh without coordinates shows the upper left
+    corner, as in Gazebo."""
+    u, v = mesh.uv.T if mesh.uv is not None else (np.zeros(len(mesh.vertices)), np.ones(len(mesh.vertices)))
+    a, b, c, d, e, f = unit.matrix
+    return np.stack([a * u + b * (1 - v) + c, 1 - (d * u + e * (1 - v) + f)], -1)
+
+
 def box() -> TriMesh:
-    """Unit cube about the origin, each face textured once."""
+    """Unit cube about the origin, each face textured once: upright on the walls, seen with x upwards on the top, as in Gazebo."""
     faces = []
     for axis in range(3):
         for sign in (1.0, -1.0):
             normal = np.zeros(3)
             normal[axis] = sign
-            u = np.roll([0.0, 1.0, 0.0], axis) * sign
-            v = np.cross(normal, u)
+            v = np.array([sign, 0.0, 0.0]) if axis == 2 else np.array([0.0, 0.0, 1.0])
+            u = np.cross(v, normal)
             points = np.array([[normal - u - v, normal + u - v], [normal - u + v, normal + u + v]]) / 2
             uv = np.array([[[0, 0], [1, 0]], [[0, 1], [1, 1]]], float)
             faces.append(_grid(points, np.broadcast_to(normal, (2, 2, 3)), uv))
@@ -87,19 +96,25 @@ def _revolve(radius: np.ndarray, z: np.ndarray, normal_r: np.ndarray, normal_z: 
 
 
 def sphere() -> TriMesh:
-    """Unit-radius sphere."""
-    latitude = np.linspace(-np.pi / 2, np.pi / 2, _SEGMENTS // 2 + 1)
+    """Unit-radius sphere. As in Gazebo, its poles are on the y axis and its image begins where z is greatest, and goes to +x."""
+    latitude = np.linspace(-np.pi / 2, np.pi / 2, _SEGMENTS + 1)
     cos, sin = np.cos(latitude), np.sin(latitude)
-    return _revolve(cos, sin, cos, sin)
+    made = _revolve(cos, sin, cos, sin)
+    return replace(made, vertices=made.vertices[:, [1, 2, 0]], normals=made.normals[:, [1, 2, 0]])
 
 
 def cylinder() -> TriMesh:
-    """Radius 1, height 1, about the origin, axis z."""
+    """Radius 1, height 1, about the origin, axis z. As in Gazebo, its image stands on its head, begins at +y and goes to +x; on the ends
+    the corners of all of it meet in the middle."""
     one, zero = np.ones(2), np.zeros(2)
     side = _revolve(one, np.array([-0.5, 0.5]), one, zero)
     top = _revolve(np.array([1.0, 0.0]), np.full(2, 0.5), zero, one)
     bottom = _revolve(np.array([0.0, 1.0]), np.full(2, -0.5), zero, -one)
-    return _join(side, top, bottom)
+    u = np.linspace(1, 0, _SEGMENTS + 1)
+    middle, above, below = (np.stack([along, np.full(len(u), v)], -1) for along, v in ((0 * u, 1.0), (u, 0.0), (u, 1.0)))
+    places = [np.concatenate(ends) for ends in ((below, above), (above, middle), (middle, below))]
+    made = _join(*(replace(part, uv=uv) for part, uv in zip((side, top, bottom), places)))
+    return replace(made, vertices=made.vertices[:, [1, 0, 2]] * [-1, 1, 1], normals=made.normals[:, [1, 0, 2]] * [-1, 1, 1])
 
 
 def capsule(radius: float, length: float) -> TriMesh:

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import os
 from collections import OrderedDict
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from ode_sim.description.model import one_line
 
 from ode_sim_rendering import shaders
 from ode_sim_rendering.assets import Assets, Part
+from ode_sim_rendering.buffers import Buffers, ImageKey, MeshKey, image_of, mesh_of
 from ode_sim_rendering.camera import Camera
 from ode_sim_rendering.context import create_context
 from ode_sim_rendering.geometry import bounding_sphere
@@ -25,7 +25,6 @@ from ode_sim_rendering.wide_lens import WideView
 MAX_LIGHTS = 16
 ANTIALIASING = ("none", "msaa")
 _MAX_TARGETS = 8  # frame buffers kept for cameras of different sizes
-_WIDEST_TEXTURE = 4096  # pixels along a side
 _VISIBLE = 1.0 / 512.0  # a highlight darker than half a grey level is not computed
 
 # one record per drawn part in the instance buffer; the order is that of the attributes in shaders.py
@@ -68,16 +67,24 @@ def _row(pose) -> np.ndarray:
     return np.array(pose.p + pose.q, float)
 
 
+#: by a look's blend: OpenGL's factors of what is drawn and of what is there (moderngl is loaded with the first context)
+_ZERO, _ONE, _SRC_COLOR, _ONE_MINUS_SRC_COLOR, _SRC_ALPHA, _ONE_MINUS_SRC_ALPHA, _DST_COLOR = 0, 1, 0x300, 0x301, 0x302, 0x303, 0x306
+_BLENDS = {"add": (_ONE, _ONE), "modulate": (_DST_COLOR, _ZERO), "colour_blend": (_SRC_COLOR, _ONE_MINUS_SRC_COLOR)}
+_OVER = (_SRC_ALPHA, _ONE_MINUS_SRC_ALPHA)
+
+
 @dataclass
 class _Batch:
     """Parts that one draw call covers: same mesh, same texture."""
 
-    mesh: Hashable
-    texture: str
+    mesh: MeshKey
+    texture: ImageKey | None
     rows: np.ndarray  # of the scene's part arrays
     instances: Any  # moderngl buffer, room for all rows
     arrays: dict[tuple[frozenset, int], Any]  # (shader flags, program) -> vertex array
     transparent: bool = False
+    blend: str = ""
+    alpha_above: float = 0.02  # what is hardly there is not drawn
 
 
 class Renderer:
@@ -105,13 +112,11 @@ class Renderer:
         # renderer draws would delete that one's objects of the same number
         self._ctx.gc_mode = "context_gc"
         self._closed = False
-        self._widest = min(_WIDEST_TEXTURE, self._ctx.info["GL_MAX_TEXTURE_SIZE"])
         self._samples = 4 if antialiasing == "msaa" else 0
         self._shadows = shadows
         self._assets = assets or Assets()
         self._assets.problems += trouble
-        self._mesh_buffers: dict[Hashable, tuple] = {}
-        self._textures: dict[str, Any] = {}
+        self._buffers = Buffers(self._ctx, self._assets)
         self._programs: dict[tuple, Any] = {}
         self._targets: OrderedDict[tuple, Target] = OrderedDict()
         self._lenses: dict[tuple, Lens] = {}
@@ -147,14 +152,14 @@ class Renderer:
                 parts += [
                     (seen.link, number, seen.name, part)
                     for part in self._assets.parts(seen.visual, seen.name)
-                    if self._takes(part, seen.name)
+                    if self._buffers.take(part, seen.name)
                 ]
             self._names = tuple(seen.name for seen in scene.visuals)
             self._set_parts(parts)
             # a flat floor shades nothing, and would stretch the shadow map over all of its size
             self._casts = np.array(
                 [
-                    scene.visuals[number].visual.cast_shadows and part.look.alpha == 1.0 and part.key != "plane"
+                    scene.visuals[number].visual.cast_shadows and not part.look.see_through and part.key != "plane"
                     for _, number, _, part in parts
                 ],
                 bool,
@@ -166,18 +171,6 @@ class Renderer:
                 self._shadow.forget()
             elif self._sun >= 0:
                 self._shadow = ShadowMap(self._ctx)
-
-    def _takes(self, part: Part, name: str) -> bool:
-        """Whether OpenGL has taken the mesh of ``part``, and its texture if it has one; else a problem is noted."""
-        texture = part.look.texture
-        try:
-            self._mesh_buffer(part.key)
-            if texture and texture not in self._textures:
-                self._textures[texture] = None
-                self._textures[texture] = self._make_texture(self._assets.texture(texture, name, self._widest))
-        except Exception as error:  # a mesh that is no mesh, no more memory: the rest is drawn all the same
-            self._assets.note(name, f"is not drawn as it should be: {one_line(error, 200).strip() or type(error).__name__}")
-        return part.key in self._mesh_buffers
 
     @property
     def visual_names(self) -> tuple[str, ...]:
@@ -208,24 +201,25 @@ class Renderer:
     def _set_batches(self, parts) -> None:
         groups: OrderedDict[tuple, list[int]] = OrderedDict()
         for row, (_, _, _, part) in enumerate(parts):
-            texture = part.look.texture
-            if texture and (self._textures[texture] is None or self._assets.meshes[part.key].uv is None):
-                texture = ""
-            transparent = part.look.alpha < 1.0
+            look, image = part.look, image_of(part.look)
+            if image and self._buffers.texture(image) is None:
+                image = None
             # transparent parts are drawn one by one, far to near
-            groups.setdefault((part.key, texture, row if transparent else -1), []).append(row)
+            key = (mesh_of(part), image, row if look.see_through else -1, look.blend, look.alpha_above)
+            groups.setdefault(key, []).append(row)
         self._batches = [
-            _Batch(key, texture, np.array(rows), self._ctx.buffer(reserve=_INSTANCE.itemsize * len(rows), dynamic=True), {}, single >= 0)
-            for (key, texture, single), rows in groups.items()
+            _Batch(
+                mesh,
+                image,
+                np.array(rows),
+                self._ctx.buffer(reserve=_INSTANCE.itemsize * len(rows), dynamic=True),
+                {},
+                single >= 0,
+                blend,
+                0.02 if alpha_above is None else alpha_above,
+            )
+            for (mesh, image, single, blend, alpha_above), rows in groups.items()
         ]
-
-    def _make_texture(self, image: np.ndarray | None):
-        if image is None:
-            return None
-        texture = self._ctx.texture((image.shape[1], image.shape[0]), 4, image.tobytes())
-        texture.build_mipmaps()
-        texture.filter = (0x2703, 0x2601)  # LINEAR_MIPMAP_LINEAR, LINEAR
-        return texture
 
     def _set_lights(self, scene: SceneDescription) -> None:
         lights = list(scene.lights)
@@ -391,15 +385,15 @@ class Renderer:
         if isinstance(masks, tuple) and isinstance(masks[0], tuple):
             target.color_mask = ((True,) * 4,) + ((False,) * 4,) * (len(masks) - 1)
         for _, rows, batch in sorted(parts, key=lambda part: part[0]):
+            self._ctx.blend_func = _BLENDS.get(batch.blend, _OVER)
             self._draw_batch(batch, instances[rows], flags, uniforms, eye)
         target.color_mask, target.depth_mask = masks, True
         self._ctx.disable(self._ctx.BLEND)
 
     def _draw_batch(self, batch: _Batch, instances: np.ndarray, flags: frozenset, uniforms, eye) -> None:
-        texture = self._textures.get(batch.texture) if batch.texture and "color" in flags else None
-        if texture is not None:
-            flags = flags | {"textured"}
-            texture.use(0)
+        if batch.texture is not None and "color" in flags:
+            flags = flags | {"textured"} | ({batch.texture.address} & {"mirror", "border"})
+            self._buffers.texture(batch.texture).use(0)
         program = self._program(flags)
         if uniforms is not None and "lights" in program:
             lights = program["lights"]  # a compiler leaves out the end of the array if the shader does not read it
@@ -409,6 +403,8 @@ class Renderer:
             program["fog"].value = (fog.start, fog.end, fog.density)
         if "fog_color" in program:
             program["fog_color"].value = self._scene.scene.fog.color[:3]
+        if "alpha_above" in program:
+            program["alpha_above"].value = batch.alpha_above
         if "eye" in program:
             program["eye"].value = tuple(eye)
         if "shadow_map" in program and self._shadow is not None:
@@ -445,12 +441,8 @@ class Renderer:
     def _vertex_array(self, batch: _Batch, flags: frozenset, program):
         key = (flags, program.glo)
         if key not in batch.arrays:
-            vertices, triangles, has_uv = self._mesh_buffer(batch.mesh)
-            content = [
-                self._attributes(
-                    program, vertices, "3f 3f 2f" if has_uv else "3f 3f", ("vertex", "normal", "uv") if has_uv else ("vertex", "normal")
-                )
-            ]
+            vertices, triangles = self._buffers.mesh(batch.mesh)
+            content = [self._attributes(program, vertices, "3f 3f 2f", ("vertex", "normal", "uv"))]
             layout = " ".join(formats for _, formats in _INSTANCE_LAYOUT)
             names = tuple(" ".join(names for names, _ in _INSTANCE_LAYOUT).split())
             content.append(self._attributes(program, batch.instances, layout, names, per_instance=True))
@@ -468,18 +460,6 @@ class Renderer:
             else:
                 formats.append(f"{4 * int(fmt[:-1])}x")
         return (buffer, " ".join(formats) + ("/i" if per_instance else ""), *used)
-
-    def _mesh_buffer(self, key: Hashable):
-        if key not in self._mesh_buffers:
-            mesh = self._assets.meshes[key]
-            columns = [mesh.vertices, mesh.normals] + ([mesh.uv] if mesh.uv is not None else [])
-            vertices = np.concatenate(columns, axis=1).astype("f4")
-            self._mesh_buffers[key] = (
-                self._ctx.buffer(vertices.tobytes()),
-                self._ctx.buffer(mesh.triangles.astype("u4").tobytes()),
-                mesh.uv is not None,
-            )
-        return self._mesh_buffers[key]
 
     def _target(self, width: int, height: int, outputs) -> Target:
         samples = self._samples if outputs == ("color",) else 0  # a depth or an index must not be averaged

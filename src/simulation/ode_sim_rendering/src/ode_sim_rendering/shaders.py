@@ -21,7 +21,8 @@ void main() {{
 
 
 def vertex_shader(flags: frozenset, lights: Sequence[str] = ()) -> str:
-    """``flags``: any of color, by_vertex (light is computed here and interpolated), specular, textured, position, ident
+    """``flags``: any of color, by_vertex (light is computed here and interpolated), specular, textured, mirror or border
+    (of a texture beyond its image), position, ident
     (and depth, which needs nothing here). ``lights``: kind of each, as for :func:`fragment_shader`.
 
     ``base`` is emissive + ambient * scene ambient, and the opacity; ``world`` rows of the model matrix.
@@ -125,8 +126,12 @@ def fragment_shader(flags: frozenset, lights: Sequence[str] = (), shadow_of: int
             body += [_light(i, kind, i == shadow_of, specular) for i, kind in enumerate(lights)]
             body.append("vec4 seen = vec4(v_base.rgb + v_diffuse * shine, v_base.a);")
         if textured:
-            head += ["in vec2 v_uv;", "uniform sampler2D image;"]
-            body += ["seen *= texture(image, v_uv);", "if (seen.a < 0.02) discard;"]
+            head += ["in vec2 v_uv;", "uniform sampler2D image;", "uniform float alpha_above;"]
+            # not by what its own derivatives say, which jump where the image is turned over
+            mirrored = "textureGrad(image, 1.0 - abs(mod(v_uv, 2.0) - 1.0), dFdx(v_uv), dFdy(v_uv))"
+            seen = mirrored if "mirror" in flags else "texture(image, v_uv)"
+            outside = " * float(all(lessThanEqual(abs(v_uv - 0.5), vec2(0.5))))" if "border" in flags else ""
+            body += [f"seen *= {seen}{outside};", "if (seen.a <= alpha_above) discard;"]
         if specular:
             body.append("seen.rgb += v_specular.rgb * gloss;")
         if fog:

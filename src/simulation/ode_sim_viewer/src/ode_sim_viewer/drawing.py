@@ -14,6 +14,7 @@ import numpy as np
 from ode_sim.description import model as d
 from ode_sim.math3 import quat_between, quat_multiply, transform, vec3
 from ode_sim_rendering.assets import Assets, Look, Part
+from ode_sim_rendering.geometry import texture_coordinates
 
 from ode_sim_viewer.simulation import Frame, ModelRecord, WorldRecord
 
@@ -245,7 +246,7 @@ class Drawing:
         alpha = look.alpha * (0.4 if self.transparent else 1.0)
         shadow = visual.cast_shadows and alpha > 0.99
         place = dict(position=part.pose.p, wxyz=wxyz(part.pose.q))
-        image = self._image(look.texture, scoped) if look.texture and mesh.uv is not None else None
+        image = self._image(look.texture, scoped) if look.texture else None
         if image is not None and not self.wireframe:
             return self._scene.add_mesh_trimesh(node, _textured(mesh, part, image, look, alpha), cast_shadow=shadow, **place)
         # a flat thing of nothing but its scale has one side, as in Gazebo; files are shown from both
@@ -381,8 +382,8 @@ def _textured(mesh, part: Part, image, look: Look, alpha: float):
         metallicFactor=0.0,
         roughnessFactor=1.0,
         doubleSided=True,
-        alphaMode="BLEND" if alpha < 0.995 else "MASK",
-        alphaCutoff=0.02,
+        alphaMode="BLEND" if alpha < 0.995 or look.blend == "alpha_blend" else "OPAQUE" if look.alpha_above is None else "MASK",
+        alphaCutoff=look.alpha_above,
     )
     made = trimesh.Trimesh(
         np.asarray(mesh.vertices, float) * part.scale,
@@ -390,5 +391,5 @@ def _textured(mesh, part: Part, image, look: Look, alpha: float):
         vertex_normals=np.asarray(mesh.normals, float),
         process=False,
     )
-    made.visual = trimesh.visual.TextureVisuals(uv=np.asarray(mesh.uv, float), material=material)
+    made.visual = trimesh.visual.TextureVisuals(uv=texture_coordinates(mesh, look.texture_unit), material=material)
     return made

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import functools
 import glob
+import math
 import os
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import Any
 
 from ode_sim.description.finder import ResourceFinder
-from ode_sim.description.model import Material, Rgba
+from ode_sim.description.model import Material, Rgba, TextureUnit
 
 Rgb = tuple[float, float, float]
 _BRIGHTEST = 1e6  # of colours, which are 0..1
@@ -120,6 +122,7 @@ def gazebo_material(name: str, finder: ResourceFinder | None = None) -> Material
 
 _COMMENT_BEGIN = re.compile(r"//|/\*")
 _PIECE = re.compile(r"[{}]|[^\n{}]+")
+_FARTHEST_TEXTURE = 1e6  # a scroll or scale beyond it is no number of a texture
 _LONGEST_SCRIPT = 4_000_000  # characters; what follows is not read
 _MOST_SCRIPTS = 1000  # of a folder
 _MOST_PARENTS = 20  # of a material
@@ -130,9 +133,9 @@ _RESOURCES = ("media/materials/scripts", "", "media/materials/textures", "media/
 def script_material(name: str, locations: Iterable[str]) -> Material | None:
     """The material ``name`` of the OGRE scripts in ``locations`` (files, or directories to look through).
 
-    The first pass counts; of a texture unit only the image is taken, from the directories of ``locations``, a
-    ``textures`` folder beside them, or the script's own directory. What a material does not say is as its parent has it
-    (``material A : B``). What cannot be read as a script has no materials.
+    The first pass counts, and its first texture unit, whose image is taken from the directories of ``locations``, a ``textures`` folder
+    beside them, or the script's own directory. What a material does not say is as its parent has it (``material A : B``). What
+    cannot be read as a script has no materials.
     """
     files, folders = _scripts(locations)
     statements: list[list[str]] = []
@@ -248,6 +251,8 @@ def _material_of(name: str, statements: list[list[str]], folders: list[str], par
             variables.setdefault(words[1], words[2:])
     colours: dict[str, Rgba] = {}
     texture, shininess = "", 0.0
+    unit, units = _Unit(), 0  # texture units of this pass
+    passes: dict[str, list[str]] = {}  # what its pass says, and the texture unit's own
     for words in statements:
         key, values = words[0], [value for word in words[1:] for value in variables.get(word, [word])]
         if key in ("ambient", "diffuse", "specular", "emissive") and key not in colours:
@@ -260,11 +265,85 @@ def _material_of(name: str, statements: list[list[str]], folders: list[str], par
                 colours[key] = (numbers[0], numbers[1], numbers[2], alpha)
                 if key == "specular" and len(numbers) > 3:  # the last one is the exponent
                     shininess = numbers[-1]
+        elif key == "pass":
+            units = 0
+        elif key == "texture_unit":
+            units += 1
         elif key == "texture" and values and not texture:
             places = [os.path.join(folder, values[0]) for folder in folders]
             found = [place for place in places if os.path.isfile(place)]
             texture = os.path.abspath(found[0]) if found else ""
+        elif units == 1:
+            unit.take(key, values)
+        elif values:
+            passes.setdefault(key, values)
+    own: dict[str, Any] = dict(colours)
+    if unit.said:
+        own["texture_unit"] = unit.made()
+    if "lighting" in passes:
+        own["lighting"] = passes["lighting"] != ["off"]
+    if "alpha_rejection" in passes:
+        own["alpha_above"] = _alpha_above(passes["alpha_rejection"])
+    if parent is None or "scene_blend" in passes:
+        own["blend"] = _BLENDS.get(" ".join(passes.get("scene_blend", [])), "replace")
     if parent is not None:
         shininess = shininess if "specular" in colours else parent.shininess
-        return replace(parent, name=name, texture=texture or parent.texture, shininess=shininess, **colours)
-    return Material(name, texture=texture, shininess=shininess, **colours)
+        return replace(parent, name=name, texture=texture or parent.texture, shininess=shininess, **own)
+    return Material(name, texture=texture, shininess=shininess, **own)
+
+
+#: OGRE's names of a scene_blend, the short and the long ones.
+_BLENDS = {
+    **{name: name for name in ("alpha_blend", "add", "modulate", "colour_blend")},
+    "src_alpha one_minus_src_alpha": "alpha_blend",
+    "one one": "add",
+    "dest_colour zero": "modulate",
+    "src_colour one_minus_src_colour": "colour_blend",
+}
+
+
+def _alpha_above(words: list[str]) -> float | None:
+    """Of an ``alpha_rejection``: the alpha 0..1 that drawn pixels are above; None: all are drawn."""
+    try:
+        value = float(words[1]) / 255.0
+    except (IndexError, ValueError):
+        value = 0.0
+    if not 0.0 <= value <= 1.0:
+        return None
+    return {"greater": value, "greater_equal": value - 0.5 / 255.0}.get(words[0])
+
+
+class _Unit:
+    """What a texture unit says of its image's place."""
+
+    def __init__(self) -> None:
+        self.said: dict[str, list[str]] = {}
+
+    def take(self, key: str, values: list[str]) -> None:
+        """A statement of the unit; the first of a kind counts, and others than these are nothing here."""
+        if key in ("scale", "scroll", "rotate", "tex_address_mode", "filtering") and values:
+            self.said.setdefault(key, values)
+
+    def _numbers(self, key: str, default: tuple[float, ...]) -> tuple[float, ...]:
+        try:
+            numbers = tuple(float(word) for word in self.said.get(key, ())[: len(default)])
+        except ValueError:
+            return default
+        return numbers if len(numbers) == len(default) and all(abs(value) <= _FARTHEST_TEXTURE for value in numbers) else default
+
+    def made(self) -> TextureUnit:
+        """As OGRE 1.9 does it: the coordinates are scaled about the middle of the image, moved, and turned about it (degrees)."""
+        (wide, high), (along, down), (angle,) = (
+            self._numbers("scale", (1.0, 1.0)),
+            self._numbers("scroll", (0.0, 0.0)),
+            self._numbers("rotate", (0.0,)),
+        )
+        scale_u, scale_v = 1.0 / (wide or 1.0), 1.0 / (high or 1.0)
+        cos, sin = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+        left, top = 0.5 - 0.5 * scale_u + along - 0.5, 0.5 - 0.5 * scale_v + down - 0.5  # from the middle
+        address = self.said.get("tex_address_mode", ["wrap"])[0]
+        return TextureUnit(
+            (cos * scale_u, -sin * scale_v, cos * left - sin * top + 0.5, sin * scale_u, cos * scale_v, sin * left + cos * top + 0.5),
+            address if address in ("mirror", "clamp", "border") else "wrap",
+            self.said.get("filtering", ["bilinear"])[0] not in ("none", "point"),
+        )

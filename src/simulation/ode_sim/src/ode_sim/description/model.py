@@ -116,6 +116,17 @@ Rgba = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True)
+class TextureUnit:
+    """How an image lies on a surface. ``matrix`` a b c d e f takes the surface's texture coordinates, of which v runs downwards in the
+    image, to (a u + b v + c, d u + e v + f). Beyond the image, ``address``: wrap, mirror, clamp or border (nothing). ``smooth``: between
+    its pixels."""
+
+    matrix: tuple[float, ...] = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0)
+    address: str = "wrap"
+    smooth: bool = True
+
+
+@dataclass(frozen=True)
 class Material:
     """Colours 0..1; ``None`` = not given. ``name`` is a Gazebo script name such as ``Gazebo/Red`` (already resolved into
     the colours where known); ``texture`` an absolute image file, '' if none."""
@@ -127,6 +138,12 @@ class Material:
     emissive: Rgba | None = None
     texture: str = ""
     shininess: float = 0.0  # exponent of the highlight that ``specular`` makes; 0: there is none, as of an SDF's colours in Gazebo 11
+    texture_unit: TextureUnit = TextureUnit()
+    lighting: bool = True  # else it is white, or its texture, whatever shines
+    #: with what is behind: "" by the colours' alpha, not the texture's; else OGRE's alpha_blend (by both), add, modulate, colour_blend, or
+    #: replace (not at all)
+    blend: str = ""
+    alpha_above: float | None = None  # only pixels of a greater alpha are drawn
 
 
 @dataclass(frozen=True)

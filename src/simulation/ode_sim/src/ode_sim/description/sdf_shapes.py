@@ -135,9 +135,11 @@ class SdfShapes(SdfValues):
                 )
         colours = {tag: self.rgba(element, tag) for tag in ("ambient", "diffuse", "specular", "emissive")}
         given = {tag: colour for tag, colour in colours.items() if colour is not None}
-        if known is None and not given:
+        lit = self.boolean(element, "lighting", True)
+        if known is None and not given and lit:
             return Material(name) if name else None
         base = known or Material(name)
+        base = base if lit else replace(base, lighting=False)
         return replace(base, shininess=base.shininess if colours["specular"] in (None, base.specular) else 0.0, **given)
 
     def road(self, element: ET.Element) -> Visual:
