@@ -57,8 +57,12 @@ void write(std::ostream& out, const SolidPrimitive& primitive)
     if (kind.second.type != primitive.type)
       continue;
     out << kind.first << '\n';
+    const char* between = "";
     for (const std::size_t i : kind.second.order)
-      out << primitive.dimensions[i] << ' ';
+    {
+      out << between << primitive.dimensions[i];
+      between = " ";
+    }
     out << '\n';
   }
 }

@@ -71,7 +71,12 @@ def test_what_is_written_is_read_again():
     item.primitive_poses = item.mesh_poses = item.plane_poses = [Pose(Point(0.125, 0, 0), Quaternion(0, 0, 0, 1))]
     scene = PlanningScene(name="s", object_colors=[ObjectColor("thing", ColorRGBA(1, 0, 0, 0.5))])
     scene.world.collision_objects = [item]
-    again = scene_text.read(scene_text.write(scene))
+    text = scene_text.write(scene)
+    assert text.startswith(
+        "s\n* thing\n1 2 3\n0 0 0 1\n3\ncone\n0.1 0.4\n0.125 0 0\n0 0 0 1\n1 0 0 0.5\nmesh\n3 1\n0 0 0\n1 0 0\n0 1 0\n0 1 2\n"
+    )
+    assert text.endswith("plane\n0 0 1 0.25\n0.125 0 0\n0 0 0 1\n1 0 0 0.5\n0\n.\n")
+    again = scene_text.read(text)
     item.operation, found = CollisionObject.ADD, again.world.collision_objects[0]
     assert found == item and again.object_colors == scene.object_colors
 
