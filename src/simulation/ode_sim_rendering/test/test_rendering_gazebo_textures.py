@@ -39,6 +39,8 @@ SCRIPTS = {
     "half": "ambient 0.8 0.8 0.8 0.5\ndiffuse 1 1 1 0.5\nscene_blend alpha_blend\ndepth_write off",
     "half_opaque": "ambient 0.8 0.8 0.8 0.5\ndiffuse 1 1 1 0.5",
     "add": f"{LIT}\nscene_blend add\ndepth_write off\n{IMAGE.format('tex.png', '')}",
+    "late": IMAGE.format("tex.png", "") + "\nlighting off",  # after the unit, and of the first pass
+    "passes": f"{LIT}\n{IMAGE.format('tex.png', '')}\n}}\npass\n{{\nscene_blend add\nlighting off\n{IMAGE.format('tex.png', 'scale 0.5 0.5')}",
     "uv": f"lighting off\n{IMAGE.format('uv.png', 'filtering none')}",
 }
 UNLIT = "<material><lighting>0</lighting><ambient>0.3 0 0 1</ambient><diffuse>1 0.5 0 1</diffuse></material>"
@@ -198,6 +200,14 @@ def test_an_image_lies_on_a_shape_as_in_a_real_gazebo(renderer, folder, shape, s
         far = 4 - depth_of(shape, side, left, up)
         pixel = drawn[int(120 - focal * up / far), int(160 - focal * left / far)] / 255
         np.testing.assert_allclose(pixel[:2], coordinates, atol=0.03, err_msg=f"{left} {up}")
+
+
+def test_each_statement_counts_for_its_own_pass(renderer, folder):  # noqa: F811
+    """By OGRE's grammar: statements of a pass may stand after its texture unit, those of another pass are not its own."""
+    alike = {"late": "nolight", "passes": "plain"}
+    for name, other in alike.items():
+        here, there = (picture(renderer, visual("m", BOX, "6 0.9 2 0 0 0", script(folder, which))) for which in (name, other))
+        np.testing.assert_array_equal(here, there, err_msg=name)
 
 
 def test_a_mesh_without_coordinates_shows_the_corner_of_an_image(renderer, folder, tmp_path):  # noqa: F811

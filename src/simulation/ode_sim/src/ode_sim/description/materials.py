@@ -148,7 +148,7 @@ def script_material(name: str, locations: Iterable[str]) -> Material | None:
             known = gazebo_material(wanted)
             break
         lines, parent, file = found
-        statements += lines
+        statements += [["material"], *lines]
         found_in.append(os.path.dirname(file))
         wanted = parent
     if not found_in:
@@ -251,8 +251,8 @@ def _material_of(name: str, statements: list[list[str]], folders: list[str], par
             variables.setdefault(words[1], words[2:])
     colours: dict[str, Rgba] = {}
     texture, shininess = "", 0.0
-    unit, units = _Unit(), 0  # texture units of this pass
-    passes: dict[str, list[str]] = {}  # what its pass says, and the texture unit's own
+    unit, units, passes = _Unit(), 0, 0  # the first texture unit, and how many have begun in this material
+    said: dict[str, list[str]] = {}  # by the first pass
     for words in statements:
         key, values = words[0], [value for word in words[1:] for value in variables.get(word, [word])]
         if key in ("ambient", "diffuse", "specular", "emissive") and key not in colours:
@@ -265,27 +265,27 @@ def _material_of(name: str, statements: list[list[str]], folders: list[str], par
                 colours[key] = (numbers[0], numbers[1], numbers[2], alpha)
                 if key == "specular" and len(numbers) > 3:  # the last one is the exponent
                     shininess = numbers[-1]
+        elif key == "material":
+            passes = units = 0
         elif key == "pass":
-            units = 0
+            passes += 1
         elif key == "texture_unit":
             units += 1
         elif key == "texture" and values and not texture:
             places = [os.path.join(folder, values[0]) for folder in folders]
             found = [place for place in places if os.path.isfile(place)]
             texture = os.path.abspath(found[0]) if found else ""
-        elif units == 1:
-            unit.take(key, values)
-        elif values:
-            passes.setdefault(key, values)
+        elif passes == 1 and values and not (units == 1 and unit.take(key, values)):
+            said.setdefault(key, values)
     own: dict[str, Any] = dict(colours)
     if unit.said:
         own["texture_unit"] = unit.made()
-    if "lighting" in passes:
-        own["lighting"] = passes["lighting"] != ["off"]
-    if "alpha_rejection" in passes:
-        own["alpha_above"] = _alpha_above(passes["alpha_rejection"])
-    if parent is None or "scene_blend" in passes:
-        own["blend"] = _BLENDS.get(" ".join(passes.get("scene_blend", [])), "replace")
+    if "lighting" in said:
+        own["lighting"] = said["lighting"] != ["off"]
+    if "alpha_rejection" in said:
+        own["alpha_above"] = _alpha_above(said["alpha_rejection"])
+    if parent is None or "scene_blend" in said:
+        own["blend"] = _BLENDS.get(" ".join(said.get("scene_blend", [])), "replace")
     if parent is not None:
         shininess = shininess if "specular" in colours else parent.shininess
         return replace(parent, name=name, texture=texture or parent.texture, shininess=shininess, **own)
@@ -319,10 +319,12 @@ class _Unit:
     def __init__(self) -> None:
         self.said: dict[str, list[str]] = {}
 
-    def take(self, key: str, values: list[str]) -> None:
-        """A statement of the unit; the first of a kind counts, and others than these are nothing here."""
-        if key in ("scale", "scroll", "rotate", "tex_address_mode", "filtering") and values:
+    def take(self, key: str, values: list[str]) -> bool:
+        """Whether a statement is one of a unit's; the first of a kind counts."""
+        own = key in ("scale", "scroll", "rotate", "tex_address_mode", "filtering")
+        if own:
             self.said.setdefault(key, values)
+        return own
 
     def _numbers(self, key: str, default: tuple[float, ...]) -> tuple[float, ...]:
         try:
