@@ -40,7 +40,8 @@ SCRIPTS = {
     "half_opaque": "ambient 0.8 0.8 0.8 0.5\ndiffuse 1 1 1 0.5",
     "add": f"{LIT}\nscene_blend add\ndepth_write off\n{IMAGE.format('tex.png', '')}",
     "late": IMAGE.format("tex.png", "") + "\nlighting off",  # after the unit, and of the first pass
-    "passes": f"{LIT}\n{IMAGE.format('tex.png', '')}\n}}\npass\n{{\nscene_blend add\nlighting off\n{IMAGE.format('tex.png', 'scale 0.5 0.5')}",
+    "passes": f"{LIT}\n{IMAGE.format('tex.png', '')}\n}}\npass\n{{\nscene_blend add\nlighting off\n"
+    + IMAGE.format("tex.png", "scale 0.5 0.5"),
     "uv": f"lighting off\n{IMAGE.format('uv.png', 'filtering none')}",
 }
 UNLIT = "<material><lighting>0</lighting><ambient>0.3 0 0 1</ambient><diffuse>1 0.5 0 1</diffuse></material>"

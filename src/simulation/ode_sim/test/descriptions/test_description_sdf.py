@@ -3,7 +3,7 @@
 import pytest
 from ode_sim import math3
 from ode_sim.description import DescriptionError, read_model
-from ode_sim.description.model import Box, Capsule, Cylinder, Heightmap, Inertial, Mesh, Plane, Polyline, Sphere
+from ode_sim.description.model import Box, Capsule, Cylinder, GroundLayer, Heightmap, Inertial, Mesh, Plane, Polyline, Sphere
 from ode_sim.description.sdf_writer import model_text
 from sdf_texts import BOX, MODEL, finder, model, models, text, world
 
@@ -134,6 +134,24 @@ def test_meshes_and_heightmaps_resolve(models, finder):
     assert mesh == Mesh(str(folder / "a.dae"), "model://thing/a.dae", (2.0, 2.0, 2.0), "s", True)
     assert isinstance(height, Heightmap) and height.path == str(folder / "a.dae") and height.size == (4.0, 5.0, 6.0)
     assert not problems
+
+
+def test_the_ground_of_a_height_map_has_layers_as_far_as_there_are_blends(models, finder):
+    folder = models("thing", MODEL.format(name="thing"))
+    (folder / "a.png").write_text("x")
+    texture = "<texture><diffuse>{}</diffuse><size>{}</size></texture>"
+    stock = "file://media/materials/textures/dirt_diffusespecular.png"
+    layers = texture.format("model://thing/a.png", 3) + texture.format(stock, 2) + texture.format("model://thing/gone.png", 1)
+    blend = "<blend><min_height>2</min_height><fade_dist>5</fade_dist></blend>"
+    text = f"<geometry><heightmap>{layers}{{}}<uri>model://thing/a.png</uri></heightmap></geometry>"
+    shapes = [f"<visual name='v{n}'>{text.format(blend * n)}</visual>" for n in range(3)]
+    m, problems = model(f"<link name='a'>{''.join(shapes)}<collision name='c'>{text.format(blend)}</collision></link>", finder)
+    one, two, three = (visual.geometry.layers for visual in m.links[0].visuals)
+    assert one == (GroundLayer(str(folder / "a.png"), 3.0, uri="model://thing/a.png"),)
+    assert two[1:] == (GroundLayer("", 2.0, 2.0, 5.0, (0.56, 0.47, 0.38), stock),)
+    assert three[2].path == "" and three[2].colour == (1.0, 1.0, 1.0) and m.links[0].collisions[0].geometry.layers == ()
+    (problem,) = problems
+    assert "gone.png" in str(problem) and "this ground is white" in str(problem)
 
 
 def test_sensor_light_and_plugins_of_a_link(finder):

@@ -13,6 +13,7 @@ from ode_sim.images import read_rgba
 
 from ode_sim_rendering import geometry
 from ode_sim_rendering.geometry import TriMesh
+from ode_sim_rendering.ground import painted
 
 _WHITE = (1.0, 1.0, 1.0, 1.0)
 _BLACK = (0.0, 0.0, 0.0, 1.0)
@@ -101,6 +102,7 @@ class Assets:
         self._load_mesh: Callable = load_mesh
         self.meshes: dict[Hashable, TriMesh] = {}
         self.problems: list[str] = []
+        self._grounds: dict[str, d.Heightmap] = {}  # by the names of their pictures
         self._files: dict[Hashable, list[tuple[Hashable, d.Material | None]]] = {}
         self._shapes = {"box": geometry.box, "sphere": geometry.sphere, "cylinder": geometry.cylinder, "plane": geometry.plane}
 
@@ -117,7 +119,8 @@ class Assets:
         try:
             with np.errstate(all="ignore"):
                 pieces, pose, scale = self._pieces(shape, visual.pose)
-                return [Part(key, look_of(visual.material, own, visual.transparency), pose, scale) for key, own in pieces]
+                given = None if isinstance(shape, d.Heightmap) and shape.layers else visual.material  # as in Gazebo
+                return [Part(key, look_of(given, own, visual.transparency), pose, scale) for key, own in pieces]
         except Exception as error:  # whatever a broken file makes a parser raise: the rest is drawn all the same
             self.note(name, f"is not drawn: {one_line(error, 200).strip() or type(error).__name__}")
             return []
@@ -145,10 +148,19 @@ class Assets:
         if isinstance(shape, d.Heightmap):
             if not shape.path:
                 return [], pose, one  # the reader has said so already
-            return self._made(shape, lambda: geometry.height_grid(load_heights(shape), shape.size, shape.pos)), pose, one
+            ground = self._made(shape, lambda: geometry.height_grid(load_heights(shape), shape.size, shape.pos))
+            return [(key, self._painted(shape)) for key, _ in ground], pose, one
         if isinstance(shape, d.Mesh):
             return (self._mesh_file(shape) if shape.path else []), pose, one
         raise ValueError(f"geometry {type(shape).__name__} cannot be drawn")
+
+    def _painted(self, shape: d.Heightmap) -> d.Material | None:
+        """The look of a height map with layers: a picture of its own."""
+        if not shape.layers:
+            return None
+        name = f"ground of {shape.path} {hash(shape):x}"
+        self._grounds[name] = shape
+        return d.Material(name, ambient=_WHITE, diffuse=_WHITE, texture=name)
 
     def _shape(self, name: str):
         return self._made(name, self._shapes[name])
@@ -171,6 +183,16 @@ class Assets:
             self._files[shape] = pieces
         return self._files[shape]
 
+    def _ground(self, shape: d.Heightmap, name: str) -> np.ndarray:
+        def image(layer: d.GroundLayer) -> np.ndarray | None:
+            try:
+                return read_rgba(layer.path) if layer.path else None
+            except DescriptionError as error:
+                self.note(name, f"is drawn without a picture of its ground: {error}")
+                return None
+
+        return painted(shape, load_heights(shape), image)
+
     def texture(self, path: str, name: str, most: int = 4096) -> np.ndarray | None:
         """RGBA bytes (H,W,4), first row at the bottom, of the image file ``path``; None (and a problem noted) if unreadable.
 
@@ -178,7 +200,7 @@ class Assets:
         :param most: pixels along a side; of a larger image only every second, third ... row and column is taken.
         """
         try:
-            image = read_rgba(path)
+            image = self._ground(self._grounds[path], name) if path in self._grounds else read_rgba(path)
         except DescriptionError as error:
             self.note(name, f"is drawn without its texture: {error}")
             return None

@@ -84,12 +84,27 @@ class Mesh:
 
 
 @dataclass(frozen=True)
+class GroundLayer:
+    """One of the pictures on a height map, from the lowest ground up: an absolute image file ('': the ``colour`` 0..1 stands in for it),
+    as wide as ``size`` m. It begins at ``min_height`` m above the map's lowest ground and covers what is below it from ``fade`` m higher
+    on."""
+
+    path: str
+    size: float = 10.0
+    min_height: float = 0.0
+    fade: float = 0.0
+    colour: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    uri: str = ""
+
+
+@dataclass(frozen=True)
 class Heightmap:
     path: str
     uri: str = ""
     size: Vec3 = (1.0, 1.0, 1.0)
     pos: Vec3 = (0.0, 0.0, 0.0)
     sampling: int = 2
+    layers: tuple[GroundLayer, ...] = ()
 
 
 @dataclass(frozen=True)

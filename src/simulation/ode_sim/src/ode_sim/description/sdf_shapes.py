@@ -15,6 +15,7 @@ from ode_sim.description.model import (
     Capsule,
     Cylinder,
     Geometry,
+    GroundLayer,
     Heightmap,
     Light,
     Material,
@@ -32,6 +33,13 @@ from ode_sim.description.xmlsource import fault, source_of, text_of
 
 _MOST_CORNERS = 1000  # of a polyline; to cut one into triangles takes a time that grows with the square of their number
 _MOST_POINTS = 100_000  # of a road
+_MOST_LAYERS = 8  # of pictures on a height map
+#: mean colours of Gazebo's own pictures of ground, which are not Debian's
+_GROUNDS = {
+    "dirt_diffusespecular.png": (0.56, 0.47, 0.38),
+    "grass_diffusespecular.png": (0.48, 0.56, 0.31),
+    "fungus_diffusespecular.png": (0.51, 0.51, 0.41),
+}
 _ABOVE_GROUND = 0.005  # m, so that a road on the ground is seen; files have both at 0
 _FAR_LIGHT = 1e16  # of numbers that graphics take, in single precision
 
@@ -70,11 +78,26 @@ class SdfShapes(SdfValues):
                 (x, y, z),
                 self.vector(shape, "pos", (0.0, 0.0, 0.0), most=FARTHEST),
                 self.whole(shape, "sampling", 2, 0, 1000),
+                self._ground(shape) if parent.tag == "visual" else (),
             )
         if shape.tag == "polyline":
             return self._polyline(shape)
         self.warn(shape, "this kind of geometry is not known here; left out")
         return None
+
+    def _ground(self, shape: ET.Element) -> tuple[GroundLayer, ...]:
+        """The pictures of ``shape``, a ``<heightmap>``: its n-th ``<blend>`` is where the one above the n-th begins."""
+        layers: list[GroundLayer] = []
+        blends = shape.findall("blend")[: _MOST_LAYERS - 1]
+        for number, texture in enumerate(shape.findall("texture")[: len(blends) + 1]):
+            uri = text_of(texture.find("diffuse"))
+            found = self.finder.find(uri, os.path.dirname(getattr(texture, "file", "")) or self.base) if uri else None
+            stock = _GROUNDS.get(os.path.basename(uri))
+            if not found and stock is None:
+                self.warn_missing(texture, uri, "this ground is white")
+            low, fade = (self.number(blends[number - 1], tag, 0.0) for tag in ("min_height", "fade_dist")) if number else (0.0, 0.0)
+            layers.append(GroundLayer(found or "", self.number(texture, "size", 10.0), low, max(0.0, fade), stock or (1.0, 1.0, 1.0), uri))
+        return tuple(layers)
 
     @staticmethod
     def _sizes(shape: ET.Element, sizes: Numbers) -> Numbers:

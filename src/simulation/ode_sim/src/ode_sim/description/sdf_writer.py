@@ -256,6 +256,8 @@ def _geometry(parent: ET.Element, shape: d.Geometry) -> None:
     made = ET.SubElement(element, type(shape).__name__.lower())
     if isinstance(shape, (d.Mesh, d.Heightmap)):
         _leaf(made, "uri", _uri(shape))
+    if isinstance(shape, d.Heightmap):
+        _ground(made, shape.layers)
     if isinstance(shape, d.Mesh):
         _leaf(made, "scale", shape.scale, (1.0, 1.0, 1.0))
         if shape.submesh:
@@ -270,7 +272,18 @@ def _geometry(parent: ET.Element, shape: d.Geometry) -> None:
             _leaf(made, name, getattr(shape, name, None))
 
 
-def _uri(shape: d.Mesh | d.Heightmap) -> str:
+def _ground(made: ET.Element, layers: tuple[d.GroundLayer, ...]) -> None:
+    for layer in layers:
+        texture = ET.SubElement(made, "texture")
+        _leaf(texture, "diffuse", _uri(layer))
+        _leaf(texture, "size", layer.size)
+    for layer in layers[1:]:
+        blend = ET.SubElement(made, "blend")
+        _leaf(blend, "min_height", layer.min_height)
+        _leaf(blend, "fade_dist", layer.fade)
+
+
+def _uri(shape: d.Mesh | d.Heightmap | d.GroundLayer) -> str:
     """As it was written, where that names the file wherever it is read."""
     return shape.uri if "://" in shape.uri or not shape.path else "file://" + os.path.abspath(shape.path)
 
