@@ -1,6 +1,7 @@
 #include "dynamic_settings.hpp"
 
 #include <dynamic_reconfigure/ConfigDescription.h>
+#include <dynamic_reconfigure/config_tools.h>
 #include <ros/console.h>
 #include <ros/service.h>
 
@@ -13,6 +14,7 @@ namespace moveit_ros_planning
 {
 namespace
 {
+using dynamic_reconfigure::ConfigTools;
 using execution::Kind;
 using execution::Parameter;
 using Value = XmlRpc::XmlRpcValue;
@@ -35,14 +37,16 @@ std::optional<double> given(const Parameter& parameter, Value& value)
   return std::nullopt;
 }
 
-void store(const ros::NodeHandle& nh, const Parameter& parameter, double value)
+// Calls the function with the value in the type in which ROS has it.
+template <typename Function>
+void typed(const Parameter& parameter, double value, const Function& function)
 {
   if (parameter.kind == Kind::FLAG)
-    nh.setParam(parameter.name, value != 0.0);
+    function(value != 0.0);
   else if (parameter.kind == Kind::COUNT)
-    nh.setParam(parameter.name, static_cast<int>(value));
+    function(static_cast<int>(value));
   else
-    nh.setParam(parameter.name, value);
+    function(value);
 }
 }  // namespace
 
@@ -103,7 +107,7 @@ void DynamicSettings::tell(const Values& values)
 {
   values_ = values;
   for (const Parameter& each : table_)
-    store(nh_, each, values_.at(each.name));
+    typed(each, values_.at(each.name), [&](auto value) { nh_.setParam(each.name, value); });
   updates_.publish(message([this](const Parameter& each) { return values_.at(each.name); }));
 }
 
@@ -137,27 +141,7 @@ dynamic_reconfigure::Config DynamicSettings::message(const std::function<double(
 {
   dynamic_reconfigure::Config config;
   for (const Parameter& each : table_)
-  {
-    const double number = value(each);
-    if (each.kind == Kind::FLAG)
-    {
-      config.bools.emplace_back();
-      config.bools.back().name = each.name;
-      config.bools.back().value = number != 0.0;
-    }
-    else if (each.kind == Kind::COUNT)
-    {
-      config.ints.emplace_back();
-      config.ints.back().name = each.name;
-      config.ints.back().value = static_cast<int>(number);
-    }
-    else
-    {
-      config.doubles.emplace_back();
-      config.doubles.back().name = each.name;
-      config.doubles.back().value = number;
-    }
-  }
+    typed(each, value(each), [&](auto one) { ConfigTools::appendParameter(config, each.name, one); });
   config.groups.resize(1);
   config.groups[0].name = "Default";
   config.groups[0].state = true;

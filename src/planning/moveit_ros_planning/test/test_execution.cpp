@@ -3,6 +3,7 @@
 #include <control_msgs/FollowJointTrajectoryAction.h>
 #include <dynamic_reconfigure/ConfigDescription.h>
 #include <dynamic_reconfigure/Reconfigure.h>
+#include <dynamic_reconfigure/config_tools.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
@@ -211,20 +212,11 @@ public:
     now = call.response.config;
     return answered;
   }
-  bool set(const std::string& name, double value)
+  template <typename Value>
+  bool set(const std::string& name, Value value)
   {
     dynamic_reconfigure::Config config;
-    config.doubles.resize(1);
-    config.doubles[0].name = name;
-    config.doubles[0].value = value;
-    return set(config);
-  }
-  bool set(const std::string& name, bool value)
-  {
-    dynamic_reconfigure::Config config;
-    config.bools.resize(1);
-    config.bools[0].name = name;
-    config.bools[0].value = value;
+    dynamic_reconfigure::ConfigTools::appendParameter(config, name, value);
     return set(config);
   }
   dynamic_reconfigure::Config now;
@@ -304,20 +296,22 @@ TEST(Settings, executionObeysThemFromTheNextTrajectoryOn)
 }
 
 // A robot whose first joint turns by 0.01 rad/s, whatever its controller is told, and who executes plans on it.
-class TurningRobot
+struct TurningRobot
 {
-public:
   TurningRobot()
   {
     useLateController({}, 6);
-    state_.name = { "joint_1", "joint_2", "joint_3", "joint_4", "joint_5", "joint_6", "finger_joint" };
-    state_.position.assign(7, 0.0);
-    timer_ = nh_.createTimer(ros::Duration(0.01), [this](const ros::TimerEvent&) {
-      state_.header.stamp = ros::Time::now();
-      state_.position[0] = (state_.header.stamp - start_).toSec() * 0.01;
-      joints_.publish(state_);
+    state.name = { "joint_1", "joint_2", "joint_3", "joint_4", "joint_5", "joint_6", "finger_joint" };
+    state.position.assign(7, 0.0);
+    timer = nh.createTimer(ros::Duration(0.01), [this](const ros::TimerEvent&) {
+      state.header.stamp = ros::Time::now();
+      state.position[0] = (state.header.stamp - start).toSec() * 0.01;
+      joints.publish(state);
     });
+    monitor->startStateMonitor("turning_joint_states");
+    manager = std::make_shared<TrajectoryExecutionManager>(loader().getModel(), monitor->getStateMonitor());
     manager->setAllowedStartTolerance(0.0);
+    execution = std::make_unique<plan_execution::PlanExecution>(monitor, manager);
   }
 
   // What was recorded of a plan of 1 s.
@@ -332,43 +326,28 @@ public:
     message.joint_trajectory.points[1].time_from_start = ros::Duration(1.0);
     path->setRobotTrajectoryMsg(*monitor->getStateMonitor()->getCurrentState(), message);
     plan.plan_components_.emplace_back(path, "wave", std::vector<std::string>{ "late_controller" });
-    EXPECT_EQ(execution.executeAndMonitor(plan).val, moveit_msgs::MoveItErrorCodes::SUCCESS);
+    EXPECT_EQ(execution->executeAndMonitor(plan).val, moveit_msgs::MoveItErrorCodes::SUCCESS);
     return plan.executed_trajectory_;
   }
 
-private:
-  const Controller controller_;
-  ros::NodeHandle nh_;
-  ros::Publisher joints_ = nh_.advertise<sensor_msgs::JointState>("turning_joint_states", 1, true);
-  sensor_msgs::JointState state_;
-  ros::Time start_ = ros::Time::now();
-  ros::Timer timer_;
-
-public:
+  const Controller controller;
+  ros::NodeHandle nh;
+  ros::Publisher joints = nh.advertise<sensor_msgs::JointState>("turning_joint_states", 1, true);
+  sensor_msgs::JointState state;
+  ros::Time start = ros::Time::now();
+  ros::Timer timer;
   const planning_scene_monitor::PlanningSceneMonitorPtr monitor =
       std::make_shared<planning_scene_monitor::PlanningSceneMonitor>("robot_description");
-  const std::shared_ptr<TrajectoryExecutionManager> manager =
-      std::make_shared<TrajectoryExecutionManager>(loader().getModel(), states());
-  plan_execution::PlanExecution execution{ monitor, manager };
-
-private:
-  planning_scene_monitor::CurrentStateMonitorPtr states()
-  {
-    monitor->startStateMonitor("turning_joint_states");
-    return monitor->getStateMonitor();
-  }
+  std::shared_ptr<TrajectoryExecutionManager> manager;
+  std::unique_ptr<plan_execution::PlanExecution> execution;
 };
 
 TEST(Settings, aPlanIsMadeAnewAsOftenAsTheySay)
 {
   TurningRobot robot;
-  EXPECT_EQ(robot.execution.getMaxReplanAttempts(), 5u);
+  EXPECT_EQ(robot.execution->getMaxReplanAttempts(), 5u);
   Client client("~/plan_execution");
-  dynamic_reconfigure::Config config;
-  config.ints.resize(1);
-  config.ints[0].name = "max_replan_attempts";
-  config.ints[0].value = 2;
-  ASSERT_TRUE(client.set(config));
+  ASSERT_TRUE(client.set("max_replan_attempts", 2));
   EXPECT_EQ(stored<int>("plan_execution/max_replan_attempts"), 2);
   int attempts = 0;
   plan_execution::PlanExecution::Options options;
@@ -379,7 +358,7 @@ TEST(Settings, aPlanIsMadeAnewAsOftenAsTheySay)
     return true;
   };
   plan_execution::ExecutableMotionPlan failing;
-  robot.execution.planAndExecute(failing, options);
+  robot.execution->planAndExecute(failing, options);
   EXPECT_EQ(attempts, 2);
 }
 
