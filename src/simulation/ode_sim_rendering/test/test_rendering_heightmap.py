@@ -101,6 +101,15 @@ def test_layers_of_the_ground_begin_at_their_heights(renderer, folder):  # noqa:
         np.testing.assert_allclose(drawn[int(row), 160], np.array(colour) / 1.2 * (0.4 + 0.8 * shade), atol=12, err_msg=str(height))
 
 
+def test_tiles_smaller_than_a_pixel_of_the_ground_are_their_mean(renderer, folder):  # noqa: F811
+    """5 mm wide on 32 m; black and grey halves, under light of 1.2."""
+    halves = np.zeros((16, 16, 3), np.uint8)
+    halves[:, 8:] = 200
+    Image.fromarray(halves).save(folder / "halves.png")
+    drawn = ground(renderer, folder, np.full((33, 33), 128), 1, layer(folder, "halves.png", 0.005))
+    np.testing.assert_allclose(drawn[120, 160], 1.2 * 100, atol=3)
+
+
 def test_gazebos_own_ground_has_its_colour(renderer, folder):  # noqa: F811
     text = "<texture><diffuse>file://media/materials/textures/{}</diffuse><size>1</size></texture>"
     drawn = ground(renderer, folder, np.full((33, 33), 128), 1, text.format("grass_diffusespecular.png"))

@@ -351,6 +351,27 @@ def test_a_texture_is_encoded_once_for_all_meshes_that_show_it():
         assert np.abs(np.asarray(Image.open(files[0]).convert("RGBA"), int) - pixels).mean() < (5 if name else 1e-9)
 
 
+@pytest.mark.parametrize(
+    "look, shade",
+    [
+        (d.Material(texture="t.png", diffuse=(0.4, 0.4, 0.4, 1.0)), 102),
+        (
+            d.Material(texture="t.png", diffuse=(0.4, 0.4, 0.4, 1.0), lighting=False),
+            255,
+        ),  # as bright as its texture, as in cameras' pictures
+    ],
+)
+def test_a_texture_is_as_bright_as_its_material(look, shade):
+    from ode_sim_rendering.assets import Assets
+    from ode_sim_viewer.drawing import _textured
+    from PIL import Image
+
+    assets = Assets()
+    (part,) = assets.parts(d.Visual("v", Pose(), d.Box((1.0, 1.0, 1.0)), look), "m::l::v")
+    made = _textured(assets.meshes[part.key], part, Image.new("RGBA", (2, 2)), part.look, 1.0)
+    assert list(made.visual.material.baseColorFactor) == [shade, shade, shade, 255]
+
+
 def test_who_comes_in_while_a_large_world_is_drawn_goes_on_seeing_it(page, monkeypatch):
     """The first drawing took longer than the page waits for a browser, which came in just then."""
     looks = []

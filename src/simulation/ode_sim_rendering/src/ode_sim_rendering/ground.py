@@ -41,10 +41,10 @@ def _sampled(heights: np.ndarray, along: np.ndarray) -> np.ndarray:
 def _tiled(pixels: np.ndarray, tiles: np.ndarray, along: np.ndarray) -> np.ndarray:
     """(N,N,3) of a picture that is repeated ``tiles`` times along x and along y."""
     high, wide = pixels.shape[:2]
-    step_u, step_v = (max(1, int(size * tile / len(along))) for size, tile in zip((wide, high), tiles))
-    pixels = pixels[: high - high % step_v or high, : wide - wide % step_u or wide, :3].astype(np.float32)
-    high, wide = pixels.shape[0] // step_v, pixels.shape[1] // step_u
-    pixels = pixels[: high * step_v, : wide * step_u].reshape(high, step_v, wide, step_u, 3).mean(axis=(1, 3))
+    # pixels of the picture that are one of the ground's; at most all of them
+    step_u, step_v = (min(size, max(1, int(size * tile / len(along)))) for size, tile in zip((wide, high), tiles))
+    high, wide = high // step_v, wide // step_u
+    pixels = pixels[: high * step_v, : wide * step_u, :3].reshape(high, step_v, wide, step_u, 3).mean(axis=(1, 3))
     u = (along * tiles[0] % 1.0 * wide).astype(int)  # of a column of the picture of the ground
     v = (along * tiles[1] % 1.0 * high).astype(int)  # of a row
     return pixels[v[:, None], u[None, :]]

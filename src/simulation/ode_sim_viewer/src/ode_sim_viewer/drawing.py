@@ -378,7 +378,7 @@ def _textured(mesh, part: Part, image, look: Look, alpha: float):
 
     material = trimesh.visual.material.PBRMaterial(
         baseColorTexture=image,
-        baseColorFactor=[*rgb255(look.diffuse), int(255 * alpha)],
+        baseColorFactor=[*rgb255(_seen(look)), int(255 * alpha)],
         metallicFactor=0.0,
         roughnessFactor=1.0,
         doubleSided=True,
