@@ -438,7 +438,7 @@ class Clicks(Session):
         }
         asked = [
             (path, {**more, **words})
-            for path in ("/", "/?token=", f"/?token={token[:-1]}", "/index.html", "//", "/x/../")
+            for path in ("/", "/?token=", f"/?token={token[:-1]}", "/index.html", "//", "/x/../", "/link/Plots%20and%20topics")
             for more in ({}, upgrade)
             for words in ({}, {"Origin": address.rstrip("/")}, {"Cookie": "viewer_0=x"})
         ]

@@ -8,6 +8,7 @@ import xmlrpc.client
 
 import numpy as np
 import rosgraph
+import rosnode
 import rospy
 import rostest
 from gazebo_msgs.msg import ModelState
@@ -142,6 +143,33 @@ class Sensors(Session):
         page.see("data: ", EVIL)
         self.assertNotEqual(page.driver.title, "owned")
         master.unregisterPublisher("/stranger", EVIL, "http://localhost:1/")
+
+    def test_3b_plots_and_topics_open_in_a_tab_of_their_own(self):
+        """*Window > Plots and topics*: without Lichtblick's page a line that says how to get it; with it, a bridge and the page."""
+        page, driver = self.page, self.page.driver
+        first = driver.current_window_handle
+
+        def opened():
+            page.click("Plots and topics")
+            wait(lambda: len(driver.window_handles) == 2, "a second tab")
+            driver.switch_to.window(next(handle for handle in driver.window_handles if handle != first))
+
+        def back():
+            driver.close()
+            driver.switch_to.window(first)
+
+        opened()
+        page.see("rosrun foxglove_bridge lichtblick --install")
+        back()
+        folder = os.path.join(self.home.name, ".local/share/noetic_labs/lichtblick")
+        os.makedirs(folder)
+        with open(os.path.join(folder, "index.html"), "w", encoding="utf-8") as file:
+            file.write("<title>of plots</title><p>Here are plots</p>")
+        opened()
+        page.see("Here are plots")
+        self.assertIn("ds.url=ws%3A%2F%2Flocalhost%3A", driver.current_url)
+        back()
+        self.assertTrue(any(name.startswith("/lichtblick") for name in rosnode.get_node_names()))
 
     def test_4_a_replay_plays_without_the_simulator(self):
         page = self.page

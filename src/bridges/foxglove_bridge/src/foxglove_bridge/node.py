@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import logging
 import signal
 import socket
@@ -10,6 +11,7 @@ from typing import Any
 
 import foxglove
 import rosgraph
+import rosnode
 import rospy
 from foxglove.websocket import Capability, ConnectionGraph, Parameter, ServerListener, StatusLevel
 from rosgraph_msgs.msg import Clock
@@ -20,6 +22,7 @@ from foxglove_bridge.services import Services
 from foxglove_bridge.settings import SettingError, Settings, allowed, unknown
 from foxglove_bridge.topics import Published, Topics, now_ns
 
+TRIES = 50  # ports, one after the other, where a program finds its own
 FIRST_LOOK, SLOWER = 0.2, 1.5  # s between looks at the graph, which grow while nothing changes
 _KNOWN = {
     "clientPublish": Capability.ClientPublish,
@@ -160,9 +163,7 @@ class Bridge(ServerListener):
 def main() -> int:
     rospy.init_node("foxglove_bridge")
     try:
-        settings = Settings.read(lambda name, default: rospy.get_param("~" + name, default), rospy.logwarn)
-        for name in unknown(settings.capabilities):
-            rospy.logwarn("~capabilities: there is no '%s'", name)
+        settings = _settings()
         bridge = Bridge(settings)
     except SettingError as error:
         rospy.logfatal("%s", error)
@@ -179,6 +180,36 @@ def main() -> int:
     stop = threading.Event()
     rospy.on_shutdown(stop.set)
     signal.signal(signal.SIGTERM, lambda *_: rospy.signal_shutdown("SIGTERM"))
+    follow(bridge, stop)
+    return 0
+
+
+def _settings() -> Settings:
+    settings = Settings.read(lambda name, default: rospy.get_param("~" + name, default), rospy.logwarn)
+    for name in unknown(settings.capabilities):
+        rospy.logwarn("~capabilities: there is no '%s'", name)
+    return settings
+
+
+def follow(bridge: Bridge, stop: threading.Event) -> None:
+    """Let ``bridge`` work until ``stop``."""
     bridge.follow_graph(stop)
     bridge.server.stop()
-    return 0
+
+
+def own_or_running() -> tuple[int, Bridge | None]:
+    """Port of the bridge that runs on this master, and None; else one is begun in this process, on the first free port.
+
+    :raises SettingError: no port is free, or a parameter of this node cannot be used
+    """
+    port = rospy.get_param("/foxglove_bridge/port", None)
+    if isinstance(port, int) and "/foxglove_bridge" in rosnode.get_node_names():
+        return port, None
+    settings = _settings()
+    for candidate in range(settings.port, settings.port + TRIES):
+        try:
+            bridge = Bridge(dataclasses.replace(settings, port=candidate))
+            return bridge.server.port, bridge
+        except (OSError, OverflowError):
+            continue
+    raise SettingError(f"no port from {settings.port} to {settings.port + TRIES - 1} is free for the bridge; set ~port to another")

@@ -10,7 +10,9 @@ browser at once, by the :mod:`~ode_sim_viewer.porter`; what comes next waits in 
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
+import functools
 import gzip
 import hmac
 import http
@@ -19,9 +21,10 @@ import io
 import secrets
 import socket
 import threading
+from collections.abc import Callable, Mapping
 from http.cookies import CookieError, SimpleCookie
 from typing import Any
-from urllib.parse import parse_qs, urlsplit
+from urllib.parse import parse_qs, unquote, urlsplit
 
 from ode_sim.errors import Unavailable
 
@@ -29,10 +32,14 @@ from ode_sim_viewer.porter import Porter, entitled
 
 #: Beside the 11345 of Gazebo's own master; the next free one is taken where it is in use.
 DEFAULT_PORT = 11346
-_LOOPBACK = ("localhost", "127.0.0.1", "::1")
+#: Names of this machine for itself.
+LOOPBACK = ("localhost", "127.0.0.1", "::1")
 _TRIES = 100
 _WAITING = 64  # connections that the system keeps until the server looks at them
+LINKED = "/link/"  # before the name of a link
 _starting = threading.Lock()
+#: Host of the request -> status, headers, text.
+Link = Callable[[str], tuple[http.HTTPStatus, dict[str, str], str]]
 
 
 class Guard:
@@ -53,7 +60,7 @@ class Guard:
         :param headers: a mapping, as of websockets
         """
         host = headers.get("Host", "")
-        if self._loopback and urlsplit(f"//{host}").hostname not in _LOOPBACK:
+        if self._loopback and urlsplit(f"//{host}").hostname not in LOOPBACK:
             return self._no("this page is for this machine only; start it with --listen for others")
         origin = headers.get("Origin")
         if origin is not None and urlsplit(origin).netloc != host:
@@ -87,14 +94,23 @@ class Website:
     :param listen: to other machines, with a token
     :param token: also on this machine
     :param title: of the browser's window
+    :param links: entries of the menu *Window* that open a page of their own, and what answers it, in a thread of its own
     :raises Unavailable: viser is not installed, or no port is free
     """
 
-    def __init__(self, port: int = DEFAULT_PORT, listen: bool = False, title: str = "Gazebo", token: bool = False):
+    def __init__(
+        self,
+        port: int = DEFAULT_PORT,
+        listen: bool = False,
+        title: str = "Gazebo",
+        token: bool = False,
+        links: Mapping[str, Link] | None = None,
+    ):
         if importlib.util.find_spec("viser") is None:
             raise Unavailable("the page needs the Python package viser; scripts/setup installs it")
         self.guard = Guard(secrets.token_urlsafe(16) if listen or token else "", loopback=not listen)
         self.viser: Any = None
+        self.links = dict(links or {})
         self._door = _take_port(port, listen)
         self.port = self._door.getsockname()[1]
         self._listen = listen
@@ -132,7 +148,7 @@ class Website:
             except ImportError as error:
                 raise Unavailable(f"the page needs the Python package {error.name}; scripts/setup installs it") from error
             self._porter.leave()
-            self.viser = _start(viser, self._door, self.guard, self._title)
+            self.viser = _start(viser, self._door, self._reply, self._title)
             self._withdraw_sharing()
         return self.viser
 
@@ -143,6 +159,14 @@ class Website:
             self.viser = None
         self._porter.leave()
         self._door.close()
+
+    def _reply(self, path: str, headers) -> tuple | Callable[[], tuple] | None:
+        """What answers instead of the page, at once or when it is called; None: the page does."""
+        link = self.links.get(unquote(urlsplit(path).path.partition(LINKED)[2]))
+        refused = self.guard.refuse(path, headers)
+        if refused is not None or link is None:
+            return refused
+        return functools.partial(link, urlsplit(f"//{headers.get('Host', '')}").hostname or "")
 
     def _withdraw_sharing(self) -> None:
         """A page may ask viser for a tunnel through a server in the internet; not here."""
@@ -177,8 +201,8 @@ def _take_port(port: int, listen: bool) -> socket.socket:
     raise Unavailable(f"no port from {port} to {port + _TRIES - 1} is free; choose another one with --port")
 
 
-def _start(viser: Any, door: socket.socket, guard: Guard, title: str) -> Any:
-    """A viser server on ``door`` whose requests pass ``guard`` first; viser has no place for either, so its call of
+def _start(viser: Any, door: socket.socket, reply: Callable, title: str) -> Any:
+    """A viser server on ``door`` whose requests ``reply`` sees first; viser has no place for either, so its call of
     ``serve`` is."""
     import rich
     import websockets.asyncio.server
@@ -189,11 +213,11 @@ def _start(viser: Any, door: socket.socket, guard: Guard, title: str) -> Any:
     usual = library.serve
 
     def serve(handler, host, port, process_request=None, **options):
-        def guarded(connection, request):
-            refused = guard.refuse(request.path, request.headers)
-            if refused is None:
+        async def guarded(connection, request):
+            answer = reply(request.path, request.headers)
+            if answer is None:
                 return _entitled(process_request(connection, request), title)
-            status, headers, text = refused
+            status, headers, text = await asyncio.to_thread(answer) if callable(answer) else answer
             response = connection.respond(status, text)
             for name, value in headers.items():
                 response.headers[name] = value

@@ -18,6 +18,7 @@ from node_signals import orphans, verbose
 from ode_sim_viewer.website import Unavailable, Website
 
 from gzclient import command_line, desktop
+from gzclient.plots import Plots
 
 _LOOK = 0.25  # wall s between two looks at whether the window has been closed
 _MASTER = "http://localhost:11311"
@@ -29,8 +30,9 @@ def main(arguments: list[str]) -> int:
     _wait_for_master()
     for line in command_line.remarks(options):
         _say(line)
+    plots = Plots()
     try:
-        website = Website(options.port, options.listen, token=True)
+        website = Website(options.port, options.listen, token=True, links={"Plots and topics": plots.answer})
     except Unavailable as error:
         _say(str(error))
         return 1
@@ -48,6 +50,7 @@ def main(arguments: list[str]) -> int:
         if window is not None:
             window.close()
         website.close()
+        plots.close()
 
 
 def _serve(website: Website, options: Any, closed: Any) -> int:

@@ -108,7 +108,8 @@
     Camera: () => [LOOK, switchable("Follow what is picked"), null, ...VIEWS],
     View: () => [...SEEN.map(name => name && switchable(name)), null,
       { name: "Panel at the left", on: panel, do: () => document.documentElement.classList.toggle("alone") }],
-    Window: () => tabs(groups()[1]).map(e => e.textContent.trim()).map(name => ({ name, do: () => tab(name) })),
+    Window: () => tabs(groups()[1]).map(e => e.textContent.trim()).map(name => ({ name, do: () => tab(name) }))
+      .concat(shown("links").split("\n").filter(Boolean).map(name => ({ name, do: () => window.open("/link/" + encodeURIComponent(name)) }))),
   };
   const value = what => typeof what === "function" ? what() : what;
   const act = tool => {

@@ -57,9 +57,10 @@ class ViewPanel(Panel):
         self._tell()
 
     def _tell(self) -> None:
-        """What is on, a label a line; the frame reads it."""
+        """What is on, a label a line, and what else the website shows; the frame reads it."""
         on = [escaped(label) for label, (box, _) in self._switches.items() if box.value]
-        self._told.content = f"<b id='switches'>{chr(10).join(on)}</b>"
+        links = map(escaped, self.page.website.links)
+        self._told.content = f"<b id='switches'>{chr(10).join(on)}</b><b id='links'>{chr(10).join(links)}</b>"
 
     def _on_asked(self, event: Any) -> None:
         """``[3, {"Shadows": true}]``: what the frame writes for the third entry that is chosen from its menu, with those just before it."""
