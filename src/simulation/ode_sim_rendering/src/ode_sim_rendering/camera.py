@@ -27,6 +27,7 @@ _LENSES = {
     "orthographic": (1.0, 1.0, "sin"),
 }  # c1, c2, fun
 _TEXTURES = (16, 2048)  # pixels
+STEEPEST = math.radians(80)  # of a lidar's ray that a picture shows
 
 ENCODINGS = {
     "L8": "mono8",
@@ -168,6 +169,27 @@ class Camera:
                 [1, 0, 0, 0],
             ]
         )
+
+
+@dataclass(frozen=True)
+class Fan:
+    """Of a lidar: ``yaws`` (H,) and ``pitches`` (V,) of the rays, rad, each in rising order.
+
+    :raises CameraError: rays that no pictures show: steeper than :data:`STEEPEST`, or more than a turn of them.
+    """
+
+    yaws: tuple[float, ...]
+    pitches: tuple[float, ...]
+
+    def __post_init__(self):
+        steepest, extent = max(map(abs, self.pitches)), self.yaws[-1] - self.yaws[0]
+        if extent < 0 or self.pitches[-1] < self.pitches[0]:
+            raise CameraError("its angles fall from <min_angle> to <max_angle>; pictures show those that rise")
+        if steepest > STEEPEST or extent > 2 * math.pi + 1e-6:
+            raise CameraError(
+                f"rays of {math.degrees(steepest):.0f} degrees up or down over {math.degrees(extent):.0f} degrees; "
+                f"pictures show at most {math.degrees(STEEPEST):.0f} over a turn"
+            )
 
 
 def _number(element: ET.Element | None, path: str, default: float) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ode_sim_rendering.camera import Camera
+from ode_sim_rendering.camera import Camera, Fan
 from ode_sim_rendering.scene import SceneDescription
 
 
@@ -15,12 +15,13 @@ class SetScene:
 
 @dataclass(frozen=True)
 class AddCamera:
-    """``depth_range``: m, (lowest, highest) valid depth, exclusive; ``seed``: of the noise."""
+    """``depth_range``: m, (lowest, highest) valid depth, exclusive; ``seed``: of the noise; ``fan``: it is a lidar."""
 
     key: int
     camera: Camera
     seed: int
     depth_range: tuple[float, float]
+    fan: Fan | None = None
 
 
 @dataclass(frozen=True)

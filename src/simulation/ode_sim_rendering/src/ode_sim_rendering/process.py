@@ -23,16 +23,18 @@ from multiprocessing.connection import Connection, Pipe
 
 import numpy as np
 
-from ode_sim_rendering.camera import Camera
+from ode_sim_rendering.camera import Camera, Fan
 from ode_sim_rendering.messages import AddCamera, Done, Draw, DrawnBy, Failed, ForgetCamera, Problems, SetScene
 from ode_sim_rendering.watch import SceneWatch, camera_seed
 
 #: What can be asked of a camera: the sensor image, compressed ones (``jpeg:QUALITY``, ``png:LEVEL``), depth in metres
-#: (float32, NaN where invalid) or millimetres (uint16, 0 where invalid), an organised point cloud (see image.cloud).
-OUTPUTS = ("image", "jpeg", "png", "depth", "depth16", "cloud")
+#: (float32, NaN where invalid) or millimetres (uint16, 0 where invalid), an organised point cloud (see image.cloud). Of a lidar: ``rays``,
+#: each ray's range (float32, m, +inf for none) and ``<laser_retro>`` of the visual that it meets (float32), row by row from below.
+OUTPUTS = ("image", "jpeg", "png", "depth", "depth16", "cloud", "rays")
 
 _SLOTS = 8  # frames of one camera under way at once: a quarter of a second at 30 Hz, on a machine that is busy
 _BYTES_PER_PIXEL = 6 + 8 + 8 + 4 + 2 + 32  # of all outputs together; untouched pages cost nothing
+_BYTES_PER_RAY = 4 + 4
 _RESTARTS = 3
 _START = "import sys; sys.path[:] = {path!r}; from ode_sim_rendering.worker import main; main({socket}, {memory})"
 
@@ -90,11 +92,16 @@ class RenderProcess:
 
     # ------------------------------------------------------------------------------------------ physics thread
 
-    def add_camera(self, camera: Camera, depth_range: tuple[float, float] = (0.0, np.inf)) -> int:
-        """A key of ``camera`` for :meth:`draw`. ``depth_range``: m, depths outside of it are invalid."""
+    def add_camera(self, camera: Camera, depth_range: tuple[float, float] = (0.0, np.inf), fan: Fan | None = None) -> int:
+        """A key of ``camera`` for :meth:`draw`.
+
+        :param depth_range: m, depths outside of it are invalid.
+        :param fan: it is a lidar with these rays, whose only output is ``rays``.
+        """
         key = self._next_key
         self._next_key += 1
-        room = -(-(camera.width * camera.height * _BYTES_PER_PIXEL + 65536) // mmap.PAGESIZE) * mmap.PAGESIZE
+        wanted = len(fan.yaws) * len(fan.pitches) * _BYTES_PER_RAY if fan else camera.width * camera.height * _BYTES_PER_PIXEL
+        room = -(-(wanted + 65536) // mmap.PAGESIZE) * mmap.PAGESIZE
         spare = self._spare.get(room)
         if spare:
             offset = spare.pop()
@@ -102,7 +109,7 @@ class RenderProcess:
             offset, self._used = self._used, self._used + _SLOTS * room
             os.ftruncate(self._memory_fd, self._used)
             self._memory = None  # mapped anew, larger, at the next frame; views of the old mapping stay valid
-        message = AddCamera(key, camera, camera_seed(self._world, camera.name), depth_range)
+        message = AddCamera(key, camera, camera_seed(self._world, camera.name), depth_range, fan)
         self._cameras[key] = _Camera(camera, message, offset, room, list(range(_SLOTS)))
         self._send(self._connection, message)
         return key

@@ -16,7 +16,9 @@ import cv2
 import numpy as np
 from ode_sim.description.model import one_line
 
+from ode_sim_rendering.camera import Fan
 from ode_sim_rendering.image import add_noise, cloud, compress, encode
+from ode_sim_rendering.lidar import LidarView
 from ode_sim_rendering.messages import AddCamera, Done, Draw, DrawnBy, Failed, ForgetCamera, Problems, SetScene
 from ode_sim_rendering.renderer import Renderer
 from ode_sim_rendering.scene import SceneDescription
@@ -30,6 +32,8 @@ class Worker:
         self._memory_fd = memory
         self._memory: mmap.mmap | None = None
         self._cameras: dict[int, AddCamera] = {}
+        self._lidars: dict[int, LidarView] = {}
+        self._retros = np.zeros(1, np.float32)  # of each visual, and at last of none
         self._renderer: Renderer | None = None
         self._no_renderer = ""
 
@@ -63,8 +67,10 @@ class Worker:
                     self._connection.send(Problems(problems))
         elif isinstance(request, AddCamera):
             self._cameras[request.key] = request
+            self._lidars.pop(request.key, None)
         elif isinstance(request, ForgetCamera):
             self._cameras.pop(request.key, None)
+            self._lidars.pop(request.key, None)
 
     def _set_scene(self, scene: SceneDescription) -> list[str]:
         """Show ``scene``, or as much of it as can be shown; lines about what cannot."""
@@ -77,12 +83,16 @@ class Worker:
                 break
             except Exception as error:  # the cameras go on without what it was
                 trouble = trouble or [f"cameras do not see all of the world: {one_line(error, 200) or type(error).__name__}"]
+        retros = {visual.name: visual.visual.laser_retro for visual in scene.visuals}
+        self._retros = np.array([*(retros.get(name, 0.0) for name in self._renderer.visual_names), 0.0], np.float32)
         return trouble + self._renderer.take_problems()
 
     def _draw(self, request: Draw):
         if self._renderer is None:
             return Failed(request.frame, self._no_renderer)
         entry = self._cameras[request.key]
+        if entry.fan is not None:
+            return Done(request.frame, self._store(request, [("rays", self._rays(request, entry, entry.fan))]))
         camera, wanted = entry.camera, request.outputs
         flat = {name.partition(":")[0] for name in wanted}
         sources = (("color",) if flat & {"image", "jpeg", "png", "cloud"} else ()) + (
@@ -111,6 +121,16 @@ class Worker:
             elif kind == "cloud":
                 products.append((name, cloud(depth, image, camera, valid)))
         return Done(request.frame, self._store(request, products))
+
+    def _rays(self, request: Draw, entry: AddCamera, fan: Fan) -> np.ndarray:
+        """(2, V*H): ranges and retros."""
+        assert self._renderer is not None
+        view = self._lidars.get(request.key)
+        if view is None:
+            view = self._lidars[request.key] = LidarView(entry.camera, fan)
+        poses = np.frombuffer(request.poses).reshape(-1, 7)
+        ranges, seen = view.ranges([self._renderer.images(camera, poses, ("depth", "ident")) for camera in view.cameras])
+        return np.stack([ranges.ravel(), self._retros[seen].ravel()])
 
     def _store(self, request: Draw, products) -> dict[str, tuple[int, int]]:
         """Copy into the frame's place in shared memory: name -> (offset, length)."""

@@ -73,3 +73,4 @@ class VelodyneLaser(SensorPlugin):
 
     def shutdown(self) -> None:
         self.topics.close()
+        self.fan.close()

@@ -223,3 +223,4 @@ class HectorSonar(SensorPlugin):
 
     def shutdown(self) -> None:
         self.topics.close()
+        self.fan.close()

@@ -1,6 +1,6 @@
 """libgazebo_ros_laser.so, libgazebo_ros_gpu_laser.so, _block_laser.so and _range.so: the same rays, three messages.
 
-A ``gpu_ray`` sensor needs no GPU here: both kinds cast rays against collision shapes.
+A ``gpu_ray`` sensor needs no GPU here: both kinds cast rays against collision shapes. Where there is one, many rays of it are pictures.
 """
 
 from __future__ import annotations
@@ -12,11 +12,14 @@ from gazebo_ros.plugin import PluginError, SensorPlugin
 from geometry_msgs.msg import Point32
 from node_signals.rates import Spaced
 from ode_sim import _core, math3
+from ode_sim.errors import CameraError
 from sensor_msgs.msg import ChannelFloat32, LaserScan, PointCloud
 from sensor_msgs.msg import Range as RangeMsg
 
 from gazebo_plugins.ros_side import Topics, subscribed, told_namespace
+from gazebo_plugins.sensors import ray_pictures
 from gazebo_plugins.sensors.noise import SdfNoise
+from gazebo_plugins.sensors.ray_pictures import RayPictures
 
 
 class RayFan:
@@ -37,6 +40,7 @@ class RayFan:
         except ValueError as error:
             raise PluginError(f"sensor {sensor.scoped_name}: {error}") from error
         self.horizontal, self.vertical = self.fan.horizontal, self.fan.vertical
+        self._pictures = self._by_pictures(server, sensor)
         self._noise = SdfNoise(ray.child("noise"), server.world.rng(sensor.scoped_name), usual="gaussian")
 
     def reported_directions(self) -> np.ndarray:
@@ -50,21 +54,48 @@ class RayFan:
 
         :param clipped: max and min instead of the infinities
         """
-        pose = math3.compose(self.sensor.link.pose, self.sensor.description.pose)
-        housing = [collision.id for link in self.sensor.model.links.values() for collision in link.collisions.values()]
-        rays, hits = self.fan.cast(self.world.core, (*pose.p, *pose.q), housing)
-        ranges, intensities = self.fan.between(rays), self.fan.mean(self._retro(hits))
+        rays, retros = self._measured()
+        ranges, intensities = self.fan.between(rays), self.fan.mean(retros)
         told = self.fan.told(ranges)
         inside = np.isfinite(told)
         if self._noise.active:  # of what is in range, and it stays there
             ranges = np.where(inside, np.clip(self._noise(ranges), self.min, self.max), ranges)
         return ranges if clipped else np.where(inside, ranges, told), intensities
 
+    def _measured(self) -> tuple[np.ndarray, np.ndarray]:
+        """Of each ray: its range within [min, max], m, and the retro of what it hit."""
+        pictured = self._pictures.cast() if self._pictures is not None else None
+        if pictured is not None:
+            return np.clip(pictured[0], self.min, self.max), pictured[1]
+        pose = math3.compose(self.sensor.link.pose, self.sensor.description.pose)
+        housing = [collision.id for link in self.sensor.model.links.values() for collision in link.collisions.values()]
+        rays, hits = self.fan.cast(self.world.core, (*pose.p, *pose.q), housing)
+        return rays, self._retro(hits)
+
+    def _by_pictures(self, server, sensor) -> RayPictures | None:
+        across, up = self.horizontal, self.vertical
+        if not ray_pictures.wanted(sensor.type, across.samples * up.samples):
+            return None
+        try:
+            return RayPictures(server, sensor, _angles(across), _angles(up), self.min, self.max)
+        except CameraError as error:
+            rospy.logwarn("sensor %s casts its rays against collisions: %s", sensor.scoped_name, error)
+            return None
+
+    def close(self) -> None:
+        if self._pictures is not None:
+            self._pictures.close()
+
     def _retro(self, hits: np.ndarray) -> np.ndarray:
         """``<laser_retro>`` of what each ray hit; 0 where it hit nothing."""
         ids, places = np.unique(hits, return_inverse=True)
         collisions = [self.world.collision(index) for index in ids]
         return np.array([collision.laser_retro if collision else 0.0 for collision in collisions])[places]
+
+
+def _angles(scan: _core.RayScan) -> np.ndarray:
+    """Of each ray, rad; a single one looks straight ahead."""
+    return np.linspace(scan.min_angle, scan.max_angle, scan.samples) if scan.samples > 1 else np.zeros(1)
 
 
 def _scan(scan: SdfElement | None, direction: str, samples: int) -> _core.RayScan:
@@ -101,6 +132,7 @@ class Laser(SensorPlugin):
 
     def shutdown(self) -> None:
         self.topics.close()
+        self.fan.close()
 
 
 class BlockLaser(SensorPlugin):
@@ -132,6 +164,7 @@ class BlockLaser(SensorPlugin):
 
     def shutdown(self) -> None:
         self.topics.close()
+        self.fan.close()
 
 
 class Range(SensorPlugin):
@@ -166,3 +199,4 @@ class Range(SensorPlugin):
 
     def shutdown(self) -> None:
         self.topics.close()
+        self.fan.close()
