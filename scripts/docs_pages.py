@@ -11,6 +11,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import docs_tried
 import yaml
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -18,7 +19,7 @@ ROOT = Path(__file__).resolve().parent.parent
 ORDER = [
     ("Start", ["README.md", "docs/start.md"]),
     ("Courses", ["docs/robots.md", "docs/moveit_tutorial.md"]),
-    ("Bring your package", ["docs/guide.md", "docs/compiled.md"]),
+    ("Bring your package", ["docs/guide.md"]),
     ("Windows", ["docs/windows.md", "docs/other_tools.md"]),
     ("Teaching", ["docs/grading.md"]),
     ("Hardware", ["docs/hardware.md"]),
@@ -51,6 +52,8 @@ def place(page):
     """Where a page stands on the site."""
     if page == Path("README.md"):
         return Path("index.md")
+    if page == docs_tried.DATA:
+        return docs_tried.PAGE
     return page.relative_to("docs") if page.parts[0] == "docs" else page
 
 
@@ -100,15 +103,18 @@ def write(folder):
         text=True,
     )
     beside = {Path(name) for name in tracked.stdout.split("\0") if name.endswith((".png", ".jpg", ".svg", ".gif", ".webp", ".html"))}
-    known, address = {*pages(), *beside}, repository()
+    known, address = {*pages(), *beside, docs_tried.DATA}, repository()
     for path in sorted(known):
         target = content / place(path)
         target.parent.mkdir(parents=True, exist_ok=True)
-        if path.suffix == ".md":
+        if path == docs_tried.DATA:
+            target.write_text(docs_tried.page(ROOT))
+        elif path.suffix == ".md":
             target.write_text(on_the_site(path, (ROOT / path).read_text(), known, address))
         else:
             shutil.copy(ROOT / path, target)
     nav = [{title: [_entry(Path(page)) for page in chapter]} for title, chapter in ORDER]
+    nav[1]["Courses"].insert(1, str(docs_tried.PAGE))
     nav[-1]["For developers"] += [str(place(page)) for page in pages() if page.parent.name == "decisions"]
     if (ROOT / "out/reference").is_dir():
         shutil.copytree(ROOT / "out/reference", content / "reference")

@@ -6,6 +6,7 @@ import subprocess
 from pathlib import Path
 
 import docs_pages
+import docs_tried
 import pytest
 
 ROOT = docs_pages.ROOT
@@ -45,8 +46,32 @@ def test_every_picture_is_shown():
     shown = set()
     for page in READ_ON_GITHUB:
         shown |= {((ROOT / page).parent / target).resolve() for _, target in docs_pages.links((ROOT / page).read_text())}
+    shown |= {ROOT / "docs/pictures/robots" / row["picture"] for row in tried() if "picture" in row}
     pictures = {path for path in (ROOT / "docs" / "pictures").rglob("*") if path.is_file()}
     assert {str(path.relative_to(ROOT)) for path in pictures - shown} == set()
+
+
+def tried():
+    """Every row of docs/tried.yaml."""
+    return [row for group in docs_tried.read(ROOT) for row in group["rows"]]
+
+
+def test_what_was_tried_has_its_columns_and_pictures():
+    for group in docs_tried.read(ROOT):
+        for row in group["rows"]:
+            assert set(row) <= {*group["columns"], "source", "picture"}, row
+            assert row.get(group["columns"][0]), row
+            assert (ROOT / "docs/pictures/robots" / row.get("picture", "")).exists(), row
+
+
+def test_the_page_of_what_was_tried_has_each_row():
+    page = docs_tried.page(ROOT)
+    tables = [line for line in page.splitlines() if line.startswith("| ")]
+    assert len(tables) == len(tried()) + len(docs_tried.read(ROOT))
+    for group in docs_tried.read(ROOT):
+        assert f"| {' | '.join(group['columns'])} |" in page
+    cells = {line.count("|") for line in tables}
+    assert cells == {len(group["columns"]) + 1 for group in docs_tried.read(ROOT)}, "a cell with a bar in it"
 
 
 def test_every_page_of_docs_is_on_the_site():

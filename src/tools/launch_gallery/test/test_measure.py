@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 import rosgraph
+import yaml
 from launch_gallery import commands, hearing, measure, motion, row, simulator, system
 
 
@@ -92,12 +93,13 @@ def test_a_row_sets_what_was_done_against_what_was_told():
         "straight": {**still, "seconds": 10.0, "ahead": 2.9, "speed": 0.3},
         "turn": {**still, "seconds": 10.0, "turned": 4.8, "rate": 0.5, "speed": 0.0},
     }
-    cells = row.row("me/it@1", "roslaunch x", found, 0.0).strip("|").split("|")
-    assert cells[2].strip().startswith("2.900 of 3.000 m")
-    assert cells[3].strip().startswith("4.800 of 5.000 rad")
-    assert cells[4].strip() == "2e-05 m, 0 rad"
-    assert cells[6].strip() == "arm ends 0.250 rad from its goal; a &#124; b"
-    assert len(cells) == row.HEADER.splitlines()[0].count("|") - 1
+    (entry,) = yaml.safe_load(row.row("it", "me/it@1", "roslaunch x", found, 0.0))
+    assert entry["straight"].startswith("2.900 of 3.000 m")
+    assert entry["turn"].startswith("4.800 of 5.000 rad")
+    assert entry["drift in 60 s"] == "2e-05 m, 0 rad"
+    assert entry["notes"] == "arm ends 0.250 rad from its goal; a | b"
+    assert (entry["robot"], entry["source"], entry["launch"]) == ("it", "me/it@1", "`roslaunch x`")
+    assert "sensors" not in entry
 
 
 def test_cars_are_set_against_their_geometry():

@@ -119,7 +119,8 @@ def measure(launches: list[Launch], given: dict[str, str], options: argparse.Nam
     found["errors"] = errors(log)
     typed = [word for launch in launches for word in launch.words]
     typed += [f"{name}:={value}" for name, value in given.items()]
-    found["row"] = row.row(row.source(launches[-1].path), shlex.join(["roslaunch", *typed]), found, options.wheelbase)
+    name = launches[-1].name.replace(".launch", "")
+    found["row"] = row.row(name, row.source(launches[-1].path), shlex.join(["roslaunch", *typed]), found, options.wheelbase)
     with open(figures, "w") as file:
         json.dump(found, file, indent=1)
     return found
@@ -140,7 +141,6 @@ def main(argv: list[str] | None = None) -> int:
         return 1
     except KeyboardInterrupt:  # before anything came up
         return 130
-    print(row.HEADER)
     print(found["row"])
     for line in found["errors"]:
         print(f"  printed: {line}")

@@ -1,4 +1,4 @@
-"""The figures of one robot as a row of a Markdown table."""
+"""The figures of one robot as an entry of docs/tried.yaml."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ import os
 import re
 import subprocess
 
-HEADER = "| robot | launch | straight | turn | drift in 60 s | sensors | notes |\n|---|---|---|---|---|---|---|"
+import yaml
+
 _PLAIN = ("sensor_msgs/JointState", "nav_msgs/Odometry")
 
 
@@ -87,15 +88,20 @@ def reach(found: dict) -> list[str]:
     return [f"{name} ends {_number(error, 'rad')} from its goal" for name, error in found.get("reach", {}).items()]
 
 
-def row(robot: str, launch: str, found: dict, wheelbase: float) -> str:
-    """The row of ``robot``, brought up by ``launch``, with the figures ``found``; ``wheelbase`` as for :func:`turn`."""
-    cells = (
-        robot,
-        f"`{launch}`",
-        straight(found),
-        turn(found, wheelbase),
-        drift(found),
-        sensors(found),
-        "; ".join(reach(found) + found["notes"]) or "-",
-    )
-    return f"| {' | '.join(cell.replace('|', '&#124;') for cell in cells)} |"
+def row(robot: str, repository: str, launch: str, found: dict, wheelbase: float) -> str:
+    """The entry of ``robot`` from ``repository``, brought up by ``launch``, with the figures ``found``.
+
+    :param wheelbase: as for :func:`turn`.
+    """
+    said = {
+        "robot": robot,
+        "source": repository,
+        "launch": f"`{launch}`",
+        "straight": straight(found),
+        "turn": turn(found, wheelbase),
+        "drift in 60 s": drift(found),
+        "sensors": sensors(found).split("<br>"),
+        "notes": "; ".join(reach(found) + found["notes"]) or "-",
+    }
+    entry = {key: value for key, value in said.items() if value not in ("-", ["-"])}
+    return yaml.safe_dump([entry], sort_keys=False, width=130, allow_unicode=True).strip()
