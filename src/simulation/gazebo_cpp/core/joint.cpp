@@ -1,6 +1,7 @@
 // Joint.
 #include <gazebo/physics/physics.hh>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -49,6 +50,42 @@ bool forget(const Joint* joint)
 }
 
 constexpr int64_t patience_ns = 200000000;
+
+/// A joint of a description lets go, for good: its links go on as they move, each by itself, and may touch. What still holds the joint
+/// finds one without axes: nothing moves it any more.
+void take_off(ode_sim::World& world, ode_sim::Joint& joint)
+{
+  ode_sim::Model& model = *joint.model;
+  const auto is = [&joint](const auto& other) { return &*other == &joint; };
+  const auto owner = std::find_if(model.joints.begin(), model.joints.end(), is);
+  if (owner == model.joints.end())
+    return;  // it has let go before
+  const std::shared_ptr<ode_sim::Joint> kept = *owner;
+  world.disturb(model);
+  world.drive_off(joint);
+  model.joints.erase(owner);
+  for (ode_sim::Link* link : { joint.parent, joint.child })
+    if (link)
+      link->joints.erase(std::remove(link->joints.begin(), link->joints.end(), &joint), link->joints.end());
+  joint.child->parent_joint = nullptr;
+  model.jointed.clear();
+  for (const auto& other : model.joints)
+  {
+    if (other->parent)
+      model.jointed.insert(std::minmax(other->parent->id, other->child->id));
+    if (other->holds() && other->child == joint.child && !joint.child->parent_joint)
+      joint.child->parent_joint = other.get();
+  }
+  const ode_sim::OdeScope scope;
+  joint.joint.reset();
+  joint.type = ode_sim::JointType::Fixed, joint.axis_count = 0;
+  joint.feedback = {};
+  for (ode_sim::Axis& axis : joint.axes)
+    axis.relax(), ode_sim::set_motor(axis, 0, 0);
+  ode_sim::judge_masses(model);
+  model.dirty = true;
+  world.refresh();
+}
 
 }  // namespace
 
@@ -129,8 +166,10 @@ void Joint::Attach(LinkPtr parent, LinkPtr child)
 void Joint::Detach()
 {
   if (core_)
-    return refused("joint " + GetScopedName() +
-                   " is of the model's description: it cannot be taken off while the simulation runs");
+    return change(GetScopedName(), [&] {
+      if (ode_sim::World* world = world_of(core_->model))
+        take_off(*world, *core_);
+    });
   const LinkPtr link = child_ ? child_ : parent_;
   if (!weld_ || !link)
     return;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""libSimpleTrackedVehiclePlugin.so, as Gazebo's worlds have it."""
+"""libSimpleTrackedVehiclePlugin.so and libWheelTrackedVehiclePlugin.so, as Gazebo's worlds have them."""
 
 import importlib.util
 import math
@@ -29,6 +29,18 @@ filename="/usr/lib/x86_64-linux-gnu/gazebo-11/plugins/libSimpleTrackedVehiclePlu
 <max_angular_speed>2</max_angular_speed>{more}</plugin>
 <plugin name="rider" filename="libgazebo_ros_test_rider.so"/></model></sdf>"""
 )
+WHEEL = """<link name="{name}"><pose>{x} {y} 0.1 -1.5707963 0 0</pose><inertial><mass>1</mass><inertia><ixx>0.01</ixx><iyy>0.01</iyy>
+<izz>0.01</izz></inertia></inertial><collision name="c"><geometry><cylinder><radius>0.1</radius><length>0.05</length></cylinder></geometry>
+</collision></link>
+<joint name="{name}_joint" type="revolute"><parent>body</parent><child>{name}</child><axis><xyz>0 1 0</xyz><use_parent_model_frame>1
+</use_parent_model_frame></axis></joint>"""
+WHEELED = (
+    VEHICLE[: VEHICLE.index('<link name="left_track"')]
+    + "".join(WHEEL.format(name=f"{side}{i}", x=0.25 * i - 0.25, y=y) for side, y in (("left", 0.2), ("right", -0.2)) for i in range(3))
+    + """<plugin name="tracks" filename="libWheelTrackedVehiclePlugin.so">{wheels}<tracks_separation>0.4</tracks_separation>
+<max_angular_speed>2</max_angular_speed>{more}</plugin><plugin name="rider" filename="libgazebo_ros_test_rider.so"/></model></sdf>"""
+)
+WHEELS = "".join(f"<{side}_joint>{side}{i}_joint</{side}_joint>" for side in ("left", "right") for i in range(3))
 
 
 @unittest.skipUnless(importlib.util.find_spec("gazebo_cpp._core"), "this system lacks what Gazebo's headers need")
@@ -96,6 +108,33 @@ class TracksTest(Case):
         state = self.sim.model("tank")
         self.assertAlmostEqual(state.pose.position.x, 0.0, delta=1e-3)
         self.assertAlmostEqual(state.twist.linear.x, 0.0, delta=1e-4)
+
+    def wheeled(self, wheels=WHEELS, more=""):
+        self.done(self.sim.spawn("tank", WHEELED.format(wheels=wheels, more=more)))
+
+    def test_wheels_roll_at_the_speed_of_their_track(self):
+        self.wheeled()
+        tracks, ahead, turn = self.drive(0.6, 0.0)
+        self.assertEqual(tracks, (0.6, 0.6))
+        self.assertAlmostEqual(ahead, 0.6, delta=5e-3)
+        self.assertAlmostEqual(turn, 0.0, delta=2e-3)
+        self.assertAlmostEqual(self.sim.joint("left1_joint").rate[0], 6.0, delta=0.05)
+        self.drive(0.0, 0.5)  # to the right: the left track ahead, by 0.5 * 0.4 / 2 / 0.5 m/s
+        self.assertAlmostEqual(self.sim.joint("left1_joint").rate[0], 2.0, delta=0.05)
+        self.assertAlmostEqual(self.sim.joint("right1_joint").rate[0], -2.0, delta=0.05)
+        self.sim.empty("reset_simulation")
+        self.sim.step(300)
+        self.assertAlmostEqual(self.sim.joint("left1_joint").rate[0], 0.0, delta=1e-3)
+
+    def test_wheels_have_only_their_torque(self):
+        """6 N m at most would be 60 N on 26 kg and what their turning adds, 6 kg."""
+        self.wheeled(more="<max_torque>1</max_torque>")
+        _, ahead, _ = self.drive(1.0, 0.0)
+        self.assertAlmostEqual(ahead, 60.0 / 32.0 * 0.5, delta=0.02)
+
+    def test_a_track_of_one_wheel_is_one_line(self):
+        self.wheeled(wheels="<left_joint>left0_joint</left_joint>" + WHEELS[WHEELS.index("<right") :])
+        self.wait(lambda: any("<left_joint>: a track needs two wheels at least" in line for line in self.log))
 
     def test_a_link_that_is_not_there_is_named_with_those_that_are(self):
         self.spawn(left="left_trakc")

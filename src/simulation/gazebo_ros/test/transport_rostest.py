@@ -2,12 +2,15 @@
 """Gazebo's transport between processes: gz topic, a program that is its client, and bytes by hand, against whole servers."""
 
 import importlib.util
+import math
 import os
 import random
 import re
 import socket
+import struct
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import rospy
@@ -36,6 +39,25 @@ def free_port():
                 continue
             return port
     raise RuntimeError("no free port")
+
+
+def doubles(message):
+    """All floating-point numbers of a message, in its messages' order: each is a field of 8 bytes."""
+    found, at = [], 0
+    while at < len(message):
+        tag, at = message[at], at + 1
+        if tag & 7 == 1:
+            found.append(struct.unpack("<d", message[at : at + 8])[0])
+            at += 8
+        elif tag & 7 == 2:
+            size, at = message[at], at + 1
+            found += doubles(message[at : at + size])
+            at += size
+        else:
+            while message[at] > 127:
+                at += 1
+            at += 1
+    return found
 
 
 @unittest.skipUnless(importlib.util.find_spec("gazebo_cpp._core"), "this system lacks what Gazebo's headers need")
@@ -171,6 +193,111 @@ class TransportTest(test_support.TestCase):
         wire = self.listen("/gazebo/compiled/world_stats")
         while fields(wire.read())[6][0] < count:
             self.assertIsNone(self.server.process.poll())
+
+    def typing(self):
+        """A publisher on ~/keyboard/keypress: a function that presses a key."""
+        wire, _ = self.wire()
+        place = socket.create_server(("127.0.0.1", 0))
+        self.addCleanup(place.close)
+        place.settimeout(60)
+        me = field(1, "/gazebo/compiled/keyboard/keypress") + field(2, "gazebo.msgs.Any") + field(3, "127.0.0.1")
+        wire.tell("advertise", me + field(4, place.getsockname()[1]))
+        other = Wire.__new__(Wire)
+        other.socket, _ = place.accept()
+        self.addCleanup(other.close)
+        other.packet()
+        return lambda key: other.send(field(1, 3) + field(3, key))
+
+    def test_keys_become_velocities(self):
+        """Steps of <linear_increment> and <angular_increment>, positive to the right, up to the greatest."""
+        inside = (
+            "<cmd_vel_topic>~/keyed/cmd_vel</cmd_vel_topic><linear_increment>0.4</linear_increment><min_linear_vel>-0.2</min_linear_vel>"
+            "<key_controls><accelerate>119</accelerate><accelerate>38</accelerate><decelerate>115</decelerate><left>97</left>"
+            "<right>100</right><stop>32</stop></key_controls>"
+        )
+        keyed = f'<plugin name="k" filename="libKeysToCmdVelPlugin.so">{inside}</plugin>'
+        self.assertTrue(self.sim.spawn("keyed", RAY.replace("</model>", keyed + "</model>")).success)
+        press, hears = self.typing(), self.listen("/gazebo/compiled/keyed/cmd_vel")
+        for key, ahead, aside in (
+            (119, 0.4, 0),
+            (38, 0.8, 0),
+            (119, 1.0, 0),
+            (100, 1.0, 0.5),
+            (97, 1.0, 0.0),
+            (97, 1.0, -0.5),
+            (115, 0.6, -0.5),
+            (32, 0, 0),
+            (115, -0.2, 0),
+        ):
+            press(7)  # of no meaning
+            press(key)
+            command = doubles(hears.read())
+            self.assertAlmostEqual(command[0], ahead, places=6, msg=key)
+            self.assertAlmostEqual(2 * math.atan2(command[-2], command[-1]), aside, places=6, msg=key)
+
+    def moved_by(self, key, what):
+        """0.5 kg m2 on a joint with 5 N m, as the key has begun to move it: the one of its model, since the last key of a test is heard
+        in the next one.
+
+        :param what: attributes of its <map>
+        """
+        maps = f'<map key="{key}" {what}><joint>elbow</joint></map>'
+        text = URDF.format(library="worker", more="").replace("libgazebo_ros_test_worker.so", "libKeysToJointsPlugin.so")
+        self.assertTrue(self.sim.spawn("arm", text.replace("</plugin>", maps + "</plugin>"), kind="urdf").success)
+        press = self.typing()
+        press(7)  # of no meaning
+        self.sim.step(1)
+        self.assertEqual(self.sim.joint("elbow").rate[0], 0.0)
+
+        def moves():
+            self.sim.step(1)
+            return abs(self.sim.joint("elbow").rate[0]) > 1e-4
+
+        press(key)
+        test_support.wait_until(moves)
+
+    def test_a_key_moves_a_joint_on(self):
+        self.moved_by(49, 'type="position" scale="0.5" kp="20" kd="4"')
+        self.sim.step(5000)
+        self.assertAlmostEqual(self.sim.joint("elbow").position[0], 0.5, delta=1e-3)
+        self.assertAlmostEqual(self.sim.joint("elbow").rate[0], 0.0, delta=1e-3)
+
+    def test_a_key_turns_a_joint(self):
+        self.moved_by(50, 'type="velocity" scale="-1.5" kp="10"')
+        self.sim.step(1000)
+        self.assertAlmostEqual(self.sim.joint("elbow").rate[0], -1.5, delta=1e-3)
+
+    def test_a_key_pushes_a_joint_for_a_step(self):
+        self.moved_by(51, 'type="force" scale="2"')
+        self.sim.step(5)
+        self.assertAlmostEqual(self.sim.joint("elbow").rate[0], 2 * 0.001 / 0.5, delta=1e-6)
+
+    def test_how_far_a_place_is_off_another(self):
+        """The arm's base, 1 m up, as the first place 0.2 m ahead of it and turned by 90 degrees sees it. Spawned into the world, as a
+        plugin of a world of its own."""
+        with open(WORLD, encoding="utf-8") as file:
+            world = file.read()
+        inside = (
+            '<pose frame="post::l">0.2 0 0 0 0 1.5707963267948966</pose><pose>3 2 1 0 0 1.5707963267948966</pose><namespace>off</namespace>'
+            "<debug>1</debug>"
+        )
+        off = f'<plugin name="off" filename="libMisalignmentPlugin.so">{inside}</plugin>'
+        with tempfile.NamedTemporaryFile("w", suffix=".world") as file:
+            file.write(world.replace("</world>", off + "</world>"))
+            file.flush()
+            port = free_port()
+            with Server("off", "-u", file.name, environment={"GAZEBO_MASTER_URI": f"http://localhost:{port}"}) as server:
+                sim = server.simulator()
+                sim.spawn("post", RAY.replace("<static>1</static>", "<static>1</static><pose>3 1 1 0 0 0</pose>"))
+                mine, self.port = self.port, port
+                self.addCleanup(setattr, self, "port", mine)
+                hears = self.listen("/off/misalignment")
+                sim.step(3)
+                found = doubles(hears.read())
+                for got, wanted in zip(found, (1.0, 0.2, 0.0, 0.0, 0.0, 0.0, 1.0)):
+                    self.assertAlmostEqual(got, wanted, places=6)
+                self.assertIn("/off/debug/first_pose", self.gz("-l", port=port).stdout)
+                server.end()
 
     def test_who_listens_late_gets_the_last_message_if_it_wants(self):
         orders = rospy.Publisher("/near/keeper/orders", String, queue_size=10)
