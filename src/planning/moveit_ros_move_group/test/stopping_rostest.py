@@ -101,7 +101,7 @@ class Stopping(unittest.TestCase):
         self.assertFalse(at(LEFT))
 
     def overtaken(self, name, kind, action_goal, goal):
-        """The result of a goal that is overtaken by a stop which was sent after it."""
+        """The result of a goal that says that it is from before a stop, and comes after it."""
         ended = []
         results = rospy.Subscriber(name + "/result", kind().action_result.__class__, ended.append)
         goals = rospy.Publisher(name + "/goal", action_goal, queue_size=1)
@@ -109,7 +109,7 @@ class Stopping(unittest.TestCase):
         message = action_goal(goal=goal)
         message.goal_id.stamp = rospy.Time.now()
         message.goal_id.id = f"overtaken {name} {message.goal_id.stamp}"
-        self.event.publish("stop")
+        deliver(self.event, "stop")
         goals.publish(message)
         wait_until(lambda: [result for result in ended if result.status.goal_id.id == message.goal_id.id], "a result")
         results.unregister()
