@@ -16,7 +16,7 @@ from rosgraph_msgs.msg import Log
 from servo_rostest import HOME, PERIOD, Arm, tip
 from std_msgs.msg import Float64MultiArray, Int8
 from std_srvs.srv import SetBool, Trigger
-from test_support.hearing import heard
+from test_support.hearing import deliver, heard
 from test_support.waiting import wait_until
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -117,6 +117,10 @@ class Tracking(unittest.TestCase):
         v = self.twists[number].twist.linear
         return np.array([v.x, v.y, v.z])
 
+    def tell_gains(self, values):
+        """All of them; they have arrived when this returns."""
+        deliver(self.gains, Float64MultiArray(data=values))
+
     def assert_stands(self):
         stays = self.arm.q.copy()
         self.arm.step(20)
@@ -146,8 +150,8 @@ class Tracking(unittest.TestCase):
 
         self.begin(self.start + error, turned(0.3) @ self.rotation)
         np.testing.assert_allclose(self.linear(0), [2.0 * x, (3.0 + 4.0 * PERIOD) * y, 4.5 * z], atol=1e-6)  # sums begin anew
-        self.gains.publish(data=[1.0, 0, 0, 0.5, 0, 0, 0.25, 0, 0, 2.0, 0, 0])
-        self.addCleanup(self.gains.publish, data=[2.0, 0, 0, 3.0, 4.0, 0, 2.5, 0, 0.02, 1.5, 0, 0])
+        self.tell_gains([1.0, 0, 0, 0.5, 0, 0, 0.25, 0, 0, 2.0, 0, 0])
+        self.addCleanup(self.tell_gains, [2.0, 0, 0, 3.0, 4.0, 0, 2.5, 0, 0.02, 1.5, 0, 0])
         self.assertEqual(self.ends(5.0), STOP_REQUESTED)
         self.begin(self.start + error, turned(0.3) @ self.rotation)
         np.testing.assert_allclose(self.linear(0), [x, 0.5 * y, 0.25 * z], atol=1e-6)
