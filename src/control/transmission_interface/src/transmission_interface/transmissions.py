@@ -13,6 +13,7 @@ from .errors import TransmissionError
 
 if TYPE_CHECKING:
     from ._law import Part
+    from .parser import ActuatorInfo, JointInfo, TransmissionInfo
 
 __all__ = ["DifferentialTransmission", "FourBarLinkageTransmission", "SimpleTransmission", "Transmission", "TransmissionError"]
 
@@ -24,7 +25,7 @@ class Transmission:
     num_joints = 1
 
     @classmethod
-    def from_info(cls, info) -> tuple[Transmission, list[int], list[int]]:
+    def from_info(cls, info: TransmissionInfo) -> tuple[Transmission, list[int], list[int]]:
         """:param info: TransmissionInfo.
         :return: the transmission, and the indices of the info's actuators and joints in the transmission's order.
         :raises TransmissionError: wrong number of joints, missing roles, zero reduction ...
@@ -66,7 +67,7 @@ class _Lawful(Law, Transmission):
     _coupling: Coupling
 
     @classmethod
-    def from_info(cls, info):
+    def from_info(cls, info: TransmissionInfo) -> tuple[Transmission, list[int], list[int]]:
         law, actuators, joints = plan(
             cls._coupling, info.name, info.type, *([_part(entry) for entry in entries] for entries in (info.actuators, info.joints))
         )
@@ -120,7 +121,7 @@ class FourBarLinkageTransmission(_Lawful):
         super().__init__(self._coupling, actuator_reduction, joint_reduction, joint_offset, False)
 
 
-def _part(entry) -> Part:
+def _part(entry: ActuatorInfo | JointInfo) -> Part:
     """What an ActuatorInfo or a JointInfo says, for the law."""
     element = entry.element
     if element is None:

@@ -189,7 +189,9 @@ def check_limits(scene: _core.PlanningScene, trajectory: Trajectory, what: str) 
             )
 
 
-def trajectory_of(scene, group: str, start: _core.RobotState, at: Sequence[float], points: Sequence[np.ndarray]) -> Trajectory:
+def trajectory_of(
+    scene: _core.PlanningScene, group: str, start: _core.RobotState, at: Sequence[float], points: Sequence[np.ndarray]
+) -> Trajectory:
     """The trajectory of ``group`` from ``start`` through ``points`` (k, n) at the times ``at`` (s), in ``scene``.
 
     Velocities and accelerations are those of the differences; it starts and ends at rest.

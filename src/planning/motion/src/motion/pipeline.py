@@ -138,14 +138,19 @@ class Pipeline:
 
 # ---------------------------------------------------------------- the adapters
 # Each: (pipeline, the planner inside, scene, request, cancel) -> result
+Adapter = Callable[[Pipeline, Planner, _core.PlanningScene, MotionRequest, _core.CancelToken | None], PlanResult]
 
 
-def _nothing(pipeline: Pipeline, inside: Planner, scene, request, cancel) -> PlanResult:
+def _nothing(
+    pipeline: Pipeline, inside: Planner, scene: _core.PlanningScene, request: MotionRequest, cancel: _core.CancelToken | None
+) -> PlanResult:
     return inside(scene, request, cancel)
 
 
-def _timing(method: str):
-    def adapter(pipeline: Pipeline, inside: Planner, scene, request, cancel) -> PlanResult:
+def _timing(method: str) -> Adapter:
+    def adapter(
+        pipeline: Pipeline, inside: Planner, scene: _core.PlanningScene, request: MotionRequest, cancel: _core.CancelToken | None
+    ) -> PlanResult:
         result = inside(scene, request, cancel)
         if not result or result.trajectory is None:
             return result
@@ -167,7 +172,9 @@ def _timing(method: str):
     return adapter
 
 
-def _jerk(pipeline: Pipeline, inside: Planner, scene, request, cancel) -> PlanResult:
+def _jerk(
+    pipeline: Pipeline, inside: Planner, scene: _core.PlanningScene, request: MotionRequest, cancel: _core.CancelToken | None
+) -> PlanResult:
     result = inside(scene, request, cancel)
     if not result or result.trajectory is None:
         return result
@@ -178,7 +185,9 @@ def _jerk(pipeline: Pipeline, inside: Planner, scene, request, cancel) -> PlanRe
     return replace(result, trajectory=limit_jerk(result.trajectory))
 
 
-def _cartesian_speed(pipeline: Pipeline, inside: Planner, scene, request, cancel) -> PlanResult:
+def _cartesian_speed(
+    pipeline: Pipeline, inside: Planner, scene: _core.PlanningScene, request: MotionRequest, cancel: _core.CancelToken | None
+) -> PlanResult:
     result = inside(scene, request, cancel)
     if result and result.trajectory is not None and request.cartesian_speed > 0:
         link = request.cartesian_link or scene.model.group(request.group).tip_link
@@ -187,14 +196,18 @@ def _cartesian_speed(pipeline: Pipeline, inside: Planner, scene, request, cancel
     return result
 
 
-def _workspace(pipeline: Pipeline, inside: Planner, scene, request, cancel) -> PlanResult:
+def _workspace(
+    pipeline: Pipeline, inside: Planner, scene: _core.PlanningScene, request: MotionRequest, cancel: _core.CancelToken | None
+) -> PlanResult:
     if request.workspace is None or not np.any(np.asarray(request.workspace, float)):
         half = pipeline.number("default_workspace_bounds", 10.0) / 2
         request = replace(request, workspace=((-half,) * 3, (half,) * 3))
     return inside(scene, request, cancel)
 
 
-def _start_bounds(pipeline: Pipeline, inside: Planner, scene, request, cancel) -> PlanResult:
+def _start_bounds(
+    pipeline: Pipeline, inside: Planner, scene: _core.PlanningScene, request: MotionRequest, cancel: _core.CancelToken | None
+) -> PlanResult:
     start = _start(scene, request)
     fixed = start.copy()
     fixed.normalize_continuous()
@@ -209,7 +222,9 @@ def _start_bounds(pipeline: Pipeline, inside: Planner, scene, request, cancel) -
     return result
 
 
-def _start_collision(pipeline: Pipeline, inside: Planner, scene, request, cancel) -> PlanResult:
+def _start_collision(
+    pipeline: Pipeline, inside: Planner, scene: _core.PlanningScene, request: MotionRequest, cancel: _core.CancelToken | None
+) -> PlanResult:
     start = _start(scene, request)
     if not scene.check(start, group=request.group):
         return inside(scene, request, cancel)
@@ -227,7 +242,9 @@ def _start_collision(pipeline: Pipeline, inside: Planner, scene, request, cancel
     return inside(scene, request, cancel)  # which says what touches
 
 
-def _start_constraints(pipeline: Pipeline, inside: Planner, scene, request, cancel) -> PlanResult:
+def _start_constraints(
+    pipeline: Pipeline, inside: Planner, scene: _core.PlanningScene, request: MotionRequest, cancel: _core.CancelToken | None
+) -> PlanResult:
     constraints = request.path_constraints
     if constraints is None or constraints.empty():
         return inside(scene, request, cancel)

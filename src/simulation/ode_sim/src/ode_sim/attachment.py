@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from ode_sim.core_numbers import flat, pose_of
 from ode_sim.description.model import Pose
 from ode_sim.handles import LinkHandle
+
+if TYPE_CHECKING:
+    from ode_sim import _core
 
 
 class Attachment:
     """Two links held together by :meth:`ode_sim.World.attach`. Part of snapshots."""
 
-    def __init__(self, core, parent: LinkHandle | None, child: LinkHandle) -> None:
+    def __init__(self, core: _core.World, parent: LinkHandle | None, child: LinkHandle) -> None:
         self.parent = parent  # None: the world
         self.child = child
         self._core = core

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ode_sim import collision_meshes
 from ode_sim.core_numbers import flat, unlimited
@@ -13,6 +13,10 @@ from ode_sim.handles import CollisionHandle, JointHandle, LinkHandle, ModelHandl
 from ode_sim.inertia import usable_inertia, usable_mass
 from ode_sim.math3 import compose, cross, dot, norm, unit
 from ode_sim.physics import BOUNDS
+
+if TYPE_CHECKING:
+    from ode_sim import _core
+    from ode_sim.world import World
 
 JOINT_TYPES = {
     "revolute": "revolute",
@@ -50,11 +54,11 @@ AXIS = ("lower", "upper", "effort", "velocity", "damping", "friction", "spring_r
 class Builder:
     """Builds one model; ``problems`` collects what had to be changed or left out."""
 
-    def __init__(self, core) -> None:
+    def __init__(self, core: _core.World) -> None:
         self.core = core
         self.problems: list[d.Problem] = []
 
-    def build(self, world, model: d.Model, name: str, pose: d.Pose) -> ModelHandle:
+    def build(self, world: World, model: d.Model, name: str, pose: d.Pose) -> ModelHandle:
         """The handle of ``model`` in ``world``, called ``name`` and put at X_WM ``pose``.
 
         :raises ValueError: a number that no world can hold; nothing of the model is left in the core then.
@@ -139,7 +143,7 @@ class Builder:
         self._problem("warning", f"{where}: max_contacts {written:g} must be 0 to {most}; {used} is used", collision.source)
         return used
 
-    def _geometry(self, model, link, collision: d.Collision):
+    def _geometry(self, model: _core.Model, link: _core.Link, collision: d.Collision) -> _core.Shape | None:
         shape = collision.geometry
         if shape is None:
             return None
@@ -239,7 +243,7 @@ class Builder:
         self._problem("warning", f"{where}: thread_pitch is {joint.thread_pitch:g} rad/m; 1 is used", joint.source)
         return 1.0
 
-    def _gear(self, model: ModelHandle, joint: d.Joint, core, where: str) -> None:
+    def _gear(self, model: ModelHandle, joint: d.Joint, core: _core.Joint, where: str) -> None:
         reference = model.links.get(joint.gearbox_reference_body)
         if reference is None:
             self._problem(

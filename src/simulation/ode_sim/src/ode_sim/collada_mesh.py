@@ -7,16 +7,16 @@ import logging
 import os
 import re
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from typing import Any
+from typing import Any, cast
 from urllib.parse import unquote
 from xml.etree import ElementTree
 from xml.parsers import expat
 
 import numpy as np
 
-from ode_sim.description.model import DescriptionError, Material, quoted
+from ode_sim.description.model import DescriptionError, Material, Rgba, quoted
 from ode_sim.description.xmlsource import DEEPEST, MOST_ELEMENTS
 from ode_sim.mesh_files import MeshPart, check_triangles
 
@@ -51,7 +51,7 @@ def read_dae(path: str, data: bytes) -> list[MeshPart]:
     return parts
 
 
-def _placed(nodes, matrix=None, name: str = "") -> Iterator[tuple[str, Any]]:
+def _placed(nodes: Iterable[Any], matrix: np.ndarray | None = None, name: str = "") -> Iterator[tuple[str, Any]]:
     """(name of the node that it is in, geometry in its place) of all shapes below these nodes."""
     for node in nodes:
         if hasattr(node, "children"):
@@ -95,7 +95,7 @@ def _bound(instance: ElementTree.Element, skin: ElementTree.Element) -> ElementT
     return place
 
 
-def document(data: bytes):
+def document(data: bytes) -> Any:
     """What the library reads of ``data``. A shape is there all the same where how it looks is told wrongly, as in Gazebo."""
     import collada
     from collada.common import DaeBrokenRefError, DaeError, DaeUnsupportedError
@@ -136,7 +136,7 @@ def _is_shading(told: ElementTree.Element) -> bool:
     return kind == "color" and len(numbers) >= 3 or kind == "float" and len(numbers) == 1
 
 
-def parts_of(primitive, geometry, material, path: str, unit: float = 1.0) -> list[tuple[MeshPart, np.ndarray]]:
+def parts_of(primitive: Any, geometry: Any, material: Any, path: str, unit: float = 1.0) -> list[tuple[MeshPart, np.ndarray]]:
     """Its triangles as parts, each with the numbers of the shape's corners (V,) that its own are.
 
     :param primitive, geometry, material: pycollada's. :param path: of the file, for textures.
@@ -224,7 +224,7 @@ class _Check:
     def _error(self, reason: str) -> DescriptionError:
         return DescriptionError(f"mesh {self._path}: {reason}")
 
-    def _entity(self, name: str, *_declaration) -> None:
+    def _entity(self, name: str, *_declaration: object) -> None:
         raise self._error(f"declares the entity '{quoted(name)}'; entities are not read")
 
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
@@ -274,16 +274,16 @@ class _Check:
         return known[""]
 
 
-def _material(material, path: str) -> Material:
+def _material(material: Any, path: str) -> Material:
     effect = getattr(material, "effect", None)
     if effect is None:
         return Material()
     texture = ""
 
-    def colour(value):
+    def colour(value: Any) -> Rgba | None:
         nonlocal texture
         if isinstance(value, (tuple, list)):
-            return tuple(float(v) for v in (tuple(value) + (1.0,))[:4])
+            return cast(Rgba, tuple(float(v) for v in (tuple(value) + (1.0,))[:4]))
         image = getattr(getattr(getattr(value, "sampler", None), "surface", None), "image", None)
         if image is not None and not texture:
             texture = _texture_file(image.path, path)
@@ -309,7 +309,7 @@ def _material(material, path: str) -> Material:
     )
 
 
-def _alpha(effect) -> float:
+def _alpha(effect: Any) -> float:
     """Opacity by the file's own mode. A wholly transparent result is an exporter's mistake: it counts as opaque."""
     amount = effect.transparency if isinstance(effect.transparency, (int, float)) else 1.0
     colour = effect.transparent

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
+from typing import TYPE_CHECKING
 
 from ode_sim.description.model import FARTHEST, Pose
 from ode_sim.math3 import quat_normalize
 
+if TYPE_CHECKING:
+    from ode_sim._core import _Pose
 
-def finite(values, what: str) -> None:
+
+def finite(values: Collection[float], what: str) -> None:
     """Refuse NaN and infinity among ``values`` where they would poison the physics.
 
     :raises ValueError: one line that names ``what``.
@@ -17,7 +22,7 @@ def finite(values, what: str) -> None:
         raise ValueError(f"{what} must be finite numbers, not {tuple(values)}")
 
 
-def flat(pose: Pose, what: str = "pose") -> tuple[float, ...]:
+def flat(pose: Pose, what: str = "pose") -> _Pose:
     """Seven floats for the core: x y z qx qy qz qw of ``pose``.
 
     :raises ValueError: not finite, or further than :data:`FARTHEST` from the origin of its frame; the line names ``what``.
@@ -38,9 +43,9 @@ def unit_pose(pose: Pose) -> Pose:
     return Pose(pose.p, quat_normalize([v / largest for v in pose.q]))
 
 
-def pose_of(values) -> Pose:
+def pose_of(values: _Pose) -> Pose:
     """A :class:`Pose` of ``values``, the core's seven floats."""
-    return Pose(tuple(values[:3]), tuple(values[3:]))
+    return Pose(values[:3], values[3:])
 
 
 def unlimited(limit: float) -> float:

@@ -61,7 +61,7 @@ class SimulationError(Exception):
         self.source = source
         super().__init__(one_line(source.before(str(message))))
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[type[SimulationError], tuple[str, Source]]:
         return type(self), (self.message, self.source)
 
 

@@ -7,7 +7,7 @@ A handle of a removed model raises ``RuntimeError`` when it would have to act.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -16,6 +16,10 @@ from ode_sim.description import model as description
 from ode_sim.description.model import FARTHEST, Pose, Vec3
 from ode_sim.inertia import usable_inertia, usable_mass
 from ode_sim.math3 import compose, inverse
+
+if TYPE_CHECKING:
+    from ode_sim import _core
+    from ode_sim.world import World
 
 
 class Twist(NamedTuple):
@@ -37,7 +41,7 @@ class JointFeedback(NamedTuple):
 class CollisionHandle:
     """One collision shape. ``surface`` (friction, stiffness, slip ...) may be changed while the world runs."""
 
-    def __init__(self, link: LinkHandle, collision: description.Collision, core) -> None:
+    def __init__(self, link: LinkHandle, collision: description.Collision, core: _core.Shape) -> None:
         self.link = link
         self.description = collision
         self.name = collision.name
@@ -51,7 +55,7 @@ class CollisionHandle:
         return self.core.id
 
     @property
-    def surface(self):
+    def surface(self) -> _core.Surface:
         """Mutable: mu, mu2, slip1, slip2, torsional_mu, patch_radius, kp, kd, max_vel, min_depth, restitution, bounce_threshold, fdir1 ...
 
         NaN is refused (ValueError); infinities and negative numbers are cut to the largest and least that can be simulated.
@@ -76,7 +80,7 @@ class CollisionHandle:
 class LinkHandle:
     """A link. Forces act in the next step only and are then cleared."""
 
-    def __init__(self, model: ModelHandle, link: description.Link, core) -> None:
+    def __init__(self, model: ModelHandle, link: description.Link, core: _core.Link) -> None:
         self.model = model
         self.description = link
         self.name = link.name
@@ -122,16 +126,16 @@ class LinkHandle:
         """Set the velocity of the centre of mass, ``linear`` (m/s, world axes), and the angular velocity, ``angular`` (rad/s)."""
         finite((*linear, *angular), f"twist of link {self.scoped_name}")
         arm = np.subtract(self.core.pose()[:3], self.core.com())
-        self.core.set_twist(tuple(np.add(linear, np.cross(angular, arm))), tuple(angular))
+        self.core.set_twist(tuple(np.add(linear, np.cross(angular, arm))), (*angular,))
 
     def add_force(self, f_W: Vec3, p_W: Vec3 | None = None) -> None:
         """Force ``f_W``, N, at the point ``p_W``, m, at the centre of mass if None. Forces beyond 1e12 N are cut to it."""
         finite(f_W, f"force on link {self.scoped_name}")
         if p_W is None:
-            self.core.add_force(tuple(f_W))
+            self.core.add_force((*f_W,))
         else:
             finite(p_W, f"point of force on link {self.scoped_name}")
-            self.core.add_force_at(tuple(f_W), tuple(p_W))
+            self.core.add_force_at((*f_W,), (*p_W,))
 
     def run_belt(self, speed: float, left_W: Vec3, linear: Vec3 = (0.0, 0.0, 0.0), angular: Vec3 = (0.0, 0.0, 0.0)) -> None:
         """In the next step the surface runs round the link at ``speed`` m/s, as a track's, and drives it; ``left_W`` points to the left
@@ -144,17 +148,17 @@ class LinkHandle:
     def add_torque(self, t_W: Vec3) -> None:
         """Torque ``t_W``, N m, in the next step."""
         finite(t_W, f"torque on link {self.scoped_name}")
-        self.core.add_torque(tuple(t_W))
+        self.core.add_torque((*t_W,))
 
     def set_force(self, f_W: Vec3) -> None:
         """``f_W``, N, takes the place of all forces added for the next step."""
         finite(f_W, f"force on link {self.scoped_name}")
-        self.core.set_force(tuple(f_W))
+        self.core.set_force((*f_W,))
 
     def set_torque(self, t_W: Vec3) -> None:
         """``t_W``, N m, takes the place of all torques added for the next step."""
         finite(t_W, f"torque on link {self.scoped_name}")
-        self.core.set_torque(tuple(t_W))
+        self.core.set_torque((*t_W,))
 
     def force(self) -> Vec3:
         """Set or added for the next step, N, at the centre of mass."""
@@ -212,7 +216,9 @@ class JointHandle:
     angles of child and parent, as its reference body sees them; nothing drives them but what drives these links.
     """
 
-    def __init__(self, model: ModelHandle, joint: description.Joint, parent: LinkHandle | None, child: LinkHandle, core) -> None:
+    def __init__(
+        self, model: ModelHandle, joint: description.Joint, parent: LinkHandle | None, child: LinkHandle, core: _core.Joint
+    ) -> None:
         self.model = model
         self.description = joint
         self.name = joint.name
@@ -406,7 +412,7 @@ class JointHandle:
 class ModelHandle:
     """A model in the world. ``links`` and ``joints`` are in file order."""
 
-    def __init__(self, world, name: str, model: description.Model, pose: Pose, core) -> None:
+    def __init__(self, world: World, name: str, model: description.Model, pose: Pose, core: _core.Model) -> None:
         self.world = world
         self.name = name
         self.description = model
@@ -465,9 +471,7 @@ class ModelHandle:
         if link:
             finite((*linear, *angular), f"twist of model {self.name}")
             self.core.add_twist(
-                tuple(np.subtract(linear, link.velocity_at(origin_W))),
-                tuple(np.subtract(angular, link.angular_velocity())),
-                tuple(origin_W),
+                tuple(np.subtract(linear, link.velocity_at(origin_W))), tuple(np.subtract(angular, link.angular_velocity())), (*origin_W,)
             )
 
     @property

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import os
 import warnings
+from collections.abc import Callable
 
 import numpy as np
 
@@ -40,7 +41,7 @@ def read_relief(path: str, most: int = MOST_PIXELS) -> np.ndarray:
     return np.clip(pixels / (255.0 if pixels.dtype == np.uint8 else 65535.0), 0.0, 1.0)
 
 
-def _pixels(path: str, mode_for, most: int) -> np.ndarray:
+def _pixels(path: str, mode_for: Callable[[str], str], most: int) -> np.ndarray:
     from PIL import Image
 
     # Pillow would warn on the terminal: of what is broken but can be read, and of a size that it refuses at the double

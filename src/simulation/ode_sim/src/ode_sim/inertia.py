@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ode_sim.description.model import Inertial
 from ode_sim.math3 import quat_to_matrix
+
+if TYPE_CHECKING:
+    from ode_sim._core import _Inertia
 
 SMALLEST_MASS = 1e-6  # kg
 SMALLEST_GYRATION = 1e-4  # m, radius of gyration below which a body spins up without bound
@@ -28,7 +32,7 @@ def usable_mass(mass: float, where: str) -> tuple[float, str | None]:
     return 1.0, f'{where}: mass {mass} is no positive number; 1 kg is used. Write <mass value="..."/> in kg'
 
 
-def usable_inertia(inertial: Inertial, mass: float, where: str) -> tuple[tuple[float, ...], str | None]:
+def usable_inertia(inertial: Inertial, mass: float, where: str) -> tuple[_Inertia, str | None]:
     """ixx, iyy, izz, ixy, ixz, iyz in link axes about the centre of mass (kg m^2), positive definite, and a problem if any.
 
     A tensor up to :data:`LARGEST_MOMENT` is taken as it is, its moments raised to the smallest that a body of this mass may have.

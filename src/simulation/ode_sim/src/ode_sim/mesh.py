@@ -9,12 +9,17 @@ from __future__ import annotations
 
 import functools
 import os
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ode_sim.description.model import FARTHEST, DescriptionError, Material, Mesh, Vec3
 from ode_sim.mesh_files import MeshPart, read_parts, weld
+
+if TYPE_CHECKING:
+    from numpy.typing import DTypeLike
 
 UNIT_SCALE: Vec3 = (1.0, 1.0, 1.0)
 #: Before the name of a bone: the submesh of a file with a skin that is this bone's piece, in the bone's frame.
@@ -39,7 +44,7 @@ class VisualPart:
     uv: np.ndarray | None
     material: Material
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[Any]:
         return iter((self.vertices, self.triangles, self.normals, self.uv, self.material))
 
 
@@ -121,7 +126,7 @@ def _usable_scale(scale: Vec3, path: str) -> Vec3:
 
 
 @functools.lru_cache(maxsize=256)
-def _surface(path: str, scale: Vec3, submesh: str, center: bool, stamp) -> Surface:
+def _surface(path: str, scale: Vec3, submesh: str, center: bool, stamp: tuple[int, int]) -> Surface:
     parts = _selected(path, submesh, center, stamp)
     offsets = np.cumsum([0] + [len(part.vertices) for part in parts])
     vertices = np.concatenate([part.vertices for part in parts]) * scale
@@ -135,12 +140,12 @@ def _surface(path: str, scale: Vec3, submesh: str, center: bool, stamp) -> Surfa
 
 
 @functools.lru_cache(maxsize=256)
-def _visual(path: str, scale: Vec3, submesh: str, center: bool, stamp) -> tuple[VisualPart, ...]:
+def _visual(path: str, scale: Vec3, submesh: str, center: bool, stamp: tuple[int, int]) -> tuple[VisualPart, ...]:
     with np.errstate(over="ignore", invalid="ignore"):  # what is scaled to nothing has no normals worth a warning
         return tuple(_drawn(part, np.asarray(scale)) for part in _selected(path, submesh, center, stamp))
 
 
-def _selected(path: str, submesh: str, center: bool, stamp) -> list[MeshPart]:
+def _selected(path: str, submesh: str, center: bool, stamp: tuple[int, int]) -> list[MeshPart]:
     if submesh.startswith(SKIN_PIECE):
         from ode_sim.actors.skin import load_piece  # which needs this module
 
@@ -180,7 +185,9 @@ def _drawn(part: MeshPart, scale: np.ndarray) -> VisualPart:
     )
 
 
-def with_normals(vertices, triangles, uv, crease: float = np.radians(40.0)):
+def with_normals(
+    vertices: np.ndarray, triangles: np.ndarray, uv: np.ndarray | None, crease: float = np.radians(40.0)
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray | None]:
     """Vertices split where faces meet at a sharp edge; normals weighted by area within a smooth patch.
 
     :param vertices: (V, 3) m. :param triangles: (T, 3) their corners. :param uv: (V, 2) or None.
@@ -218,7 +225,7 @@ def with_normals(vertices, triangles, uv, crease: float = np.radians(40.0)):
     return vertices[chosen], inverse.reshape(-1, 3), normals[first], None if uv is None else uv[chosen]
 
 
-def _frozen(array: np.ndarray, dtype) -> np.ndarray:
+def _frozen(array: np.ndarray, dtype: DTypeLike) -> np.ndarray:
     array = np.ascontiguousarray(array, dtype=dtype)
     array.setflags(write=False)
     return array

@@ -38,7 +38,7 @@ class MeshPart:
 
 
 @functools.lru_cache(maxsize=64)
-def read_parts(path: str, stamp, groups: bool = False) -> list[MeshPart]:
+def read_parts(path: str, stamp: tuple[int, int], groups: bool = False) -> list[MeshPart]:
     """The parts of the file ``path``.
 
     :param groups: the groups of an OBJ file are pieces of their own, for who asks for one of them; fewer are drawn quicker

@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 import os
 from dataclasses import fields, replace
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ode_sim.description.model import Physics, Vec3
+
+if TYPE_CHECKING:
+    from ode_sim import _core
 
 STRONGEST_GRAVITY = 1e6  # m/s^2, of each component
 
@@ -128,7 +131,7 @@ class PhysicsSettings:
     }
     _NAMES = tuple(field.name for field in fields(Physics))
 
-    def __init__(self, core, physics: Physics) -> None:
+    def __init__(self, core: _core.World, physics: Physics) -> None:
         object.__setattr__(self, "_core", core)
         object.__setattr__(self, "_others", {})
         wanted = os.environ.get(SOLVER_VARIABLE, "").strip()

@@ -6,6 +6,8 @@ import numpy as np
 
 from ode_sim.description.model import DescriptionError, Polyline
 
+Point = tuple[float, ...]  # x, y
+
 
 def extrude(polyline: Polyline) -> tuple[np.ndarray, np.ndarray]:
     """Vertices (V, 3) m and triangles (T, 3) of the solid between z = 0 and ``height`` that ``polyline`` is.
@@ -29,15 +31,15 @@ def extrude(polyline: Polyline) -> tuple[np.ndarray, np.ndarray]:
     return vertices, np.array(triangles, dtype=np.int32)
 
 
-def _area(points) -> float:
+def _area(points: list[Point]) -> float:
     return 0.5 * sum(x0 * y1 - x1 * y0 for (x0, y0), (x1, y1) in zip(points, points[1:] + points[:1]))
 
 
-def _cross(o, a, b) -> float:
+def _cross(o: Point, a: Point, b: Point) -> float:
     return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
 
 
-def _triangulate(points) -> list[tuple[int, int, int]]:
+def _triangulate(points: list[Point]) -> list[tuple[int, int, int]]:
     """Ear clipping of a counter-clockwise outline."""
     left, triangles = list(range(len(points))), []
     while len(left) > 3:

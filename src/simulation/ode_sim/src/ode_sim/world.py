@@ -21,7 +21,10 @@ from ode_sim.random_streams import RandomStreams
 from ode_sim.saved_state import apply_state
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from ode_sim.actors.puppet import Puppet
+    from ode_sim.description.finder import ResourceFinder
 
 Entity = ModelHandle | LinkHandle | CollisionHandle
 _MOST_STEPS = 1_000_000  # in one call into the core
@@ -40,7 +43,7 @@ class Snapshot:
         return b"".join((repr(self.models).encode(), self.state, self.generators))
 
 
-def _put_to_zero(joint) -> None:
+def _put_to_zero(joint: JointHandle) -> None:
     """All axes of a joint at 0, or at the limit that is next to it."""
     for axis in range(joint.axis_count):
         joint.set_position(0.0, axis)
@@ -53,7 +56,9 @@ class World:
     :param problems: what was noticed while ``description`` was read; more is added to them.
     """
 
-    def __init__(self, description: d.World | None = None, seed: int = 0, finder=None, problems: Iterable[d.Problem] = ()) -> None:
+    def __init__(
+        self, description: d.World | None = None, seed: int = 0, finder: ResourceFinder | None = None, problems: Iterable[d.Problem] = ()
+    ) -> None:
         description = description or d.World()
         self.description = description
         self.name = description.name
@@ -91,7 +96,7 @@ class World:
             apply_state(self, description.state)
 
     @classmethod
-    def load(cls, source: str, seed: int = 0, finder=None) -> World:
+    def load(cls, source: str, seed: int = 0, finder: ResourceFinder | None = None) -> World:
         """A world from ``source``: a path, a ``model://`` or world name, or XML text; ``seed`` and ``finder`` as in the class.
 
         :raises DescriptionError: one line that says what cannot be read; smaller trouble goes to ``problems``.
@@ -217,7 +222,7 @@ class World:
 
         return self._spawn_text(read_sdf_model(text, name=name, finder=self.finder), pose)
 
-    def _spawn_text(self, read, pose: d.Pose | None) -> ModelHandle:
+    def _spawn_text(self, read: tuple[d.Model, list[d.Problem]], pose: d.Pose | None) -> ModelHandle:
         model, problems = read
         handle = self.spawn(model, pose=compose(pose or d.Pose(), model.pose))
         self.problems += problems
@@ -415,7 +420,9 @@ class World:
         """By ``collision_id``, the id that contacts and ray hits carry."""
         return self._collisions.get(int(collision_id))
 
-    def cast_rays(self, origins, directions, max_range: float, ignore: Iterable[CollisionHandle] = ()) -> tuple[np.ndarray, np.ndarray]:
+    def cast_rays(
+        self, origins: ArrayLike, directions: ArrayLike, max_range: float, ignore: Iterable[CollisionHandle] = ()
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Cast N rays against every collision shape.
 
         :param origins: (N, 3) m, world.

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import gymnasium
 import numpy as np
 
 from ode_sim_gym.episodes import Episodes
+
+if TYPE_CHECKING:
+    from ode_sim_rendering.camera import Camera
 
 Judge = Callable[[Episodes, np.ndarray], Any]
 
@@ -26,7 +29,13 @@ class RobotEnv(gymnasium.Env):
     """
 
     def __init__(
-        self, reward: Judge, terminated: Judge | None = None, limit: int = 1000, camera=None, render_mode: str | None = None, **episodes
+        self,
+        reward: Judge,
+        terminated: Judge | None = None,
+        limit: int = 1000,
+        camera: Camera | None = None,
+        render_mode: str | None = None,
+        **episodes: Any,
     ):
         self.episodes = Episodes(**episodes)
         self._reward, self._terminated = reward, terminated
@@ -88,7 +97,7 @@ class RobotVectorEnv(gymnasium.vector.SyncVectorEnv):
     :param autoreset: Gymnasium's mode: NextStep, SameStep or Disabled.
     """
 
-    def __init__(self, number: int, autoreset: str = "NextStep", **environment):
+    def __init__(self, number: int, autoreset: str = "NextStep", **environment: Any):
         if number < 1:
             raise ValueError(f"a vector has at least one world, not {number}")
         super().__init__([lambda: RobotEnv(**environment)] * number, autoreset_mode=autoreset)

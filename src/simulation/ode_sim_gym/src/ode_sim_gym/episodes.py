@@ -7,10 +7,14 @@ import os
 import pathlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from ode_sim.handles import JointHandle, LinkHandle
 from ode_sim.world import World
+
+if TYPE_CHECKING:
+    from ode_sim.description.finder import ResourceFinder
 
 KINDS = ("position", "velocity", "effort")
 
@@ -55,7 +59,7 @@ class Episodes:
         links: Sequence[str] = (),
         period: float = 0.02,
         start: Callable[[Episodes, np.random.Generator], None] | None = None,
-        finder=None,
+        finder: ResourceFinder | None = None,
     ):
         self.world = World.load(world, finder=finder) if world else World(finder=finder)
         if robot:
@@ -173,7 +177,7 @@ def _text(robot: str) -> str:
         raise ValueError(f"the robot {robot} cannot be read: {getattr(error, 'strerror', None) or error}") from None
 
 
-def _names(handles) -> str:
+def _names(handles: Sequence[JointHandle | LinkHandle]) -> str:
     return ", ".join(handle.name for handle in handles[:30]) or "none"
 
 

@@ -5,6 +5,7 @@ beside it.
 """
 
 from importlib import import_module
+from typing import Any
 
 from ode_sim_rendering.camera import ENCODINGS, Camera, CameraError, Distortion, WideLens, look_at, read_camera, read_distortion
 from ode_sim_rendering.context import RenderingUnavailable, create_context
@@ -38,7 +39,7 @@ __all__ = [
 _DRAWING = {"NOTHING": "target", "Renderer": "renderer", "render": "live", "segment_names": "live"}
 
 
-def __getattr__(name: str):
+def __getattr__(name: str) -> Any:
     if name not in _DRAWING:
         raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
     return getattr(import_module(f"{__name__}.{_DRAWING[name]}"), name)

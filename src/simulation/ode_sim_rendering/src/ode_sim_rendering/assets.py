@@ -18,6 +18,8 @@ from ode_sim_rendering.ground import painted
 _WHITE = (1.0, 1.0, 1.0, 1.0)
 _BLACK = (0.0, 0.0, 0.0, 1.0)
 
+Piece = tuple[Hashable, d.Material | None]  # key of a mesh, the mesh's own material
+
 
 @dataclass(frozen=True)
 class Look:
@@ -103,7 +105,7 @@ class Assets:
         self.meshes: dict[Hashable, TriMesh] = {}
         self.problems: list[str] = []
         self._grounds: dict[str, d.Heightmap] = {}  # by the names of their pictures
-        self._files: dict[Hashable, list[tuple[Hashable, d.Material | None]]] = {}
+        self._files: dict[Hashable, list[Piece]] = {}
         self._shapes = {"box": geometry.box, "sphere": geometry.sphere, "cylinder": geometry.cylinder, "plane": geometry.plane}
 
     def note(self, name: str, trouble: str) -> None:
@@ -125,7 +127,7 @@ class Assets:
             self.note(name, f"is not drawn: {one_line(error, 200).strip() or type(error).__name__}")
             return []
 
-    def _pieces(self, shape, pose: d.Pose):
+    def _pieces(self, shape: d.Geometry, pose: d.Pose) -> tuple[list[Piece], d.Pose, d.Vec3]:
         """([(mesh key, the mesh's own material)], pose, scale) of a geometry."""
         one = (1.0, 1.0, 1.0)
         if shape is None:
@@ -162,18 +164,18 @@ class Assets:
         self._grounds[name] = shape
         return d.Material(name, ambient=_WHITE, diffuse=_WHITE, texture=name)
 
-    def _shape(self, name: str):
+    def _shape(self, name: str) -> list[Piece]:
         return self._made(name, self._shapes[name])
 
-    def _made(self, key: Hashable, make: Callable[[], TriMesh]):
+    def _made(self, key: Hashable, make: Callable[[], TriMesh]) -> list[Piece]:
         if key not in self.meshes:
             self.meshes[key] = make()
         return [(key, None)]
 
-    def _mesh_file(self, shape: d.Mesh):
+    def _mesh_file(self, shape: d.Mesh) -> list[Piece]:
         shape = replace(shape, uri="")  # the same file by two names is drawn as one mesh
         if shape not in self._files:
-            pieces: list[tuple[Hashable, d.Material | None]] = []
+            pieces: list[Piece] = []
             for number, (vertices, triangles, normals, uv, material) in enumerate(
                 self._load_mesh(shape.path, shape.scale, shape.submesh, shape.center)
             ):

@@ -46,7 +46,7 @@ def mesh_of(part: Part) -> MeshKey:
 class Buffers:
     """What is on the card; to be used while ``context``, a moderngl one, is current."""
 
-    def __init__(self, context, assets: Assets):
+    def __init__(self, context: Any, assets: Assets):
         self._ctx = context
         self._assets = assets
         self._widest = min(_WIDEST_TEXTURE, context.info["GL_MAX_TEXTURE_SIZE"])
@@ -68,11 +68,11 @@ class Buffers:
             self._assets.note(name, f"is not drawn as it should be: {one_line(error, 200).strip() or type(error).__name__}")
         return mesh in self._meshes
 
-    def texture(self, image: ImageKey):
+    def texture(self, image: ImageKey) -> Any:
         """The texture, or None where it could not be made. :raises KeyError: it was not taken."""
         return self._textures[image]
 
-    def mesh(self, key: MeshKey):
+    def mesh(self, key: MeshKey) -> tuple[Any, Any]:
         """(vertices, triangles): buffers of float32 position, normal, texture coordinates with v downwards; and of uint32."""
         if key not in self._meshes:
             mesh = self._assets.meshes[key.name]
@@ -81,7 +81,7 @@ class Buffers:
             self._meshes[key] = (self._ctx.buffer(vertices.tobytes()), self._ctx.buffer(mesh.triangles.astype("u4").tobytes()))
         return self._meshes[key]
 
-    def _make_texture(self, image: ImageKey, pixels: np.ndarray | None):
+    def _make_texture(self, image: ImageKey, pixels: np.ndarray | None) -> Any:
         if pixels is None:
             return None
         pixels = pixels[::-1].copy()  # its first row on top, as v runs in the buffers

@@ -80,7 +80,7 @@ class WideLens:
     cutoff: float = 1.5707
     texture: int = 256
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.fun not in LENS_FUNCTIONS:
             raise CameraError(f"<fun> of the lens is '{quoted(self.fun)}'; use one of {', '.join(LENS_FUNCTIONS)}")
         if not all(abs(value) <= _BENT for value in (self.c1, self.c2, self.c3, self.f)) or not self.c1 * self.c2 * self.f:
@@ -116,7 +116,7 @@ class Camera:
     link: str = ""
     lens: WideLens | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not (1 <= self.width <= MAX_SIZE and 1 <= self.height <= MAX_SIZE) or self.width * self.height > _MAX_PIXELS:
             raise CameraError(
                 f"image of {self.width}x{self.height} pixels; width and height must be 1 to {MAX_SIZE}, "
@@ -181,7 +181,7 @@ class Fan:
     yaws: tuple[float, ...]
     pitches: tuple[float, ...]
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         steepest, extent = max(map(abs, self.pitches)), self.yaws[-1] - self.yaws[0]
         if extent < 0 or self.pitches[-1] < self.pitches[0]:
             raise CameraError("its angles fall from <min_angle> to <max_angle>; pictures show those that rise")

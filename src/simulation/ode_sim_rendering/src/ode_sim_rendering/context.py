@@ -8,6 +8,7 @@ from __future__ import annotations
 import ctypes
 import ctypes.util
 import os
+from types import ModuleType
 from typing import Any
 
 from ode_sim.errors import RenderingUnavailable
@@ -24,9 +25,9 @@ class _OsmesaContext:
 
     _FORMAT, _RGBA, _PROFILE, _CORE, _MAJOR, _MINOR, _UBYTE = 0x22, 0x1908, 0x33, 0x34, 0x36, 0x37, 0x1401
     _SIZE = 4
-    _current = None  # the context in use, to go back to
+    _current: _OsmesaContext | None = None  # the context in use, to go back to
 
-    def __init__(self, **_moderngl_settings):
+    def __init__(self, **_moderngl_settings: object) -> None:
         self._lib = lib = ctypes.CDLL(ctypes.util.find_library("OSMesa") or "libOSMesa.so.8")
         lib.OSMesaCreateContextAttribs.restype = ctypes.c_void_p
         lib.OSMesaCreateContextAttribs.argtypes = [ctypes.POINTER(ctypes.c_int), ctypes.c_void_p]
@@ -44,25 +45,25 @@ class _OsmesaContext:
         """Address of the GL function ``name``, 0 if there is none."""
         return self._lib.OSMesaGetProcAddress(name.encode()) or 0
 
-    def __enter__(self):
+    def __enter__(self) -> _OsmesaContext:
         self._before, _OsmesaContext._current = _OsmesaContext._current, self
         self._use()
         return self
 
-    def __exit__(self, *_exc):
+    def __exit__(self, *_exc: object) -> None:
         _OsmesaContext._current = self._before
         if self._before not in (None, self):
             self._before._use()
 
-    def _use(self):
+    def _use(self) -> None:
         if not self._lib.OSMesaMakeCurrent(self._handle, self._buffer, self._UBYTE, self._SIZE, self._SIZE):
             raise RenderingUnavailable("OSMesa could not make its context current")
 
-    def release(self):
+    def release(self) -> None:
         self._lib.OSMesaDestroyContext(self._handle)
 
 
-def _create_osmesa(moderngl):
+def _create_osmesa(moderngl: ModuleType) -> Any:
     """moderngl finds providers by name in glcontext; OSMesa is lent to that look-up for the length of one call."""
     import glcontext
 
@@ -74,7 +75,7 @@ def _create_osmesa(moderngl):
         glcontext.get_backend_by_name = original
 
 
-def _create_egl(moderngl, device: int | None):
+def _create_egl(moderngl: ModuleType, device: int | None) -> Any:
     settings: dict[str, Any] = {"standalone": True, "backend": "egl", "require": _GL_VERSION}  # versions type them differently
     if device is not None:
         settings["device_index"] = device
@@ -98,7 +99,7 @@ def _reason(error: Exception) -> str:
     return str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
 
 
-def create_context(backend: str = "auto", trouble: list[str] | None = None):
+def create_context(backend: str = "auto", trouble: list[str] | None = None) -> Any:
     """A current, headless ``moderngl.Context``.
 
     :param backend: ``egl``, ``osmesa`` or ``auto`` (EGL, then OSMesa; the environment variable ``ODE_SIM_GL``

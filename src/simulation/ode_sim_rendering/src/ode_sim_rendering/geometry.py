@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from ode_sim.description.model import TextureUnit
 from ode_sim.heightmap import thinned
+from ode_sim.math3 import Vec3
 
 _SEGMENTS = 32  # round shapes; Gazebo draws cylinders and spheres with 32
 _SHARPEST = 0.12  # cosine of half of the sharpest turn of a road that is mitred, as in Gazebo
@@ -161,7 +162,7 @@ def extrusion(points: np.ndarray, height: float) -> TriMesh:
     edge = following - ring
     wall_normal = _unit(np.stack([edge[:, 1], -edge[:, 0], np.zeros(count)], -1))
 
-    def at(xy, z):
+    def at(xy: np.ndarray, z: float) -> np.ndarray:
         return np.column_stack([xy, np.full(count, z)])
 
     walls = np.stack([at(ring, 0), at(following, 0), at(following, height), at(ring, height)], 1).reshape(-1, 3)
@@ -178,7 +179,7 @@ def _ear_clip(ring: np.ndarray) -> np.ndarray:
     left = list(range(len(ring)))
     triangles = []
 
-    def cross(o, a, b):
+    def cross(o: np.ndarray, a: np.ndarray, b: np.ndarray) -> float:
         return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
 
     while len(left) > 3:
@@ -200,7 +201,7 @@ def _ear_clip(ring: np.ndarray) -> np.ndarray:
     return np.array(triangles, np.uint32)
 
 
-def height_grid(heights: np.ndarray, size, pos) -> TriMesh:
+def height_grid(heights: np.ndarray, size: Vec3, pos: Vec3) -> TriMesh:
     """Terrain from ``heights`` (rows, columns) in m, first row at +y; ``size`` (x, y, _) m, ``pos`` its centre.
 
     Of a large map no more is drawn than what can be seen.

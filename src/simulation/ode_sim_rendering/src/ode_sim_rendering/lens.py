@@ -5,7 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from ode_sim_rendering.camera import MAX_SIZE, Camera
+from ode_sim_rendering.camera import MAX_SIZE, Camera, Distortion
 
 _SOLVER_STEPS = 20
 _WIDEST = 3.0  # times the image size; beyond it the picture has black corners rather than a frame without end
@@ -47,7 +47,7 @@ class Lens:
         return int(min(max(size, needed), _WIDEST * size, MAX_SIZE))
 
     @staticmethod
-    def _undistort(target: np.ndarray, lens) -> np.ndarray:
+    def _undistort(target: np.ndarray, lens: Distortion) -> np.ndarray:
         """Ideal image coordinates (H,W,2), focal length 1, that the lens moves to ``target``; NaN where there are
         none."""
         ideal = target.copy()

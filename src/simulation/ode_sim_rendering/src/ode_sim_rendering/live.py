@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import weakref
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,11 +12,14 @@ from ode_sim_rendering.image import add_noise, encode
 from ode_sim_rendering.renderer import Renderer
 from ode_sim_rendering.watch import SceneWatch, camera_seed
 
+if TYPE_CHECKING:
+    from ode_sim.world import World
+
 KINDS = ("image", "depth", "segmentation")
 
 
 class _Studio:
-    def __init__(self, world):
+    def __init__(self, world: World):
         self.watch = SceneWatch(world)
         self.renderer = Renderer()
         weakref.finalize(world, self.renderer.close)
@@ -24,7 +28,7 @@ class _Studio:
 _studios: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()
 
 
-def render(world, camera: Camera, kind: str = "image") -> np.ndarray:
+def render(world: World, camera: Camera, kind: str = "image") -> np.ndarray:
     """What ``camera`` sees of ``world`` now. Call it from one thread only.
 
     :param kind: ``image``: as the sensor delivers it, in the camera's format, with its noise and lens, uint8 or uint16,
@@ -44,12 +48,12 @@ def render(world, camera: Camera, kind: str = "image") -> np.ndarray:
     return encode(rgb, camera.encoding)
 
 
-def segment_names(world) -> tuple[str, ...]:
+def segment_names(world: World) -> tuple[str, ...]:
     """``model::link::visual`` for each index of a segmentation image of ``world``."""
     return _studio(world).renderer.visual_names
 
 
-def _studio(world) -> _Studio:
+def _studio(world: World) -> _Studio:
     if world not in _studios:
         _studios[world] = _Studio(world)
     studio = _studios[world]

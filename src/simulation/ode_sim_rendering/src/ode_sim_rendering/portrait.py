@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -27,6 +28,8 @@ from ode_sim_rendering.camera import Camera, look_at
 from ode_sim_rendering.scene import SceneDescription
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from ode_sim_rendering.renderer import Renderer
 
 #: Azimuth and elevation in rad of the eye, seen from what it looks at.
@@ -83,7 +86,7 @@ def extent(portrait: Portrait, assets: Assets | None = None) -> np.ndarray:
     return np.concatenate(corners) if corners else np.zeros((0, 3))
 
 
-def _moved(points: np.ndarray, p, q) -> np.ndarray:
+def _moved(points: np.ndarray, p: ArrayLike, q: Iterable[float]) -> np.ndarray:
     x, y, z, w = q
     rotation = np.array(
         [
@@ -260,7 +263,7 @@ class Painter:
         self._words.truncate(0)
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._words)
 
-    def _ask(self, scene: bytes, portrait: Portrait, seconds: float):
+    def _ask(self, scene: bytes, portrait: Portrait, seconds: float) -> tuple[bytes, list[str]] | str | None:
         """The answer, None when the process ended without one."""
         process = self._process
         assert process is not None and process.stdin is not None and process.stdout is not None

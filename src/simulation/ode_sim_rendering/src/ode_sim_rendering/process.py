@@ -20,12 +20,16 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection, Pipe
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ode_sim_rendering.camera import Camera, Fan
 from ode_sim_rendering.messages import AddCamera, Done, Draw, DrawnBy, Failed, ForgetCamera, Problems, SetScene
 from ode_sim_rendering.watch import SceneWatch, camera_seed
+
+if TYPE_CHECKING:
+    from ode_sim.world import World
 
 #: What can be asked of a camera: the sensor image, compressed ones (``jpeg:QUALITY``, ``png:LEVEL``), depth in metres
 #: (float32, NaN where invalid) or millimetres (uint16, 0 where invalid), an organised point cloud (see image.cloud). Of a lidar: ``rays``,
@@ -73,7 +77,7 @@ class RenderProcess:
     :param tell: called with one line of what draws, when the first picture is asked for; from any thread.
     """
 
-    def __init__(self, world, report: Callable[[str], None], tell: Callable[[str], None] = lambda _line: None):
+    def __init__(self, world: World, report: Callable[[str], None], tell: Callable[[str], None] = lambda _line: None):
         self._world = world
         self._report, self._tell = report, tell
         self._watch = SceneWatch(world)
@@ -195,7 +199,7 @@ class RenderProcess:
         return connection
 
     @staticmethod
-    def _send(connection: Connection | None, message) -> None:
+    def _send(connection: Connection | None, message: SetScene | AddCamera | ForgetCamera | Draw) -> None:
         if connection is None:
             return
         try:

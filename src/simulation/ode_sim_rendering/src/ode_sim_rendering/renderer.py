@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from ode_sim.math3 import Pose
 
 from ode_sim_rendering import shaders
 from ode_sim_rendering.assets import Assets, Part
@@ -63,7 +64,7 @@ def pose_matrices(poses: np.ndarray) -> np.ndarray:
     return matrix
 
 
-def _row(pose) -> np.ndarray:
+def _row(pose: Pose) -> np.ndarray:
     return np.array(pose.p + pose.q, float)
 
 
@@ -98,7 +99,7 @@ class Renderer:
     :raises RenderingUnavailable: no OpenGL.
     """
 
-    def __init__(self, backend: str = "auto", antialiasing: str = "none", shadows: str = "auto", assets=None):
+    def __init__(self, backend: str = "auto", antialiasing: str = "none", shadows: str = "auto", assets: Assets | None = None):
         if antialiasing not in ANTIALIASING:
             raise ValueError(f"antialiasing '{antialiasing}'; use one of {', '.join(ANTIALIASING)}")
         if shadows == "auto":
@@ -177,7 +178,7 @@ class Renderer:
         """``model::link::visual`` for each value of a segmentation image."""
         return self._names
 
-    def _set_parts(self, parts) -> None:
+    def _set_parts(self, parts: list[tuple[int, int, str, Part]]) -> None:
         count = len(parts)
         ambient = np.array(self._scene.scene.ambient[:3])
         self._links = np.array([row for row, _, _, _ in parts], int)
@@ -198,7 +199,7 @@ class Renderer:
             fixed["specular"][row] = look.specular + (look.shininess,)
             fixed["ident"][row] = parts[row][1]
 
-    def _set_batches(self, parts) -> None:
+    def _set_batches(self, parts: list[tuple[int, int, str, Part]]) -> None:
         groups: OrderedDict[tuple, list[int]] = OrderedDict()
         for row, (_, _, _, part) in enumerate(parts):
             look, image = part.look, image_of(part.look)
@@ -321,7 +322,7 @@ class Renderer:
             self._views[key] = WideView(camera)
         return self._views[key]
 
-    def _draw(self, camera: Camera, lens: Lens | None, matrices: np.ndarray, outputs) -> dict[str, np.ndarray]:
+    def _draw(self, camera: Camera, lens: Lens | None, matrices: np.ndarray, outputs: tuple[str, ...]) -> dict[str, np.ndarray]:
         width, height = (lens.width, lens.height) if lens else (camera.width, camera.height)
         X_WC = pose_matrices(_row(camera.pose))[0]
         if camera.link:
@@ -377,7 +378,15 @@ class Renderer:
                 self._draw_batch(batch, instances[rows], frozenset(), None, eye)
         self._ctx.polygon_offset = 0.0, 0.0
 
-    def _draw_transparent(self, parts, target, instances, flags, uniforms, eye) -> None:
+    def _draw_transparent(
+        self,
+        parts: list[tuple[float, np.ndarray, _Batch]],
+        target: Any,
+        instances: np.ndarray,
+        flags: frozenset[str],
+        uniforms: np.ndarray | None,
+        eye: np.ndarray,
+    ) -> None:
         """Far to near, over what is there; depth and segmentation keep what stands behind."""
         self._ctx.enable(self._ctx.BLEND)
         target.depth_mask = False
@@ -390,7 +399,9 @@ class Renderer:
         target.color_mask, target.depth_mask = masks, True
         self._ctx.disable(self._ctx.BLEND)
 
-    def _draw_batch(self, batch: _Batch, instances: np.ndarray, flags: frozenset, uniforms, eye) -> None:
+    def _draw_batch(
+        self, batch: _Batch, instances: np.ndarray, flags: frozenset[str], uniforms: np.ndarray | None, eye: np.ndarray
+    ) -> None:
         if batch.texture is not None and "color" in flags:
             flags = flags | {"textured"} | ({batch.texture.address} & {"mirror", "border"})
             self._buffers.texture(batch.texture).use(0)
@@ -427,7 +438,7 @@ class Renderer:
 
     # ------------------------------------------------------------------------------------------ OpenGL objects
 
-    def _program(self, flags: frozenset):
+    def _program(self, flags: frozenset) -> Any:
         lights = self._light_kinds if "color" in flags else ()
         sun = self._sun if "color" in flags else -1
         fog = self._scene.scene.fog.kind if "color" in flags and self._scene.scene.fog else ""
@@ -438,7 +449,7 @@ class Renderer:
             )
         return self._programs[key]
 
-    def _vertex_array(self, batch: _Batch, flags: frozenset, program):
+    def _vertex_array(self, batch: _Batch, flags: frozenset, program: Any) -> Any:
         key = (flags, program.glo)
         if key not in batch.arrays:
             vertices, triangles = self._buffers.mesh(batch.mesh)
@@ -450,7 +461,7 @@ class Renderer:
         return batch.arrays[key]
 
     @staticmethod
-    def _attributes(program, buffer, layout: str, names, per_instance: bool = False):
+    def _attributes(program: Any, buffer: Any, layout: str, names: Sequence[str], per_instance: bool = False) -> tuple[Any, ...]:
         """Buffer binding with padding in place of what ``program`` does not use."""
         formats, used = [], []
         for name, fmt in zip(names, layout.split()):
@@ -461,7 +472,7 @@ class Renderer:
                 formats.append(f"{4 * int(fmt[:-1])}x")
         return (buffer, " ".join(formats) + ("/i" if per_instance else ""), *used)
 
-    def _target(self, width: int, height: int, outputs) -> Target:
+    def _target(self, width: int, height: int, outputs: tuple[str, ...]) -> Target:
         samples = self._samples if outputs == ("color",) else 0  # a depth or an index must not be averaged
         key = (width, height, outputs, samples)
         if key not in self._targets:

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from ode_sim.description.model import Light, Model, Pose, Scene, Visual
 from ode_sim.math3 import compose
+
+if TYPE_CHECKING:
+    from ode_sim.world import World
 
 WORLD_FRAME = -1
 
@@ -48,7 +52,7 @@ def roads_of(scene: Scene) -> list[SceneVisual]:
     return [SceneVisual(WORLD_FRAME, road.name, road) for road in scene.roads]
 
 
-def describe(world) -> SceneDescription:
+def describe(world: World) -> SceneDescription:
     """The scene of a running :class:`ode_sim.World`; rows are those of ``world.link_poses``."""
     links, visuals, lights = {}, [], []
     for model in world.models.values():

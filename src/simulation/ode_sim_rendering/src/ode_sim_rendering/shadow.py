@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 _SIZE = 2048  # texels along a side
@@ -12,7 +14,7 @@ _TO_TEXTURE = np.array([[0.5, 0, 0, 0.5], [0, 0.5, 0, 0.5], [0, 0, 0.5, 0.5], [0
 class ShadowMap:
     """Depth texture seen along one direction."""
 
-    def __init__(self, ctx):
+    def __init__(self, ctx: Any):
         self._texture = ctx.depth_texture((_SIZE, _SIZE))
         self._texture.compare_func = "<="
         self._texture.repeat_x = self._texture.repeat_y = False
@@ -54,7 +56,7 @@ class ShadowMap:
         """The scene changed: draw anew."""
         self._drawn = None
 
-    def bind(self, program, unit: int = 1) -> None:
+    def bind(self, program: Any, unit: int = 1) -> None:
         """Let ``program`` (moderngl's) read the map from the texture ``unit``."""
         self._texture.use(unit)
         program["shadow_map"].value = unit

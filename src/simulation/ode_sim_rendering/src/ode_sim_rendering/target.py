@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import cv2
 import numpy as np
+from ode_sim.math3 import Vec3
 
 NOTHING = -1  # of a segmentation image: no visual there
 
@@ -16,12 +19,12 @@ class Target:
 
     _KINDS = {"color": (4, "f1"), "depth": (1, "f4"), "ident": (1, "f4")}
 
-    def __init__(self, ctx, width: int, height: int, outputs: tuple[str, ...], samples: int):
+    def __init__(self, ctx: Any, width: int, height: int, outputs: tuple[str, ...], samples: int):
         self._ctx, self._shape, self._outputs = ctx, (height, width), outputs
         self.frame, self._single = self._make(samples)
         self._plain = self._make(0)[0] if samples else self.frame
 
-    def _make(self, samples: int):
+    def _make(self, samples: int) -> tuple[Any, list[Any]]:
         size = self._shape[::-1]
         images = [
             self._ctx.renderbuffer(size, components, samples=samples, dtype=kind)
@@ -32,7 +35,7 @@ class Target:
         single = [self._ctx.framebuffer([image], depth) for image in images]
         return (single[0] if len(images) == 1 else self._ctx.framebuffer(images, depth)), single
 
-    def clear(self, background) -> None:
+    def clear(self, background: Vec3) -> None:
         """Set background colour, no depth, no visual, and make the frame buffer current."""
         values = {"color": (*background[:3], 1.0), "depth": (np.inf,) * 4, "ident": (NOTHING,) * 4}
         for name, frame in zip(self._outputs, self._single):

@@ -5,14 +5,18 @@ from __future__ import annotations
 
 import hashlib
 import weakref
+from typing import TYPE_CHECKING
 
 from ode_sim_rendering.scene import SceneDescription, describe
+
+if TYPE_CHECKING:
+    from ode_sim.world import World
 
 
 class SceneWatch:
     """Notices models that come and go, and lights, colours or scene settings that change."""
 
-    def __init__(self, world):
+    def __init__(self, world: World):
         self._world = weakref.ref(world)
         self._changed = True
         self._settings: tuple = ()
@@ -57,7 +61,7 @@ class SceneWatch:
                     callbacks.remove(self._note)
 
 
-def camera_seed(world, name: str) -> int:
+def camera_seed(world: World, name: str) -> int:
     """The seed of a camera's noise: from the world's seed and the camera's (scoped) name alone. Not drawn from
     ``world.rng``, whose numbers depend on how many were drawn before: a picture depends on the state shown and the
     time."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 import contextlib
 import mmap
 import signal
+from collections.abc import Iterable
 from dataclasses import replace
 from multiprocessing.connection import Connection
 from typing import Any
@@ -52,7 +53,7 @@ class Worker:
             except (EOFError, ConnectionError):
                 return
 
-    def _serve(self, request) -> None:
+    def _serve(self, request: Draw | SetScene | AddCamera | ForgetCamera) -> None:
         if isinstance(request, Draw):
             try:
                 self._connection.send(self._draw(request))
@@ -87,7 +88,7 @@ class Worker:
         self._retros = np.array([*(retros.get(name, 0.0) for name in self._renderer.visual_names), 0.0], np.float32)
         return trouble + self._renderer.take_problems()
 
-    def _draw(self, request: Draw):
+    def _draw(self, request: Draw) -> Done | Failed:
         if self._renderer is None:
             return Failed(request.frame, self._no_renderer)
         entry = self._cameras[request.key]
@@ -132,7 +133,7 @@ class Worker:
         ranges, seen = view.ranges([self._renderer.images(camera, poses, ("depth", "ident")) for camera in view.cameras])
         return np.stack([ranges.ravel(), self._retros[seen].ravel()])
 
-    def _store(self, request: Draw, products) -> dict[str, tuple[int, int]]:
+    def _store(self, request: Draw, products: Iterable[tuple[str, np.ndarray]]) -> dict[str, tuple[int, int]]:
         """Copy into the frame's place in shared memory: name -> (offset, length)."""
         if self._memory is None or request.offset + request.room > len(self._memory):
             self._memory = mmap.mmap(self._memory_fd, 0)

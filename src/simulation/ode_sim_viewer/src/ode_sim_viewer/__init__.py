@@ -31,7 +31,7 @@ Needs the PyPI package viser (scripts/requirements.txt).
 """
 
 from importlib import import_module
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ode_sim_viewer.simulation import Frame, ModelRecord, Refused, Simulation, WorldRecord
@@ -41,7 +41,7 @@ __all__ = ["Frame", "LocalSimulation", "ModelRecord", "Page", "Refused", "Simula
 _LATER = {"LocalSimulation": "local", "Page": "page"}  # a server that only describes its world loads no web server
 
 
-def __getattr__(name: str):
+def __getattr__(name: str) -> Any:
     if name not in __all__:
         raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
     return getattr(import_module(f"{__name__}.{_LATER.get(name, 'simulation')}"), name)

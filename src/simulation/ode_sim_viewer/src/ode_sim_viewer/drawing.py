@@ -7,14 +7,14 @@ import itertools
 import math
 import struct
 import zlib
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import IO, Any
 
 import numpy as np
 from ode_sim.description import model as d
 from ode_sim.math3 import quat_between, quat_multiply, transform, vec3
 from ode_sim_rendering.assets import Assets, Look, Part
-from ode_sim_rendering.geometry import texture_coordinates
+from ode_sim_rendering.geometry import TriMesh, texture_coordinates
 
 from ode_sim_viewer.simulation import Frame, ModelRecord, WorldRecord
 
@@ -39,7 +39,7 @@ def byte_of(part: float) -> int:
     return int(round(255 * min(1.0, max(0.0, part))))
 
 
-def rgb255(colour) -> tuple[int, int, int]:
+def rgb255(colour: Sequence[float]) -> tuple[int, int, int]:
     """``colour``, red green blue from 0 to 1, as 0 to 255."""
     red, green, blue = (byte_of(part) for part in colour[:3])
     return red, green, blue
@@ -79,7 +79,7 @@ def _picture(pixels: np.ndarray) -> Any:
     else:
         image.save(content, "PNG", compress_level=1)
 
-    def save(file, format=None) -> None:
+    def save(file: IO[bytes], format: str | None = None) -> None:
         file.write(content.getvalue())
 
     setattr(image, "save", save)  # noqa: B010  an assignment to a method is none to mypy
@@ -112,7 +112,7 @@ class Drawing:
 
     def __init__(
         self,
-        server,
+        server: Any,
         on_pick: Callable[[str, str, object], None],
         on_draw: Callable[[object, str, str], None] = lambda mesh, model, link: None,
     ):
@@ -241,7 +241,7 @@ class Drawing:
                         self._on_draw(mesh, record.name, name)
         return drawn
 
-    def _mesh(self, node: str, part: Part, visual: d.Visual, scoped: str):
+    def _mesh(self, node: str, part: Part, visual: d.Visual, scoped: str) -> Any:
         look, mesh = part.look, self._assets.meshes[part.key]
         alpha = look.alpha * (0.4 if self.transparent else 1.0)
         shadow = visual.cast_shadows and alpha > 0.99
@@ -281,7 +281,7 @@ class Drawing:
         still, moving = (np.array(points, float).reshape(-1, 3) for points in found)
         return still, moving
 
-    def _image(self, file: str, scoped: str):
+    def _image(self, file: str, scoped: str) -> Any:
         if file not in self._textures:
             pixels = self._assets.texture(file, scoped, _MOST_TEXTURE)
             self._textures[file] = None if pixels is None else _picture(np.ascontiguousarray(pixels[::-1]))
@@ -325,7 +325,7 @@ class Drawing:
         picture = fading_png(rgb255(colours[0]), rgb255(colours[1]))
         self._scene._websock_interface.queue_message(BackgroundImageMessage(format="png", rgb_data=picture, depth_data=None))
 
-    def _lamp(self, node: str, light: d.Light, shadows: bool):
+    def _lamp(self, node: str, light: d.Light, shadows: bool) -> Any:
         common = dict(color=rgb255(light.diffuse), cast_shadow=shadows and light.cast_shadows)
         turn = quat_between((0.0, 0.0, -1.0), light.direction)
         if light.type == "directional":
@@ -373,7 +373,7 @@ def _seen(look: Look) -> tuple[float, ...]:
     return tuple(max(a, b) for a, b in zip(look.diffuse, look.emissive))
 
 
-def _textured(mesh, part: Part, image, look: Look, alpha: float):
+def _textured(mesh: TriMesh, part: Part, image: Any, look: Look, alpha: float) -> Any:
     import trimesh
 
     material = trimesh.visual.material.PBRMaterial(

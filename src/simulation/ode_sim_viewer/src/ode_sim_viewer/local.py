@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from ode_sim import math3
@@ -33,6 +33,12 @@ from ode_sim_viewer.simulation import (
 )
 from ode_sim_viewer.surfaces import paint, set_looks
 
+if TYPE_CHECKING:
+    from ode_sim.handles import CollisionHandle, ModelHandle
+    from ode_sim.world import World
+
+Answer = TypeVar("Answer")
+
 _FRAME = 1.0 / 60.0  # wall s between two frames
 _LATE = 0.1  # s that may be made up for
 
@@ -43,7 +49,7 @@ class LocalSimulation(Simulation):
     :param world: :class:`ode_sim.World`
     """
 
-    def __init__(self, world, paused: bool = False):
+    def __init__(self, world: World, paused: bool = False):
         self._world = world
         self._paused = paused
         self._watch = SceneWatch(world)
@@ -67,9 +73,9 @@ class LocalSimulation(Simulation):
     def problems(self) -> tuple[str, ...]:
         return tuple(str(problem) for problem in self._world.problems if problem.severity != "note")
 
-    def call(self, f: Callable):
+    def call(self, f: Callable[[World], Answer]) -> Answer:
         """``f(world)`` between two steps, and its result."""
-        future: Future = Future()
+        future: Future[Answer] = Future()
         self._calls.put((f, future))
         try:
             return future.result()
@@ -136,7 +142,7 @@ class LocalSimulation(Simulation):
             np.array(world.joint_positions, np.float32),
         )
 
-    def _drive(self, world) -> None:
+    def _drive(self, world: World) -> None:
         for joint, mode, value, gains, memory in self._commands.values():
             if mode == "force":
                 joint.add_force(value)
@@ -166,20 +172,20 @@ class LocalSimulation(Simulation):
         return self.call(lambda world: record_world(world, self._revision))
 
     def pause(self, on: bool) -> None:
-        def do(world):
+        def do(world: World) -> None:
             self._paused = on
 
         self.call(do)
 
     def step(self, count: int) -> None:
-        def do(world):
+        def do(world: World) -> None:
             self._paused = True
             world.step(count)
 
         self.call(do)
 
     def reset(self, what: str) -> None:
-        def do(world):
+        def do(world: World) -> None:
             self._commands.clear()
             self._pushes.clear()
             if what != "models":
@@ -189,7 +195,7 @@ class LocalSimulation(Simulation):
         self.call(do)
 
     def set_pose(self, model: str, pose: d.Pose) -> None:
-        def do(world):
+        def do(world: World) -> None:
             handle = _model(world, model)
             handle.pose = pose
             handle.set_twist((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
@@ -197,7 +203,7 @@ class LocalSimulation(Simulation):
         self.call(do)
 
     def insert(self, name: str, text: str, pose: d.Pose) -> None:
-        def do(world):
+        def do(world: World) -> None:
             entity = Entity(text, world.finder)
             if entity.kind == "light":
                 light, _ = entity.light(name)
@@ -212,7 +218,7 @@ class LocalSimulation(Simulation):
         self.call(do)
 
     def delete(self, name: str) -> None:
-        def do(world):
+        def do(world: World) -> None:
             if name in world.lights and name not in world.models:
                 del world.lights[name]
                 return
@@ -228,7 +234,7 @@ class LocalSimulation(Simulation):
         self.call(lambda world: _model(world, model).joints[joint].set_position(position))
 
     def command_joint(self, model: str, joint: str, mode: str, value: float, gains: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
-        def do(world):
+        def do(world: World) -> None:
             handle = _model(world, model).joints[joint]
             self._commands.pop(handle.scoped_name, None)
             if mode != "none":
@@ -237,16 +243,16 @@ class LocalSimulation(Simulation):
         self.call(do)
 
     def link_properties(self, model: str, link: str) -> LinkProperties:
-        def do(world):
+        def do(world: World) -> LinkProperties:
             handle = _model(world, model).links[link]
             ixx, iyy, izz, ixy, ixz, iyz = (float(v) for v in handle.inertia)
-            com = math3.transform(math3.inverse(handle.pose), tuple(handle.com()))
+            com = math3.transform(math3.inverse(handle.pose), handle.com())
             return LinkProperties(handle.mass, com, (ixx, ixy, ixz, iyy, iyz, izz), bool(handle.gravity))
 
         return self.call(do)
 
     def set_link_properties(self, model: str, link: str, properties: LinkProperties) -> None:
-        def do(world):
+        def do(world: World) -> None:
             handle = _model(world, model).links[link]
             handle.set_inertial(d.Inertial(properties.mass, d.Pose(properties.com), *properties.inertia))
             handle.gravity = properties.gravity
@@ -254,13 +260,13 @@ class LocalSimulation(Simulation):
         self.call(do)
 
     def physics(self) -> tuple[d.Physics, d.Vec3]:
-        return self.call(lambda world: (world.physics.record(), tuple(world.gravity)))
+        return self.call(lambda world: (world.physics.record(), world.gravity))
 
     def set_physics(self, physics: d.Physics, gravity: d.Vec3) -> None:
         self.call(lambda world: world.set_physics(physics, gravity))
 
     def set_light(self, light: d.Light) -> None:
-        def do(world):
+        def do(world: World) -> None:
             if light.name not in world.lights:
                 raise Refused(f"there is no light '{light.name}'")
             world.lights[light.name] = light
@@ -268,7 +274,7 @@ class LocalSimulation(Simulation):
         self.call(do)
 
     def push(self, model: str, link: str, force: d.Vec3, torque: d.Vec3, duration: float) -> None:
-        def do(world):
+        def do(world: World) -> None:
             handle = _model(world, model).links[link]
             self._pushes = [push for push in self._pushes if push[0] is not handle]  # the last one asked for wins
             self._pushes.append((handle, force, torque, world.time + duration))
@@ -276,14 +282,14 @@ class LocalSimulation(Simulation):
         self.call(do)
 
     def surface(self, model: str, link: str) -> SurfaceProperties:
-        def do(world):
+        def do(world: World) -> SurfaceProperties:
             surface = _collisions(world, model, link)[0].surface
             return SurfaceProperties(surface.mu, surface.mu2, surface.restitution)
 
         return self.call(do)
 
     def set_surface(self, model: str, link: str, surface: SurfaceProperties) -> None:
-        def do(world):
+        def do(world: World) -> None:
             for collision in _collisions(world, model, link):
                 for name, value in vars(surface).items():
                     setattr(collision.surface, name, value)
@@ -297,7 +303,7 @@ class LocalSimulation(Simulation):
         self.call(lambda world: set_looks(_model(world, model), looks))
 
     def watch_contacts(self, on: bool) -> None:
-        def do(world):
+        def do(world: World) -> None:
             self._contacts.watch(on)
             self._newest_contacts = self._contacts.read() if on else None
 
@@ -317,7 +323,7 @@ class LocalSimulation(Simulation):
         self.call(lambda world: self._timeline.record(period))
 
     def go_back(self, number: int) -> None:
-        def do(world):
+        def do(world: World) -> None:
             moment = self._timeline.find(number)
             world.restore(moment.snapshot)
             self._paused = True
@@ -329,13 +335,13 @@ class LocalSimulation(Simulation):
         return world_text(self.call(describe_now))
 
 
-def _model(world, name: str):
+def _model(world: World, name: str) -> ModelHandle:
     if name not in world.models:
         raise Refused(f"there is no model '{name}' any more")
     return world.models[name]
 
 
-def _collisions(world, model: str, link: str):
+def _collisions(world: World, model: str, link: str) -> list[CollisionHandle]:
     found = list(_model(world, model).links[link].collisions.values())
     if not found:
         raise Refused(f"{model}::{link} has no collision")

@@ -49,7 +49,7 @@ class Movie:
     shots: list[Shot] = field(default_factory=list)
     _revision: int = -1
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         scale = min(1.0, _LARGEST[0] / self.width, _LARGEST[1] / self.height)
         self.width, self.height = (max(16, int(side * scale) // 2 * 2) for side in (self.width, self.height))
 

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from ode_sim.description import model as d
 from ode_sim.math3 import inverse, transform, vec3
 
+if TYPE_CHECKING:
+    from ode_sim.handles import LinkHandle, ModelHandle
+    from ode_sim.world import World
 
-def describe_now(world) -> d.World:
+
+def describe_now(world: World) -> d.World:
     """The description of ``world`` (an :class:`ode_sim.World`) with what it has become: models, poses, velocities,
     lights, settings. In the thread that steps it."""
     models, states = [], []
@@ -35,7 +41,7 @@ def describe_now(world) -> d.World:
         )
     return replace(
         world.description,
-        gravity=tuple(world.gravity),
+        gravity=world.gravity,
         physics=world.physics.record(),
         scene=world.scene,
         models=tuple(models),
@@ -44,7 +50,7 @@ def describe_now(world) -> d.World:
     )
 
 
-def _link_now(model, link: d.Link) -> d.Link:
+def _link_now(model: ModelHandle, link: d.Link) -> d.Link:
     handle = model.links.get(link.name)
     if handle is None:
         return link
@@ -57,16 +63,16 @@ def _link_now(model, link: d.Link) -> d.Link:
     )
 
 
-def _inertial_now(handle, written: d.Inertial) -> d.Inertial:
+def _inertial_now(handle: LinkHandle, written: d.Inertial) -> d.Inertial:
     """As it was written, unless the mass was changed since."""
     if handle.mass == written.mass:
         return written
     ixx, iyy, izz, ixy, ixz, iyz = (float(v) for v in handle.inertia)
-    com = transform(inverse(handle.pose), tuple(handle.com()))
+    com = transform(inverse(handle.pose), handle.com())
     return d.Inertial(handle.mass, d.Pose(com), ixx, ixy, ixz, iyy, iyz, izz)
 
 
-def _collision_now(handle, written: d.Collision) -> d.Collision:
+def _collision_now(handle: LinkHandle, written: d.Collision) -> d.Collision:
     now = handle.collisions.get(written.name)
     if now is None:
         return written
@@ -78,5 +84,5 @@ def _collision_now(handle, written: d.Collision) -> d.Collision:
     return replace(written, surface=replace(written.surface, **changed)) if changed else written
 
 
-def _plain(vector) -> d.Vec3:
+def _plain(vector: Iterable[float]) -> d.Vec3:
     return vec3(vector)

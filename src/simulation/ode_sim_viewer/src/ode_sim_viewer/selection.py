@@ -30,7 +30,7 @@ def _on_grid(values: tuple[float, float, float], step: float) -> tuple[float, fl
 class History:
     """Steps that can be undone: pairs of functions. Any thread: a click waits for what the one before it does."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self._lock = threading.RLock()
         self._done: list[tuple[str, Callable[[], None], Callable[[], None]]] = []
         self._undone: list[tuple[str, Callable[[], None], Callable[[], None]]] = []

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from ode_sim.description import model as d
 from ode_sim.description.exchange import register
 from ode_sim.errors import Refused  # noqa: F401  (what a simulation answers)
 from ode_sim.math3 import Pose, compose, inverse
+
+if TYPE_CHECKING:
+    from ode_sim.handles import ModelHandle
+    from ode_sim.world import World
 
 
 @register
@@ -254,7 +258,7 @@ class Simulation(ABC):
         """The page has ended."""
 
 
-def record_world(world, revision: int) -> WorldRecord:
+def record_world(world: World, revision: int) -> WorldRecord:
     """Of a running :class:`ode_sim.World`, ``world``, as its ``revision``; in the thread that steps it."""
     models: list[ModelRecord] = []
     for model in world.models.values():
@@ -270,7 +274,7 @@ def record_world(world, revision: int) -> WorldRecord:
     return WorldRecord(revision, world.name, tuple(models), tuple(world.lights.values()), world.scene)
 
 
-def _with_lights(model) -> d.Model:
+def _with_lights(model: ModelHandle) -> d.Model:
     """The description with the lights that the links carry now."""
     now = {link.name: tuple(link.lights.values()) for link in model.links.values()}
     if all(now.get(link.name, link.lights) == link.lights for link in model.description.links):

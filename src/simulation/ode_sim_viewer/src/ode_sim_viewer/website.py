@@ -54,7 +54,7 @@ class Guard:
         self._loopback = not token if loopback is None else loopback
         self._cookie = f"viewer_{secrets.token_hex(4)}"  # of its own for each server on this host
 
-    def refuse(self, path: str, headers) -> tuple | None:
+    def refuse(self, path: str, headers: Mapping[str, str]) -> tuple | None:
         """None, or (status, headers, text) to answer a request for ``path`` with.
 
         :param headers: a mapping, as of websockets
@@ -160,7 +160,7 @@ class Website:
         self._porter.leave()
         self._door.close()
 
-    def _reply(self, path: str, headers) -> tuple | Callable[[], tuple] | None:
+    def _reply(self, path: str, headers: Mapping[str, str]) -> tuple | Callable[[], tuple] | None:
         """What answers instead of the page, at once or when it is called; None: the page does."""
         link = self.links.get(unquote(urlsplit(path).path.partition(LINKED)[2]))
         refused = self.guard.refuse(path, headers)
@@ -212,8 +212,8 @@ def _start(viser: Any, door: socket.socket, reply: Callable, title: str) -> Any:
 
     usual = library.serve
 
-    def serve(handler, host, port, process_request=None, **options):
-        async def guarded(connection, request):
+    def serve(handler: Any, host: str, port: int, process_request: Any = None, **options: Any) -> Any:
+        async def guarded(connection: Any, request: Any) -> Any:
             answer = reply(request.path, request.headers)
             if answer is None:
                 return _entitled(process_request(connection, request), title)

@@ -212,7 +212,7 @@ def _ended(process: subprocess.Popen, patience: float, out: pathlib.Path, watch:
             watch(max(0, len(begun) - 1), begun[-1] if begun else "building, starting")
 
 
-def _read(out: pathlib.Path, fault: str, spec: Spec, submission) -> Result:
+def _read(out: pathlib.Path, fault: str, spec: Spec, submission: pathlib.Path) -> Result:
     path = out / "result.json"
     data: dict | None = None
     if not fault:

@@ -6,9 +6,14 @@ import argparse
 import os
 import pathlib
 import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .specs.spec import Spec
 
 
-def load_spec(path: str):
+def load_spec(path: str) -> Spec:
     """The spec of the file ``path``; its faults go to the terminal, and the program ends with 2."""
     from .specs.spec import SpecError, load
 
@@ -43,7 +48,7 @@ def allowed(unsafe: bool) -> None:
 class Parser(argparse.ArgumentParser):
     """Of words among which there may be names of submissions: with ``*`` the shell makes an option of a file that is called so."""
 
-    def parse_args(self, args=None, namespace=None):
+    def parse_args(self, args: Sequence[str] | None = None, namespace: Any = None) -> Any:  # type: ignore[override]
         """As argparse's, of ``args`` into ``namespace``; a word that looks like an option and is the name of a file here is an error."""
         for word in sys.argv[1:] if args is None else args:
             if word == "--":

@@ -21,7 +21,7 @@ class Fault:
     apply: Callable[[pathlib.Path, random.Random], bool]
 
 
-def _in(pattern: str, what: str, to: str, count: int = 1):
+def _in(pattern: str, what: str, to: str, count: int = 1) -> Callable[[pathlib.Path, random.Random], bool]:
     """Replaces in the first file that matches, by path, and holds ``what``."""
 
     def apply(copy: pathlib.Path, dice: random.Random) -> bool:
@@ -37,7 +37,7 @@ def _in(pattern: str, what: str, to: str, count: int = 1):
     return apply
 
 
-def _without(pattern: str):
+def _without(pattern: str) -> Callable[[pathlib.Path, random.Random], bool]:
     def apply(copy: pathlib.Path, dice: random.Random) -> bool:
         del dice
         for path in sorted(copy.rglob(pattern)):

@@ -99,7 +99,7 @@ class Cases(Pool):
     def start(self, name: str, path: pathlib.Path) -> None:
         super().start(name, self._sweep.write_case(self._inputs[name], self._out / name / "case"))
 
-    def take(self, name: str):
+    def take(self, name: str) -> Result | str:
         from shutil import rmtree
 
         if self._sweep.touches_files:  # the spec stays: its values say how to see the case again
@@ -215,7 +215,9 @@ def _differs(values: list[Any]) -> bool:
     return bool(known) and max(known) - min(known) > 1e-9 * max(1.0, *map(abs, known))
 
 
-def write_page(sweep: Sweep, columns: list[str], rows: list[dict[str, Any]], pictures, out: pathlib.Path) -> None:
+def write_page(
+    sweep: Sweep, columns: list[str], rows: list[dict[str, Any]], pictures: list[tuple[str, pathlib.Path]], out: pathlib.Path
+) -> None:
     """``sweep.html`` in ``out``: the ``pictures`` of ``sweep``, and the first ``columns`` of ``rows`` with a link to each report."""
     parameters = list(sweep.data["parameters"])
     shown = [*parameters, "points", "of"]

@@ -97,7 +97,7 @@ def animation_for(path: str, skin: Skeleton) -> Animation:
 
 
 @functools.lru_cache(maxsize=16)
-def _load(path: str, _stamp) -> Animation:
+def _load(path: str, _stamp: tuple[int, int]) -> Animation:
     if path.lower().endswith(".bvh"):
         from ode_sim.actors.bvh import read_bvh
 
@@ -119,7 +119,7 @@ def _read(tree: ColladaTree) -> Animation:
     return assembled(tree, skeleton, moved)
 
 
-def assembled(tree, skeleton: Skeleton, moved: dict[int, tuple[np.ndarray, np.ndarray]]) -> Animation:
+def assembled(tree: ColladaTree, skeleton: Skeleton, moved: dict[int, tuple[np.ndarray, np.ndarray]]) -> Animation:
     """All bones of ``skeleton`` at all times, of those at which each moves.
 
     :param tree: the file, for errors. :param moved: by the bone's index, times (T,) s and matrices (T, 4, 4) in its parent.

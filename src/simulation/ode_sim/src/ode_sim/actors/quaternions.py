@@ -13,7 +13,7 @@ def normalized(q: np.ndarray) -> np.ndarray:
     return np.where(length > 1e-12, np.divide(q, length, out=np.zeros_like(q), where=length > 1e-12), [0.0, 0.0, 0.0, 1.0])
 
 
-def slerp(a: np.ndarray, b: np.ndarray, part) -> np.ndarray:
+def slerp(a: np.ndarray, b: np.ndarray, part: np.ndarray | float) -> np.ndarray:
     """From ``a`` to ``b`` the short way at a constant rate; ``part`` of it is done, 0 to 1, (..., 1) or a number."""
     cosine = np.sum(a * b, axis=-1, keepdims=True)
     b = np.where(cosine < 0.0, -b, b)

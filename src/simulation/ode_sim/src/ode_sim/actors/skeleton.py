@@ -77,7 +77,7 @@ def load_skeleton(path: str) -> Skeleton:
 
 
 @functools.lru_cache(maxsize=16)
-def _load(path: str, _stamp) -> Skeleton:
+def _load(path: str, _stamp: tuple[int, int]) -> Skeleton:
     return told_in_one_line(path, lambda: read_skeleton(ColladaTree(path)))
 
 

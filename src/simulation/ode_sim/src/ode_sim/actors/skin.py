@@ -55,7 +55,7 @@ def load_piece(path: str, submesh: str) -> list[MeshPart]:
 
 
 @functools.lru_cache(maxsize=16)
-def _load(path: str, animation: str, _stamp, _other_stamp) -> dict[str, list[MeshPart]]:
+def _load(path: str, animation: str, _stamp: tuple[int, int], _other_stamp: tuple[int, ...]) -> dict[str, list[MeshPart]]:
     return told_in_one_line(path, lambda: _read(ColladaTree(path), animation))
 
 

@@ -154,7 +154,7 @@ def _entity(reader: SdfReader, root: Element) -> ET.Element:
     return included
 
 
-def _first_with_include(root):
+def _first_with_include(root: ET.Element) -> ET.Element | None:
     for parent in [root] + root.findall("world"):
         for element in parent:
             if element.tag in ENTITIES + ("include",):

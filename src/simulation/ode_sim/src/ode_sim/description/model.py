@@ -28,7 +28,7 @@ class Problem:
     message: str
     source: Source = Source()
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "message", one_line(self.message))
 
     def __str__(self) -> str:

@@ -6,15 +6,19 @@ import math
 import random
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from ode_sim import math3
 from ode_sim.description.model import FARTHEST, Pose, quoted
 from ode_sim.description.xmlsource import child, clone, text_of
 
+if TYPE_CHECKING:
+    from ode_sim.description.sdf import SdfReader
+
 _MOST = 1_000_000  # of anything counted
 
 
-def population(reader, element: ET.Element, template: ET.Element | None) -> Iterator[ET.Element]:
+def population(reader: SdfReader, element: ET.Element, template: ET.Element | None) -> Iterator[ET.Element]:
     """Model elements named ``<model>_clone_<i>``; random places are the same in every run.
 
     :param reader: the :class:`~ode_sim.description.sdf.SdfReader` that reads the numbers and takes the warnings.
@@ -53,7 +57,7 @@ def population(reader, element: ET.Element, template: ET.Element | None) -> Iter
             row, col = divmod(i, cells)
             p = (((col + 0.5) / cells - 0.5) * size[0], ((row + 0.5) / cells - 0.5) * size[1], 0.0)
         else:
-            p = tuple(rng.uniform(-0.5, 0.5) * side for side in size)
+            p = math3.vec3(rng.uniform(-0.5, 0.5) * side for side in size)
         copy = clone(template)
         copy.set("name", f"{name}_clone_{i}")
         x_rm = math3.compose(Pose(p), reader.pose(template.find("pose")))

@@ -6,9 +6,13 @@ about their own frames; poses and masses stay.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
+from typing import TypeVar
 
-from ode_sim.description.model import Box, Capsule, Cylinder, Geometry, Mesh, Model, Plane, Sphere, Vec3
+from ode_sim.description.model import Box, Capsule, Collision, Cylinder, Geometry, Mesh, Model, Plane, Sphere, Vec3, Visual
+
+Part = TypeVar("Part", Collision, Visual)
 
 
 def _times(a: Vec3, b: Vec3) -> Vec3:
@@ -34,7 +38,7 @@ def scaled_geometry(shape: Geometry, scale: Vec3) -> Geometry:
 def largest_size(model: Model) -> float:
     """Of all shapes of ``model``, m; a mesh counts by its scale."""
 
-    def sizes(shape: Geometry):
+    def sizes(shape: Geometry) -> Iterator[float]:
         for name in ("size", "radius", "length", "scale"):
             value = getattr(shape, name, 0.0)
             yield from map(abs, value) if isinstance(value, tuple) else (value,)
@@ -45,7 +49,7 @@ def largest_size(model: Model) -> float:
 def scaled_model(model: Model, scale: Vec3) -> Model:
     """``model`` with everything that is drawn or collides stretched by ``scale`` (x, y, z)."""
 
-    def stretch(part):
+    def stretch(part: Part) -> Part:
         return replace(part, geometry=scaled_geometry(part.geometry, scale))
 
     return replace(

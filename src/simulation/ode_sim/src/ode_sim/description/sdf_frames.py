@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from ode_sim import math3
 from ode_sim.description.model import Pose
 from ode_sim.description.xmlsource import joint_end, source_of
 from ode_sim.errors import DescriptionError, Source, quoted
+
+if TYPE_CHECKING:
+    from ode_sim.description.sdf_values import SdfValues
 
 Nested = tuple[str, ET.Element, dict[str, Pose]]  # name, element, X_S of its own frames
 
@@ -20,7 +24,7 @@ def relative_to(pose: ET.Element | None) -> str:
     return (pose.get("relative_to") or pose.get("frame") or "").strip()
 
 
-def model_frames(reader, model: ET.Element, nested: Sequence[Nested]) -> dict[str, Pose]:
+def model_frames(reader: SdfValues, model: ET.Element, nested: Sequence[Nested]) -> dict[str, Pose]:
     """X_M of a model's links, joints, frames and nested models, whatever their poses refer to.
 
     :param reader: the :class:`~ode_sim.description.sdf.SdfReader` that reads the numbers and takes the warnings.
@@ -30,7 +34,7 @@ def model_frames(reader, model: ET.Element, nested: Sequence[Nested]) -> dict[st
 
 
 class _Solver:
-    def __init__(self, reader, model: ET.Element, nested: Sequence[Nested]):
+    def __init__(self, reader: SdfValues, model: ET.Element, nested: Sequence[Nested]):
         self._reader = reader
         self._entries: dict[str, tuple[Pose, str, ET.Element | None]] = {}  # name -> X_RF, name of R, element
         self._solved: dict[str, Pose] = {"__model__": math3.IDENTITY}
@@ -80,7 +84,7 @@ class _Solver:
             self._solved[name] = x_rf
 
 
-def world_frames(reader, world: ET.Element) -> dict[str, Pose]:
+def world_frames(reader: SdfValues, world: ET.Element) -> dict[str, Pose]:
     """X_W of the ``<frame>``s of the element ``world``, as far as they refer to earlier ones; ``reader`` reads their poses."""
     frames: dict[str, Pose] = {}
     for element in world.findall("frame"):

@@ -6,14 +6,16 @@ import math
 import xml.etree.ElementTree as ET
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TypeVar
 
 from ode_sim import math3
-from ode_sim.description.model import FORCE_TORQUE, Axis, Joint, Link, Plugin, Pose, Sensor, Vec3, quoted
+from ode_sim.description.model import FORCE_TORQUE, Axis, Collision, Joint, Light, Link, Plugin, Pose, Sensor, Vec3, Visual, quoted
 from ode_sim.description.sdf_frames import relative_to
 from ode_sim.description.sdf_shapes import SdfShapes
 from ode_sim.description.sdf_values import LONGEST
 from ode_sim.description.xmlsource import is_true, joint_end, source_of, text_of
+
+Named = TypeVar("Named", Collision, Light, Sensor, Visual)
 
 _JOINT_AXES = {"revolute": 1, "prismatic": 1, "fixed": 0, "ball": 0, "universal": 2, "revolute2": 2, "screw": 1, "gearbox": 2, "piston": 1}
 _NOT_SIMULATED = ("piston",)  # the builder says so
@@ -57,7 +59,7 @@ class SdfJoints(SdfShapes):
     def _pose_in(self, owner: ET.Element, x_mo: Pose, child: ET.Element, frames: dict[str, Pose]) -> Pose:
         raise NotImplementedError
 
-    def _unique(self, parent: ET.Element, tag: str, read: Callable[[ET.Element], Any]) -> Iterator:
+    def _unique(self, parent: ET.Element, tag: str, read: Callable[[ET.Element], Named]) -> Iterator[Named]:
         raise NotImplementedError
 
     def _sensor(self, element: ET.Element, pose: Pose, of_joint: bool) -> Sensor:

@@ -6,7 +6,7 @@ import math
 import os
 import re
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from ode_sim import math3
@@ -28,7 +28,7 @@ from ode_sim.description.model import (
 )
 from ode_sim.description.sdf_document import first_entity, parse_sdf
 from ode_sim.description.sdf_frames import model_frames, relative_to
-from ode_sim.description.sdf_joints import Parts, SdfJoints
+from ode_sim.description.sdf_joints import Named, Parts, SdfJoints
 from ode_sim.description.sdf_values import LONGEST
 from ode_sim.description.xmlsource import clone, fault, is_true, read_bytes, source_of, text_of
 
@@ -234,7 +234,7 @@ class SdfModels(SdfJoints):
             return x
         return math3.compose(math3.relative(x_mo, frames[frame]), x)
 
-    def _unique(self, parent: ET.Element, tag: str, read) -> Iterator:
+    def _unique(self, parent: ET.Element, tag: str, read: Callable[[ET.Element], Named]) -> Iterator[Named]:
         """Children of one kind, with names made unique: Gazebo would drop the second of a name."""
         items = []
         for element in parent.findall(tag):
@@ -256,7 +256,7 @@ class SdfModels(SdfJoints):
             seen[item.name] = count + 1
             yield replace(item, name=f"{item.name}_{count}") if count else item
 
-    def _inertial(self, element: ET.Element | None, in_link) -> Inertial:
+    def _inertial(self, element: ET.Element | None, in_link: Callable[[ET.Element], Pose]) -> Inertial:
         if element is None:
             return Inertial()
         values = {

@@ -6,6 +6,7 @@ import math
 import os
 import xml.etree.ElementTree as ET
 from dataclasses import replace
+from typing import Any
 
 from ode_sim import math3
 from ode_sim.description import materials
@@ -157,7 +158,7 @@ class SdfShapes(SdfValues):
                     f"there is no material '{quoted(name)}'" + (f" in {quoted(', '.join(uris), 200)}" if uris else "") + "; using white",
                 )
         colours = {tag: self.rgba(element, tag) for tag in ("ambient", "diffuse", "specular", "emissive")}
-        given = {tag: colour for tag, colour in colours.items() if colour is not None}
+        given: dict[str, Any] = {tag: colour for tag, colour in colours.items() if colour is not None}
         lit = self.boolean(element, "lighting", True)
         if known is None and not given and lit:
             return Material(name) if name else None

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
-from typing import TypeVar, cast
+from typing import TypeVar, cast, overload
 
 from ode_sim import math3
 from ode_sim.description.finder import ResourceFinder
-from ode_sim.description.model import FARTHEST, Pose, Problem, Source, quoted
+from ode_sim.description.model import FARTHEST, Pose, Problem, Rgba, Source, quoted
 from ode_sim.description.xmlsource import fault, is_true, leading_numbers, source_of, text_of
 
 Numbers = TypeVar("Numbers", bound=tuple[float, ...])
@@ -103,7 +103,13 @@ class SdfValues:
         text = text_of(parent.find(path))
         return is_true(text) if text else default
 
-    def rgba(self, parent: ET.Element | None, tag: str, default=None):
+    @overload
+    def rgba(self, parent: ET.Element | None, tag: str, default: None = None) -> Rgba | None: ...
+
+    @overload
+    def rgba(self, parent: ET.Element | None, tag: str, default: Rgba) -> Rgba: ...
+
+    def rgba(self, parent: ET.Element | None, tag: str, default: Rgba | None = None) -> Rgba | None:
         """The colour ``tag`` of ``parent``, red green blue alpha from 0 to 1, alpha 1 where three are given; else ``default``."""
         element = parent.find(tag) if parent is not None else None
         if element is None or not text_of(element):

@@ -10,12 +10,16 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 from ode_sim import math3
 from ode_sim.description import urdf_extensions as extensions
 from ode_sim.description import urdf_parts as parts
-from ode_sim.description.model import DescriptionError, Model, Pose, Vec3, quoted
+from ode_sim.description.model import DescriptionError, Joint, Model, Pose, Vec3, quoted
 from ode_sim.description.xmlsource import Element, child, fault
+
+if TYPE_CHECKING:
+    from ode_sim.description.sdf import SdfReader
 
 _LUMP = extensions.LUMP
 _MOST_FIXED = 200  # fixed joints in a row; what hangs on the last is moved as often
@@ -68,7 +72,7 @@ class _UrdfJoint:
         return self.says.type
 
 
-def urdf_to_model(robot: ET.Element, reader) -> Model:
+def urdf_to_model(robot: ET.Element, reader: SdfReader) -> Model:
     """The :class:`Model` of a ``<robot>`` element.
 
     :param reader: the :class:`~ode_sim.description.sdf.SdfReader` that reads the converted text and takes the warnings.
@@ -92,7 +96,7 @@ def _write_pose(parent: ET.Element, pose: Pose) -> None:
 
 
 class _Conversion:
-    def __init__(self, robot: ET.Element, reader):
+    def __init__(self, robot: ET.Element, reader: SdfReader):
         self.robot = robot
         self.reader = reader
         self.extensions = extensions.Extensions(robot, reader)
@@ -132,7 +136,7 @@ class _Conversion:
         model = self.reader.model(sdf)
         return replace(model, joints=tuple(self._with_urdf_facts(joint) for joint in model.joints))
 
-    def _with_urdf_facts(self, joint):
+    def _with_urdf_facts(self, joint: Joint) -> Joint:
         urdf = self.joints.get(joint.name)
         if urdf is None:
             return joint

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from ode_sim import math3
 from ode_sim.description.model import FARTHEST, Pose, quoted
 from ode_sim.description.xmlsource import Element, child, clone, is_true, text_of
+
+if TYPE_CHECKING:
+    from ode_sim.description.sdf import SdfReader
 
 LUMP = "_fixed_joint_lump__"
 _MATERIAL_SCRIPT = "file://media/materials/scripts/gazebo.material"
@@ -64,7 +68,7 @@ class _Extension:
 class Extensions:
     """All ``<gazebo>`` blocks of a robot, by the link or joint they refer to; '' for the robot itself."""
 
-    def __init__(self, robot: ET.Element, reader):
+    def __init__(self, robot: ET.Element, reader: SdfReader):
         self._reader = reader
         self._blocks: dict[str, list[_Extension]] = {}
         known = set(_COLLISION_TAGS) | set(_JOINT_TAGS) | set(_LINK_TAGS) | set(_OWN_MEANING)

@@ -161,7 +161,7 @@ class _Reader(_Builder):
     def _line(self) -> int:
         return self._parser.CurrentLineNumber + self.skipped
 
-    def _entity(self, name: str, *_declaration) -> None:
+    def _entity(self, name: str, *_declaration: object) -> None:
         raise DescriptionError(
             f"declares the entity '{quoted(name)}'; entities are not read, write out what it stands for", Source(self.file, self._line())
         )

@@ -6,8 +6,9 @@ import pathlib
 import re
 import signal
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from types import FrameType
 from typing import Any
 
 from ..examination.simulated_world import Bench, Sample
@@ -79,7 +80,7 @@ def search(pattern: str, text: str) -> re.Match | None:
     if threading.current_thread() is not threading.main_thread():
         return re.search(pattern, text)
 
-    def over(number, frame):
+    def over(number: int, frame: FrameType | None) -> None:
         raise TimeoutError
 
     before = signal.signal(signal.SIGALRM, over)
@@ -93,7 +94,7 @@ def search(pattern: str, text: str) -> re.Match | None:
         signal.signal(signal.SIGALRM, before)
 
 
-def names(found, most: int = 8) -> str:
+def names(found: Iterable[str], most: int = 8) -> str:
     """The first ``most`` of ``found`` for a message, and how many more there are."""
     found = list(found)
     return ", ".join(found[:most]) + (f" and {len(found) - most} more" if len(found) > most else "") if found else "none"

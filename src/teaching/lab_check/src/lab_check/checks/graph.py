@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import fnmatch
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import rosgraph
 import rospy
@@ -13,7 +13,12 @@ import rospy
 from ..examination.commands import CommandError, find_topic
 from ..examination.simulated_world import Sample
 from ..explain import crashed, error_lines, refusal, timeless
-from .base import Check, names, search
+from .base import Check, Context, names, search
+
+if TYPE_CHECKING:
+    from tf2_msgs.msg import TFMessage
+
+    from ..isolation.supervise import Program
 
 
 def master() -> rosgraph.Master:
@@ -36,7 +41,7 @@ class NodeCheck(Check):
 class TopicCheck(Check):
     """A topic's publisher or subscriber, its type, its rate in simulated time, whether it is latched."""
 
-    def __init__(self, wanted, context):
+    def __init__(self, wanted: Any, context: Context):
         super().__init__(wanted, context)
         self._arrivals: list[float] = []
         self._latched = None
@@ -56,7 +61,7 @@ class TopicCheck(Check):
         self._begin = self.context.bench.now.time
         del self._arrivals[:]
 
-    def _receive(self, message) -> None:
+    def _receive(self, message: Any) -> None:
         self._arrivals.append(self.context.bench.now.time)
         self._latched = message._connection_header.get("latching") == "1"
 
@@ -138,7 +143,7 @@ class TfCheck(Check):
         ]
         self.context.bench.connect()
 
-    def _take(self, message, static: bool) -> None:
+    def _take(self, message: TFMessage, static: bool) -> None:
         set_it = self._buffer.set_transform_static if static else self._buffer.set_transform
         for transform in message.transforms:
             set_it(transform, "lab_check")
@@ -222,7 +227,7 @@ class NoErrorsCheck(Check):
 class ExitCheck(Check):
     """How a program of the task's ``run`` ended, or that it goes on; what it printed."""
 
-    def __init__(self, wanted, context):
+    def __init__(self, wanted: Any, context: Context):
         super().__init__(wanted, context)
         self.horizon = wanted.get("within", 2.0) if "code" in wanted or wanted.get("refused") else 0.0
 
@@ -232,7 +237,7 @@ class ExitCheck(Check):
         return program is None or not program.running
 
     @settled.setter
-    def settled(self, value) -> None:
+    def settled(self, value: bool) -> None:
         del value
 
     def sample(self, sample: Sample) -> None:
@@ -263,7 +268,7 @@ class ExitCheck(Check):
             return False, f"the program ended with code {program.code}: {last}", {}
         return True, "the program did as it should" + (f": {last}" if self.wanted.get("refused") else ""), {}
 
-    def _taken(self, program, said: str, last: str) -> str:
+    def _taken(self, program: Program, said: str, last: str) -> str:
         """Why a wrong argument was not refused; '' when it was: by an exit code that is not 0, or by what the program said.
 
         Many programs print how they are used and end with 0; one that ends with 0 and says nothing has taken the argument for a good one.

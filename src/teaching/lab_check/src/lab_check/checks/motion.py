@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import image_pixels
@@ -12,7 +13,7 @@ import rospy
 from ..examination.camera_visibility import share_of
 from ..examination.commands import CommandError, find_topic
 from ..examination.simulated_world import Sample
-from .base import Check, names
+from .base import Check, Context, names
 
 _EVERY = 0.05  # s between two points of a plot
 _MOST_MESSAGES = 200_000  # of a topic that one task keeps
@@ -32,11 +33,13 @@ class Timed(Check):
 class JointCheck(Timed):
     """A joint is within ``tolerance`` of ``value`` by ``within`` s after the commands, and stays there for ``hold`` s."""
 
-    def __init__(self, wanted, context):
+    def __init__(self, wanted: Any, context: Context):
         super().__init__(wanted, context)
         self.horizon = wanted.get("within", 10.0) + wanted.get("hold", 0.0)
         self._inside: float | None = None
-        self._best, self._last, self._reached = math.inf, None, None
+        self._best = math.inf
+        self._last: float | None = None
+        self._reached: float | None = None
         self._begin = math.inf
 
     def commanded(self) -> None:
@@ -103,7 +106,7 @@ def _doubt(check: Check, sample: Sample, joint: str) -> None:
 class StillCheck(Timed):
     """Joints that must not move."""
 
-    def __init__(self, wanted, context):
+    def __init__(self, wanted: Any, context: Context):
         super().__init__(wanted, context)
         self.horizon = wanted.get("for", 1.0)
         self._first: dict[str, float] = {}
@@ -158,7 +161,7 @@ def yaw(pose: list[float]) -> float:
 class MovedCheck(Timed):
     """How far a model (or ``model::link``) went and turned from the task's beginning, or that it is at a place."""
 
-    def __init__(self, wanted, context):
+    def __init__(self, wanted: Any, context: Context):
         super().__init__(wanted, context)
         self.horizon = wanted.get("within", 0.0)
         self._turned, self._way = 0.0, 0.0
@@ -180,7 +183,7 @@ class MovedCheck(Timed):
         if "to" in self.wanted and "by" not in self.wanted and "turned" not in self.wanted:
             self.settled = self._off(pose) <= self.wanted.get("tolerance", 0.05)
 
-    def _off(self, pose) -> float:
+    def _off(self, pose: Sequence[float]) -> float:
         to = self.wanted["to"]
         return math.dist(pose[: len(to)], to)
 
@@ -205,7 +208,7 @@ class MovedCheck(Timed):
 class PathCheck(Timed):
     """The points are passed in their order, each within ``tolerance``."""
 
-    def __init__(self, wanted, context):
+    def __init__(self, wanted: Any, context: Context):
         super().__init__(wanted, context)
         self.horizon = wanted.get("within", 30.0)
         self._next, self._closest = 0, math.inf
@@ -240,7 +243,7 @@ class PathCheck(Timed):
 class DistanceCheck(Timed):
     """Distance between two places, models or ``model::link``, all the while."""
 
-    def __init__(self, wanted, context):
+    def __init__(self, wanted: Any, context: Context):
         super().__init__(wanted, context)
         self.horizon = wanted.get("for", 0.0)
         self._least, self._most = math.inf, -math.inf
@@ -287,7 +290,7 @@ class _Listening(Timed):
         self._subscriber = rospy.Subscriber(name, message, self._take, queue_size=None, buff_size=1 << 24, tcp_nodelay=True)
         self.context.bench.connect()
 
-    def _take(self, message) -> None:
+    def _take(self, message: Any) -> None:
         if len(self.messages) < _MOST_MESSAGES:
             self.messages.append((self.context.bench.now.time, message))
 
@@ -312,7 +315,7 @@ class _Listening(Timed):
 class OdometryCheck(_Listening):
     """The way that odometry tells from the task's beginning, against the simulator's truth."""
 
-    def __init__(self, wanted, context):
+    def __init__(self, wanted: Any, context: Context):
         super().__init__(wanted, context)
         self.horizon = wanted.get("for", 0.0)
 
@@ -345,7 +348,7 @@ def _seen(first: list[float], last: list[float]) -> tuple[float, float]:
 class EnergyCheck(_Listening):
     """Work of the joints, from joint states: the sum of |effort x velocity| over simulated time, J."""
 
-    def __init__(self, wanted, context):
+    def __init__(self, wanted: Any, context: Context):
         super().__init__(wanted, context)
         self.horizon = wanted.get("for", 5.0)
 
@@ -365,7 +368,7 @@ class EnergyCheck(_Listening):
 class ImageCheck(_Listening):
     """A camera's newest picture: its size, and how much of it has a colour, or shows a model as the simulator knows it."""
 
-    def __init__(self, wanted, context):
+    def __init__(self, wanted: Any, context: Context):
         super().__init__(wanted, context)
         self.horizon = wanted.get("within", 1.0)
 
@@ -408,7 +411,7 @@ class ImageCheck(_Listening):
         return low <= part <= high, f"{name} fills {part:.2%} of the picture; {low:.2%} to {high:.2%} are asked for", {"share": part}
 
 
-def to_rgb(message) -> np.ndarray | None:
+def to_rgb(message: Any) -> np.ndarray | None:
     """(rows, columns, 3) uint8, None for an encoding without colours or a message that contradicts itself."""
     try:
         picture = image_pixels.picture_of(message)
@@ -422,7 +425,7 @@ def to_rgb(message) -> np.ndarray | None:
 class NoCollisionCheck(Check):
     """A model touches nothing but itself and what is allowed."""
 
-    def __init__(self, wanted, context):
+    def __init__(self, wanted: Any, context: Context):
         super().__init__(wanted, context)
         self.horizon = wanted.get("for", 0.0)
         self._touched: list[str] = []

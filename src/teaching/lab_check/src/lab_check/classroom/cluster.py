@@ -9,13 +9,17 @@ import socket
 import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
 
 from ..errors import LabError
 from ..outcome import Result
 from ..specs.spec import Spec
 from . import cluster_access, cluster_node, packed_files
 from .engines import Engine, How, NotBegun, Pool, outcome
+
+if TYPE_CHECKING:
+    from ray.util.scheduling_strategies import NodeAffinitySchedulingStrategy
 
 _LOOK = 60.0  # s that a node has to answer
 _TAKEN = ".taken."  # before the name of a folder for reports on their way
@@ -104,7 +108,7 @@ class Cluster(Engine):
             raise ClusterError(f"none of the cluster's {len(asked)} nodes can examine")
         return found
 
-    def _on(self, identity: str):
+    def _on(self, identity: str) -> NodeAffinitySchedulingStrategy:
         from ray.util.scheduling_strategies import NodeAffinitySchedulingStrategy
 
         return NodeAffinitySchedulingStrategy(node_id=identity, soft=False)
@@ -197,7 +201,7 @@ class Cluster(Engine):
             self._ray.shutdown()
 
 
-def connect(address: str):
+def connect(address: str) -> ModuleType:
     """Ray, connected to ``address``: "local", "auto", HOST or HOST:PORT.
 
     :raises ClusterError: it is not installed, nobody answers, or there is no token for it

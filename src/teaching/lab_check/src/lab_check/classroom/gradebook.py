@@ -8,12 +8,16 @@ import os
 import pathlib
 import urllib.parse
 from collections import Counter
+from typing import TYPE_CHECKING
 
 from ..outcome import Result
 from ..report.page import STYLE
 from ..specs.spec import Spec
 from .similar import Pair, pairs
 from .store import Store, result_of
+
+if TYPE_CHECKING:
+    import sqlite3
 
 RESULTS = "submissions"  # the folder of all reports: what a submission is called is no name of a file of the class
 _COLOURS = ((0.999, "#d6f0dc"), (0.5, "#fff4cf"), (0.0, "#fbe0e0"))
@@ -39,7 +43,7 @@ def safe(text: str) -> str:
     return "'" + text if text[:1] in tuple("=+-@\t\r") else text
 
 
-def _remark(row) -> str:
+def _remark(row: sqlite3.Row) -> str:
     """What stands in the place of marks."""
     if row["state"] == "done":
         return ""
@@ -51,7 +55,7 @@ def _marks(result: Result | None, tasks: list[str]) -> list:
     return [found.get(name, "") for name in tasks]
 
 
-def _page(spec: Spec, rows, results, tasks: list[str], near: list[Pair]) -> str:
+def _page(spec: Spec, rows: list[sqlite3.Row], results: dict[str, Result | None], tasks: list[str], near: list[Pair]) -> str:
     head = "".join(f"<th>{html.escape(name)}" for name in tasks)
     lines = []
     for row in rows:
@@ -82,7 +86,7 @@ def _colour(points: float, of: float) -> str:
     return next(colour for least, colour in _COLOURS if part >= least)
 
 
-def _comparison(spec: Spec, results, tasks: list[str]) -> str:
+def _comparison(spec: Spec, results: dict[str, Result | None], tasks: list[str]) -> str:
     parts = []
     known = [result for result in results.values() if result]
     for name in tasks:

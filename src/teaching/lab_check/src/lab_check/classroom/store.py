@@ -9,6 +9,7 @@ import pathlib
 import sqlite3
 import time
 from collections.abc import Collection
+from typing import Any
 
 from ..isolation.untrusted_files import walk
 from ..outcome import Result
@@ -48,7 +49,7 @@ class Store:
     def waiting(self) -> list[str]:
         return [row["name"] for row in self._db.execute("SELECT name FROM submissions WHERE state = 'waiting' ORDER BY name")]
 
-    def _one(self, name: str, column: str):
+    def _one(self, name: str, column: str) -> Any:
         return self._db.execute(f"SELECT {column} FROM submissions WHERE name = ?", (name,)).fetchone()[column]
 
     def path_of(self, name: str) -> pathlib.Path:

@@ -12,11 +12,16 @@ import os
 import pickle
 import sys
 from collections import Counter
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+if TYPE_CHECKING:
+    from ode_sim_rendering.camera import Camera
+    from ode_sim_rendering.scene import SceneDescription
 
-def shares(camera, scene, poses) -> dict[str, float]:
+
+def shares(camera: Camera, scene: SceneDescription, poses: np.ndarray) -> dict[str, float]:
     """``model::link::visual`` -> its part of the picture that ``camera`` takes of ``scene``, of those that can be seen.
 
     :param poses: (L, 7) x y z qx qy qz qw of the scene's links, world frame

@@ -163,7 +163,7 @@ class Actor:
         if "wait" in wanted:
             self._bench.until(lambda: not program.running, wanted["wait"])
 
-    def _wait_for_node(self, program: Program, before) -> None:
+    def _wait_for_node(self, program: Program, before: set[str]) -> None:
         """Simulated time stands still until the program is a node that is connected, or has ended."""
         end = time.monotonic() + _START
         while program.running and time.monotonic() < end and not connections.nodes() - before:

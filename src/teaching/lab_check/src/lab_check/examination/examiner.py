@@ -9,6 +9,7 @@ import pathlib
 import subprocess
 import sys
 import time
+from typing import Any
 
 from ..checks import make
 from ..checks.base import Context
@@ -193,7 +194,7 @@ class Examiner:
         for task in spec["tasks"]:
             self.result.add(found[task["name"]])
 
-    def _static(self, task) -> TaskResult:
+    def _static(self, task: dict[str, Any]) -> TaskResult:
         job = self.job
         context = Context(
             pathlib.Path(job.spec_folder),
@@ -210,7 +211,7 @@ class Examiner:
             verdicts.append(Verdict(kind, passed, reason, figures=figures))
         return share(task, verdicts)
 
-    def _session(self, number: int, tasks) -> dict:
+    def _session(self, number: int, tasks: list[dict[str, Any]]) -> dict[str, TaskResult]:
         """In a process of its own: rospy knows one master in a process's life, and what breaks there does not break this one."""
         job_file = os.path.join(self.job.out, ".job.json")
         answer = os.path.join(self.job.out, f".session_{number}.json")

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import os
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .simulated_world import Bench, Sample
 
 _PERIOD, _RATE, _MOST = 0.5, 4, 24  # s of simulation between frames, frames/s of the film, frames
 
 
 class Film:
-    def __init__(self, bench, model: str):
+    def __init__(self, bench: Bench, model: str):
         self._bench, self._model = bench, model
         self._frames: list[bytes] = []
         self._due = -1.0
 
-    def sample(self, sample) -> None:
+    def sample(self, sample: Sample) -> None:
         if sample.time >= self._due - 1e-9 and len(self._frames) < _MOST:
             self._due = sample.time + _PERIOD
             self._frames.append(self._bench.picture(self._model, 480, 320))
@@ -34,7 +38,7 @@ class Film:
         return path if os.path.exists(path) else ""
 
 
-def picture(bench, model: str, stem: str) -> list[str]:
+def picture(bench: Bench, model: str, stem: str) -> list[str]:
     """Draws ``model`` at a task's end to ``stem`` with ``.png``. :returns: its path, nothing where ``bench`` cannot draw"""
     png = bench.picture(model)
     if not png:

@@ -42,13 +42,13 @@ class _Simulator:
     told: set[str] = set()
 
 
-def _hold(self, topic: str, publishers: list[str], subscribers: list[str]) -> None:
+def _hold(self: ROSMasterHandler, topic: str, publishers: list[str], subscribers: list[str]) -> None:
     if subscribers:
         with _lock:
             _held.append((self, topic, publishers, list(subscribers)))
 
 
-def _release(self, caller_id: str, word: str = "") -> tuple[int, str, int]:
+def _release(self: ROSMasterHandler, caller_id: str, word: str = "") -> tuple[int, str, int]:
     """Sends what was held, in its order; answers as the master's own calls do, with the number of news."""
     if word != _WORD:
         return _REFUSED
@@ -59,7 +59,7 @@ def _release(self, caller_id: str, word: str = "") -> tuple[int, str, int]:
     return 1, "released", len(news)
 
 
-def _simulator_is(self, caller_id: str, word: str, name: str, uri: str, pid: int) -> tuple[int, str, int]:
+def _simulator_is(self: ROSMasterHandler, caller_id: str, word: str, name: str, uri: str, pid: int) -> tuple[int, str, int]:
     if word != _WORD:
         return _REFUSED
     _Simulator.name, _Simulator.uri, _Simulator.pid = name, uri, pid
@@ -72,11 +72,11 @@ def _simulator_is(self, caller_id: str, word: str, name: str, uri: str, pid: int
     return 1, "noted", 0
 
 
-def _told(self, caller_id: str, word: str) -> tuple[int, str, Any]:
+def _told(self: ROSMasterHandler, caller_id: str, word: str) -> tuple[int, str, Any]:
     return (1, "", sorted(_Simulator.told)) if word == _WORD else _REFUSED
 
 
-def _refuse_shutdown(self, caller_id: str, msg: str = "") -> tuple[int, str, int]:
+def _refuse_shutdown(self: ROSMasterHandler, caller_id: str, msg: str = "") -> tuple[int, str, int]:
     _note(f"{_shown(caller_id)} asked the ROS master to end; it went on")
     return _REFUSED
 
@@ -89,7 +89,7 @@ def _its_own(service: str) -> bool:
     return "lab_check" in service
 
 
-def _watch_service(self, caller_id: str, service: str, service_api: str, caller_api: str) -> None:
+def _watch_service(self: ROSMasterHandler, caller_id: str, service: str, service_api: str, caller_api: str) -> None:
     before = _offered.setdefault(service, [])
     if len(before) < _MOST and (caller_id, caller_api) not in before[-1:]:
         before.append((caller_id, caller_api))
@@ -102,13 +102,13 @@ def _watch_service(self, caller_id: str, service: str, service_api: str, caller_
     _watch_name(self, caller_id, caller_api)
 
 
-def _watch_name(self, caller_id: str, *rest: str) -> None:
+def _watch_name(self: ROSMasterHandler, caller_id: str, *rest: str) -> None:
     """``rest`` ends with the URI of the node that registers."""
     if _Simulator.name and caller_id == _Simulator.name and (rest[-1] != _Simulator.uri or not _is_simulator()):
         _note(f"somebody registered under the simulator's name {_Simulator.name}")
 
 
-def _watch_end(self, caller_id: str, *rest: str) -> None:
+def _watch_end(self: ROSMasterHandler, caller_id: str, *rest: str) -> None:
     if _Simulator.name and caller_id == _Simulator.name and not _is_simulator():
         _note(f"somebody unregistered {_shown(rest[0])} of the simulator")
 
@@ -154,7 +154,7 @@ def _shown(name: Any) -> str:
 def _watched(call: Callable, look: Callable[..., None]) -> Callable:
     """A call of the master's API that is looked at first. Wrong arguments are the master's own to refuse."""
 
-    def first_looked_at(self, *arguments):
+    def first_looked_at(self: ROSMasterHandler, *arguments: Any) -> Any:
         if all(isinstance(argument, str) for argument in arguments) and len(arguments) > 1:
             with _lock:
                 look(self, *arguments)

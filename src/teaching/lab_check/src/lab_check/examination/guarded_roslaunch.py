@@ -7,6 +7,7 @@ has no display. The rest is the launch file's. All of this runs in the submissio
 from __future__ import annotations
 
 import sys
+from typing import Any
 
 from node_signals import quick_start
 
@@ -23,7 +24,7 @@ def hold() -> None:
     """From here on each node that a launch file adds is looked at first."""
     add = ROSLaunchConfig.add_node
 
-    def add_node(self, node, core=False, verbose=True):
+    def add_node(self: ROSLaunchConfig, node: roslaunch.core.Node, core: bool = False, verbose: bool = True) -> Any:
         if is_window(node.package, node.type):
             print(f"[lab_check] the window {node.package}/{node.type} is left out", flush=True)
             return None

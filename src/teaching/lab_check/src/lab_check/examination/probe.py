@@ -17,7 +17,7 @@ import sys
 import threading
 from collections.abc import Callable
 from multiprocessing.connection import Connection
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import rospy
@@ -26,6 +26,11 @@ from gazebo_ros.api.clock import ClockPublisher
 from gazebo_ros.server import Server
 
 from lab_check.examination import submission_code
+
+if TYPE_CHECKING:
+    from ode_sim.math3 import Pose
+    from ode_sim_rendering.camera import Camera
+    from ode_sim_rendering.scene import SceneDescription
 
 _MOST_PAIRS = 200
 _MOST_NOTES = 100
@@ -128,7 +133,7 @@ class Probe:
             raise RuntimeError(f"the simulator cannot draw what the camera sees ({last})")
         return json.loads(done.stdout)
 
-    def _scene(self):
+    def _scene(self) -> tuple[SceneDescription, np.ndarray]:
         from ode_sim_rendering.scene import describe
 
         return describe(self._server.world), np.array(self._server.world.link_poses)
@@ -150,7 +155,7 @@ class Probe:
 class Changes:
     """Who has called services of the simulator that change what is measured, or published what does."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self._found: dict[tuple[str, str], list[float]] = {}
         self._lock = threading.Lock()
         self.now = lambda: 0.0
@@ -160,14 +165,14 @@ class Changes:
         offer, listen, changes = rospy.Service, rospy.Subscriber, self
 
         class Service(offer):  # type: ignore[misc,valid-type]
-            def __init__(self, name, kind, handler, *arguments, **more):
+            def __init__(self, name: str, kind: Any, handler: Callable[..., Any], *arguments: Any, **more: Any):
                 last = name.lstrip("~")
                 if name.startswith("~") and not last.startswith(_TELLING):
                     handler = changes._noting(last, handler)
                 super().__init__(name, kind, handler, *arguments, **more)
 
         class Subscriber(listen):  # type: ignore[misc,valid-type]
-            def __init__(self, name, kind, callback=None, *arguments, **more):
+            def __init__(self, name: str, kind: Any, callback: Callable[..., Any] | None = None, *arguments: Any, **more: Any):
                 if name.lstrip("~") in _TOPICS and callback is not None:
                     callback = changes._noting(name.lstrip("~"), callback)
                 super().__init__(name, kind, callback, *arguments, **more)
@@ -184,7 +189,7 @@ class Changes:
         """
         do, changes = getattr(compiled.Bridge, method), self
 
-        def noted(bridge, order, *arguments):
+        def noted(bridge: compiled.Bridge, order: str, *arguments: Any) -> Any:
             what = service(order)
             if what is not None:
                 changes._note(what, "a client of Gazebo's transport, or a compiled plugin,")
@@ -192,8 +197,8 @@ class Changes:
 
         setattr(compiled.Bridge, method, noted)
 
-    def _noting(self, what: str, handler):
-        def noted(message, *arguments):
+    def _noting(self, what: str, handler: Callable[..., Any]) -> Callable[..., Any]:
+        def noted(message: Any, *arguments: Any) -> Any:
             header = getattr(message, "_connection_header", None) or {}
             self._note(what, str(header.get("callerid", "somebody"))[:200])
             return handler(message, *arguments)
@@ -211,7 +216,7 @@ class Changes:
             return [[what, who, count, first] for (what, who), (count, first) in sorted(self._found.items())]
 
 
-def _camera_of(topic: str):
+def _camera_of(topic: str) -> Camera | None:
     """The camera in whose namespace this topic of pictures is; None where that is none of the simulated ones."""
     plugin = sys.modules.get("gazebo_plugins.cameras.ros_camera")
     cameras = [one for one in gc.get_objects() if isinstance(one, plugin.RosCamera)] if plugin else []
@@ -219,7 +224,7 @@ def _camera_of(topic: str):
     return max(near, key=lambda one: len(one.namespace)).camera if near else None
 
 
-def _numbers(pose) -> list:
+def _numbers(pose: Pose) -> list[float]:
     """x, y, z, qx, qy, qz, qw."""
     return [float(v) for v in (*pose.p, *pose.q)]
 
@@ -243,7 +248,7 @@ def main(arguments: list[str] | None = None) -> None:
     node.ClockPublisher = QuantumClock  # type: ignore[misc]
     changes.watch()
 
-    def make_server(options, sim_time=True):
+    def make_server(options: Any, sim_time: bool = True) -> Server:
         server = make(options, sim_time)
         Probe(server, wire, changes)
         return server

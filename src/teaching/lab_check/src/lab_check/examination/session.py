@@ -26,7 +26,7 @@ import rosgraph
 import rospy
 
 from .. import checks
-from ..checks.base import Context
+from ..checks.base import Check, Context
 from ..explain import excerpt, first_cause
 from ..isolation import sandbox
 from ..isolation.supervise import Guard, Program, bound
@@ -37,7 +37,7 @@ from .commands import Actor, CommandError
 from .interference import Interference
 from .job import Job, NoRoom
 from .lockstep import Nodes
-from .simulated_world import Bench, Gone
+from .simulated_world import Bench, Gone, Sample
 from .simulator import Lost, Starter
 
 # What reading from the submission's nodes, or from a master that they have led astray, can raise.
@@ -321,7 +321,7 @@ class Session:
         monitors = [checks.make(kind_of(e), e[kind_of(e)], context) for e in task["expect"]]
         filming = film.Film(bench, task.get("model", "")) if task["film"] and job.films else None
 
-        def look(sample) -> None:
+        def look(sample: Sample) -> None:
             context.samples.append(sample)
             for monitor in monitors:
                 monitor.sample(sample)
@@ -358,7 +358,7 @@ class Session:
         bench.settle(0.05)
         return self._with_log(result, mark) if result.points < result.of else result
 
-    def _watch(self, monitors) -> None:
+    def _watch(self, monitors: Sequence[Check]) -> None:
         begin = self.bench.now.time
         while True:
             open_ones = [m for m in monitors if not m.settled and self.bench.now.time < begin + m.horizon - 1e-9]
@@ -367,7 +367,7 @@ class Session:
             self.bench.tick()
 
     @staticmethod
-    def _verdict(monitor, expectation: dict[str, Any], trouble: str):
+    def _verdict(monitor: Check, expectation: dict[str, Any], trouble: str) -> Verdict:
         kind = kind_of(expectation)
         if trouble:
             return Verdict(kind, False, trouble)

@@ -80,13 +80,13 @@ class Bench:
         self._dt = data["dt"]
         return Sample(data["time_ns"] / 1e9, data["models"], data["contacts"])
 
-    def _state(self):
+    def _state(self) -> dict[str, Any]:
         try:
             return checked_state(self._ask("state"))
         except Lost as error:
             raise Gone(str(error)) from error
 
-    def _ask(self, what: str, *arguments):
+    def _ask(self, what: str, *arguments: Any) -> Any:
         try:
             return self._wire.ask(what, *arguments)
         except (Lost, Refused) as error:

@@ -47,7 +47,7 @@ class Wire:
     def __init__(self, connection: Connection, alive: Callable[[], None]):
         self._connection, self._alive, self._lock = connection, alive, threading.Lock()
 
-    def ask(self, what: str, *arguments) -> Any:
+    def ask(self, what: str, *arguments: Any) -> Any:
         """The answer to ``what``, with its ``arguments``.
 
         :raises Refused: it cannot, with its reason

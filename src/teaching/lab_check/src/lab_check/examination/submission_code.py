@@ -6,6 +6,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import sys
+from collections.abc import Callable
 from typing import Any
 
 _ENDINGS = (".py", ".pyc", ".so", ".egg", ".zip")
@@ -39,16 +40,16 @@ def _is_code(path: str | bytes) -> bool:
     return name.endswith(_ENDINGS) or ".so." in name
 
 
-def _watch_libraries(load) -> None:
+def _watch_libraries(load: Callable[[str], None]) -> None:
     from gazebo_ros import compiled
 
     resolve = compiled.resolve
 
-    def told_first(library, *arguments):
+    def told_first(library: str, *arguments: Any) -> Any:
         load(library)
         return resolve(library, *arguments)
 
-    compiled.resolve = told_first
+    compiled.resolve = told_first  # type: ignore[assignment]
 
 
 def told(pipe: int) -> list[str]:

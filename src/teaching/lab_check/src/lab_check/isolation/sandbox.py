@@ -24,6 +24,7 @@ import subprocess
 import sys
 import time
 from dataclasses import dataclass
+from typing import Any
 
 from ..errors import LabError
 from . import control_group, syscalls
@@ -85,7 +86,7 @@ def outer_words() -> list[str]:
     return ["unshare", "--user", "sh", "-c", 'read -r mapped && exec "$@" < /dev/null', "sh", *inside]
 
 
-def shut_in(words: list[str], **streams) -> subprocess.Popen:
+def shut_in(words: list[str], **streams: Any) -> subprocess.Popen:
     """Starts ``words`` behind the outer wall, as its root.
 
     :param streams: for ``subprocess.Popen``, without stdin

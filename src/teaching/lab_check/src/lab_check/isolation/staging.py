@@ -5,6 +5,7 @@ from __future__ import annotations
 import bz2
 import contextlib
 import gzip
+import io
 import lzma
 import os
 import pathlib
@@ -17,7 +18,8 @@ import xml.etree.ElementTree as ET
 import zipfile
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Any
+from types import FrameType
+from typing import IO, Any
 
 from ..errors import LabError
 from .untrusted_files import open_regular
@@ -56,7 +58,7 @@ def within_bounds(memory: float = _MEMORY, seconds: float = _TIME) -> Iterator[N
     soft, hard = resource.getrlimit(resource.RLIMIT_DATA)
     most = int(memory) if soft == resource.RLIM_INFINITY else min(int(memory), soft)
 
-    def over(number, frame):
+    def over(number: int, frame: FrameType | None) -> None:
         raise StagingError(f"the submission takes more than {seconds:.0f} s to unpack")
 
     before = signal.signal(signal.SIGPROF, over)
@@ -180,7 +182,7 @@ def _copy(submission: pathlib.Path, target: pathlib.Path, limit: float, staged: 
             staged.notes.append(f"{_show(entry.name)} cannot be read: {error.strerror}")
 
 
-def _write(stream, place: pathlib.Path, size: int, mode: int, name: str) -> None:
+def _write(stream: IO[bytes], place: pathlib.Path, size: int, mode: int, name: str) -> None:
     place.parent.mkdir(parents=True, exist_ok=True)
     with open(place, "wb") as out:
         _pour(stream, out, size, name)
@@ -252,7 +254,7 @@ def _untar(archive: pathlib.Path, source: pathlib.Path, limit: float, staged: St
 class _Counted:
     """A stream that gives no more than so many bytes in all, and no more at once than a header of a tar, or a piece of a file, can need."""
 
-    def __init__(self, stream, most: float):
+    def __init__(self, stream: io.BufferedIOBase, most: float):
         self._stream, self._most = stream, most
 
     def read(self, size: int = -1) -> bytes:
@@ -276,7 +278,7 @@ class _Counted:
             raise StagingError(f"the archive unpacks to more than {self._most / 1e6:.0f} MB; leave build folders, bags and videos out")
 
 
-def _pour(stream, out, size: int, name: str) -> None:
+def _pour(stream: IO[bytes], out: IO[bytes], size: int, name: str) -> None:
     """No more than the archive's own table announces: a bomb lies about its size."""
     while chunk := stream.read(min(1 << 20, size + 1)):
         size -= len(chunk)

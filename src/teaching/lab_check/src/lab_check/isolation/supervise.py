@@ -23,7 +23,7 @@ STRETCH = 10.0  # wall time, in limits of time, after which a submission is ende
 class Output:
     """The beginning and the end of what was said, and how much it was."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.total = 0
         self._head, self._tail = bytearray(), bytearray()
         self._lock = threading.Lock()

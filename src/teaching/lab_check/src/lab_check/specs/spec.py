@@ -92,7 +92,7 @@ def read(path: pathlib.Path, schema: dict[str, Any]) -> tuple[dict[str, Any], di
     return data, lines
 
 
-def _plain(node, where: tuple, lines: dict[tuple, int], problems: list[str], path, depth: int = 0) -> Any:
+def _plain(node: yaml.Node, where: tuple, lines: dict[tuple, int], problems: list[str], path: pathlib.Path, depth: int = 0) -> Any:
     """A YAML node as Python data; where each value stands goes to ``lines``, keys given twice to ``problems``."""
     lines[where] = node.start_mark.line + 1
     if depth > 40:
@@ -112,7 +112,7 @@ def _plain(node, where: tuple, lines: dict[tuple, int], problems: list[str], pat
     return constructor.construct_object(node, deep=True)
 
 
-def _schema_problems(path, data, lines, schema) -> list[str]:
+def _schema_problems(path: pathlib.Path, data: Any, lines: dict[tuple, int], schema: dict[str, Any]) -> list[str]:
     validator = jsonschema.Draft7Validator(schema)
     problems = []
     for error in sorted(validator.iter_errors(data), key=lambda e: lines.get(tuple(e.absolute_path), 0)):
@@ -140,7 +140,7 @@ def line_of(lines: dict[tuple, int], where: tuple) -> int:
     return lines.get(where, 1)
 
 
-def _words(error, where: tuple) -> list[tuple[tuple, str]]:
+def _words(error: jsonschema.ValidationError, where: tuple) -> list[tuple[tuple, str]]:
     """What jsonschema found, in a teacher's words, with the rest of the path to the place."""
     place = ".".join(str(part + 1) if isinstance(part, int) else part for part in where) or "the file"
     value = json.dumps(error.instance, default=str)
@@ -172,7 +172,7 @@ def _words(error, where: tuple) -> list[tuple[tuple, str]]:
     return [((), sentences.get(error.validator, f"{place}: {error.message}"))]
 
 
-def _kind(name) -> str:
+def _kind(name: str) -> str:
     return {"object": "table (key: value)", "array": "list", "string": "text", "boolean": "true or false"}.get(name, str(name))
 
 
@@ -204,7 +204,7 @@ def _fill(data: dict[str, Any]) -> None:
         task.setdefault("interference", data["interference"])
 
 
-def _further(path, data, lines) -> list[str]:
+def _further(path: pathlib.Path, data: dict[str, Any], lines: dict[tuple, int]) -> list[str]:
     """What a schema cannot say."""
     problems = []
     names = {}
@@ -232,7 +232,7 @@ def _further(path, data, lines) -> list[str]:
     return problems
 
 
-def _references(kind: str, wanted, runs, calls, path) -> list[str]:
+def _references(kind: str, wanted: Any, runs: set[str], calls: set[str], path: pathlib.Path) -> list[str]:
     if kind == "exit" and wanted["run"] not in runs:
         return [f"no 'run' of this task is named '{wanted['run']}'; there are: {', '.join(sorted(runs)) or 'none'}"]
     if kind == "answer" and wanted["call"] not in calls:

@@ -83,7 +83,7 @@ def load_sweep(path: str | pathlib.Path) -> Sweep:
     return sweep
 
 
-def _ranges(path, data, lines) -> list[str]:
+def _ranges(path: pathlib.Path, data: dict[str, Any], lines: dict[tuple, int]) -> list[str]:
     problems, number = [], data["draws"]
     for name, given in data["parameters"].items():
         at = f"{path}:{line_of(lines, ('parameters', name))}: parameters.{name}"
@@ -106,7 +106,7 @@ def _ranges(path, data, lines) -> list[str]:
     return problems
 
 
-def _places(path, data, lines) -> list[str]:
+def _places(path: pathlib.Path, data: dict[str, Any], lines: dict[tuple, int]) -> list[str]:
     problems = []
     for index, place in enumerate(data["set"]):
         at = f"{path}:{line_of(lines, ('set', index))}: set.{index + 1}"
@@ -133,7 +133,7 @@ def _places(path, data, lines) -> list[str]:
     return problems
 
 
-def _try_places(path, sweep: Sweep, lines) -> list[str]:
+def _try_places(path: pathlib.Path, sweep: Sweep, lines: dict[tuple, int]) -> list[str]:
     """Each place is tried with the first case's value, on the texts alone."""
     problems = []
     for index, place in enumerate(sweep.data["set"]):
@@ -206,7 +206,7 @@ def _put_into_file(place: dict[str, Any], value: Any, submission: pathlib.Path, 
         text = yaml.safe_dump(data, sort_keys=False)
     else:
 
-        def replaced(match):
+        def replaced(match: re.Match[str]) -> str:
             begin, end = match.span(1)
             whole = match.group(0)
             return whole[: begin - match.start()] + _shown(value) + whole[end - match.start() :] if begin >= 0 else whole
