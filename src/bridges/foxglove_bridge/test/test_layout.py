@@ -2,6 +2,7 @@
 
 import io
 import json
+import os
 import tarfile
 from dataclasses import replace
 
@@ -117,8 +118,25 @@ def test_the_page_is_unpacked_and_nothing_beside_it(tmp_path, monkeypatch):
     ]  # fmt: skip
 
 
+def damaged(folder):
+    """An archive whose middle is other bytes."""
+    path = archive(folder, {"index.html": os.urandom(5000).hex()})
+    with open(path, "r+b") as file:
+        file.seek(2000)
+        file.write(bytes(500))
+    return path
+
+
+def cut(folder):
+    """An archive that broke off."""
+    path = archive(folder, {"index.html": os.urandom(5000).hex()})
+    os.truncate(path, 2000)
+    return path
+
+
 @pytest.mark.parametrize(
-    "make", [lambda folder: archive(folder, {"readme": "x"}), lambda folder: str(folder / "none.tar.gz"), lambda folder: __file__]
+    "make",
+    [damaged, cut, lambda folder: archive(folder, {"readme": "x"}), lambda folder: str(folder / "none.tar.gz"), lambda folder: __file__],
 )
 def test_what_is_no_page_is_said_in_a_line(tmp_path, monkeypatch, make):
     monkeypatch.setenv("LICHTBLICK_PAGE", str(tmp_path / "page"))
@@ -126,3 +144,14 @@ def test_what_is_no_page_is_said_in_a_line(tmp_path, monkeypatch, make):
     with pytest.raises(BridgeError) as caught:
         page.install(source, print)
     assert str(caught.value).startswith(source) and "\n" not in str(caught.value)
+    assert not page.installed() and not any(tmp_path.glob("page.new*"))
+
+
+def test_an_archive_that_is_none_leaves_the_page_that_is_there(tmp_path, monkeypatch):
+    monkeypatch.setenv("LICHTBLICK_PAGE", str(tmp_path / "page"))
+    page.install(archive(tmp_path, {"index.html": "old", "old.js": ""}), print)
+    with pytest.raises(BridgeError):
+        page.install(cut(tmp_path), print)
+    assert (tmp_path / "page/index.html").read_text() == "old"
+    page.install(archive(tmp_path, {"index.html": "new"}), print)
+    assert [path.name for path in (tmp_path / "page").iterdir()] == ["index.html"]

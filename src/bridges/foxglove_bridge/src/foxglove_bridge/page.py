@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import argparse
 import functools
+import gzip
+import http.client
 import http.server
 import json
 import os
+import shutil
 import signal
 import sys
 import tarfile
 import threading
 import urllib.request
+import zlib
 from collections.abc import Callable
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -45,32 +49,42 @@ def install(source: str, say: Callable[[str], None]) -> None:
     :param say: is told a line before what takes long
     :raises BridgeError: it cannot be had, or is no such archive
     """
+    place = folder()
+    made = place.with_name(place.name + ".new")
+    shutil.rmtree(made, ignore_errors=True)
     try:
         if urlsplit(source).scheme in ("http", "https"):
             say(f"fetching {source}")
-            with urllib.request.urlopen(source, timeout=60) as stream, tarfile.open(fileobj=stream, mode="r|gz") as archive:
-                _unpack(archive)
+            with urllib.request.urlopen(source, timeout=60) as stream:
+                _unpack(stream, made)
         else:
-            with tarfile.open(source, mode="r|*") as archive:
-                _unpack(archive)
-    except (OSError, EOFError, tarfile.TarError) as error:
+            with open(source, "rb") as stream:
+                _unpack(stream, made)
+        if not (made / "index.html").is_file():
+            raise BridgeError(f"{source} has no index.html: it should be lichtblick-web.tar.gz of one of Lichtblick's releases")
+        shutil.rmtree(place, ignore_errors=True)
+        made.rename(place)
+    except (OSError, EOFError, tarfile.TarError, zlib.error, http.client.HTTPException) as error:
         raise BridgeError(
             f"{source}: {getattr(error, 'reason', None) or error}; another way: --install FILE, an archive fetched elsewhere"
         ) from error
-    if not installed():
-        raise BridgeError(f"{source} has no index.html: it should be lichtblick-web.tar.gz of one of Lichtblick's releases")
+    finally:
+        shutil.rmtree(made, ignore_errors=True)
 
 
-def _unpack(archive: tarfile.TarFile) -> None:
-    """Its plain files; what would lie elsewhere is left out."""
-    for member in archive:
-        path = PurePosixPath(member.name)
-        stream = archive.extractfile(member) if member.isfile() else None
-        if stream is None or path.is_absolute() or ".." in path.parts:
-            continue
-        target = folder() / path
-        target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_bytes(stream.read())
+def _unpack(stream: Any, target: Path) -> None:
+    """The plain files of an archive into ``target``, to its last byte, which has its sum; what would lie elsewhere is left out."""
+    with gzip.GzipFile(fileobj=stream) as unzipped:
+        with tarfile.open(fileobj=unzipped, mode="r|") as archive:
+            for member in archive:
+                path = PurePosixPath(member.name)
+                content = archive.extractfile(member) if member.isfile() else None
+                if content is None or path.is_absolute() or ".." in path.parts:
+                    continue
+                (target / path).parent.mkdir(parents=True, exist_ok=True)
+                (target / path).write_bytes(content.read())
+        while unzipped.read(1 << 20):
+            pass
 
 
 class _Handler(http.server.SimpleHTTPRequestHandler):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import http
 import os
+import select
 import signal
 import subprocess
 import threading
@@ -11,7 +12,7 @@ import threading
 from ode_sim_viewer.website import LOOPBACK
 
 _COMMAND = ("rosrun", "foxglove_bridge", "lichtblick")
-_PATIENCE = 10.0  # s until what was begun has ended by itself
+_PATIENCE = 20.0  # s until what was begun has spoken, or ended by itself
 
 
 class Plots:
@@ -40,6 +41,9 @@ class Plots:
         except OSError as error:
             return f"{' '.join(_COMMAND)}: {error.strerror}"
         assert self._process.stdout is not None and self._process.stderr is not None
+        if not select.select([self._process.stdout], [], [], _PATIENCE)[0]:
+            self._end()
+            return f"{' '.join(_COMMAND)} has said nothing for {_PATIENCE:.0f} s; is there a ROS master?"
         line = self._process.stdout.readline()
         if not line:
             said = self._process.stderr.read().strip().splitlines()
@@ -50,12 +54,16 @@ class Plots:
 
     def close(self) -> None:
         with self._lock:
-            if self._process is not None and self._process.poll() is None:
-                os.killpg(self._process.pid, signal.SIGINT)
-                try:
-                    self._process.wait(_PATIENCE)
-                except subprocess.TimeoutExpired:
-                    os.killpg(self._process.pid, signal.SIGKILL)
+            self._end()
+
+    def _end(self) -> None:
+        if self._process is None or self._process.poll() is not None:
+            return
+        os.killpg(self._process.pid, signal.SIGINT)
+        try:
+            self._process.wait(_PATIENCE)
+        except subprocess.TimeoutExpired:
+            os.killpg(self._process.pid, signal.SIGKILL)
 
 
 def _line(text: str) -> tuple[http.HTTPStatus, dict[str, str], str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import threading
 from collections.abc import Callable
 from functools import partial
 from typing import Any
@@ -20,6 +21,7 @@ class ViewPanel(Panel):
 
     def __init__(self, page: Any):
         super().__init__(page)
+        self._doing, self._telling = threading.Lock(), threading.Lock()  # viser calls back from several threads at once
         self._switches: dict[str, tuple[Any, Callable[[bool], Any]]] = {}  # by label: the box, and what it does
         with page.commands:  # for the menu: a browser draws the boxes of a list that is not shown only when it is idle
             self._asked = self.gui.add_text("Switch", "")
@@ -58,24 +60,26 @@ class ViewPanel(Panel):
 
     def _tell(self) -> None:
         """What is on, a label a line, and what else the website shows; the frame reads it."""
-        on = [escaped(label) for label, (box, _) in self._switches.items() if box.value]
-        links = map(escaped, self.page.website.links)
-        self._told.content = f"<b id='switches'>{chr(10).join(on)}</b><b id='links'>{chr(10).join(links)}</b>"
+        with self._telling:
+            on = [escaped(label) for label, (box, _) in self._switches.items() if box.value]
+            links = map(escaped, self.page.website.links)
+            self._told.content = f"<b id='switches'>{chr(10).join(on)}</b><b id='links'>{chr(10).join(links)}</b>"
 
     def _on_asked(self, event: Any) -> None:
         """``[3, {"Shadows": true}]``: what the frame writes for the third entry that is chosen from its menu, with those just before it."""
         if event.client_id is None:
             return
-        try:
-            _, wanted = json.loads(event.target.value)
-            known = {label: bool(wanted[label]) for label in self._switches if label in wanted}
-        except (ValueError, TypeError):  # a page may send anything
-            return
-        for label, on in known.items():
-            box, f = self._switches[label]
-            if box.value != on:
-                box.value = on
-                self._switch(f, on)
+        with self._doing:  # who comes last reads last
+            try:
+                _, wanted = json.loads(event.target.value)
+                known = {label: bool(wanted[label]) for label in self._switches if label in wanted}
+            except (ValueError, TypeError):  # a page may send anything
+                return
+            for label, on in known.items():
+                box, f = self._switches[label]
+                if box.value != on:
+                    box.value = on
+                    self._switch(f, on)
 
     def _draw_as(self, name: str, on: bool) -> None:
         setattr(self.page.drawing, name, on)
