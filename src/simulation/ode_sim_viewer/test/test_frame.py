@@ -220,6 +220,16 @@ def test_menus_reach_every_list_and_show_what_is_on(window):
     window.click("Properties")
 
 
+def test_menus_and_their_entries_are_what_a_reader_of_the_screen_takes_them_for(window):
+    """WAI-ARIA: a menubar owns menuitems, a menu menuitems, also such as are checked, and separators."""
+    assert set(seen(window, "#menus > *", "e.getAttribute('role')")) == {"menuitem"}
+    for title in window.driver.find_elements("css selector", "#menus > *"):
+        title.click()
+        roles = seen(window, ".menu:not([hidden]) > *", "e.getAttribute('role') ?? e.tagName")
+        assert roles and set(roles) <= {"menuitem", "menuitemcheckbox", "HR"}, title.text
+        title.click()
+
+
 def test_a_menu_switches_what_it_shows_though_its_list_is_not_open(world, window):
     from selenium.webdriver.common.by import By
 

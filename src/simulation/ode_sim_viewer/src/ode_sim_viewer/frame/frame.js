@@ -174,7 +174,7 @@
   };
   const lists = new Map();
   for (const name of Object.keys(MENUS)) {
-    const title = element("button", { type: "button", "aria-haspopup": "menu", "aria-expanded": "false" }, name);
+    const title = element("button", { type: "button", role: "menuitem", "aria-haspopup": "menu", "aria-expanded": "false" }, name);
     const list = element("div", { class: "menu", role: "menu", "aria-label": name, hidden: "" });
     lists.set(title, list);
     const open = () => title.getAttribute("aria-expanded") === "true";
