@@ -241,8 +241,9 @@
     picked = what;
     document.documentElement.dataset.list = list ?? "";
     name();
-    for (const notice of document.querySelectorAll(".mantine-Notification-root"))  // the foot says it
-      if (notice.textContent.includes("Software WebGL")) notice.querySelector("button")?.click();
+    for (const notice of document.querySelectorAll(".mantine-Notification-root:not([data-looked])"))  // not seen until then
+      if (notice.textContent.includes("Software WebGL")) notice.querySelector("button")?.click();  // the foot says it
+      else notice.dataset.looked = "";
   }
   // For who hears the page: a field is named by the label before it, where viser ties none to it.
   function name() {
