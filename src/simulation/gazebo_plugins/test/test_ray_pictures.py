@@ -2,6 +2,7 @@
 
 import pytest
 from gazebo_plugins.sensors import ray_pictures
+from ode_sim_rendering import devices as drawing
 
 CARD, SOFTWARE = "0000:65:00.0", "software"
 
@@ -30,5 +31,5 @@ def test_who_measures_by_pictures(monkeypatch, kind, rays, devices, environment,
         monkeypatch.delenv(name, raising=False)
     for name, value in environment.items():
         monkeypatch.setenv(name, value)
-    monkeypatch.setattr(ray_pictures, "devices", lambda: devices)
+    monkeypatch.setattr(drawing, "devices", lambda: devices)
     assert ray_pictures.wanted(kind, rays) == expected

@@ -19,10 +19,9 @@ from rosgraph_msgs.msg import Clock
 from foxglove_bridge import assets
 from foxglove_bridge.parameters import Parameters
 from foxglove_bridge.services import Services
-from foxglove_bridge.settings import SettingError, Settings, allowed, unknown
+from foxglove_bridge.settings import TRIES, SettingError, Settings, allowed, unknown
 from foxglove_bridge.topics import Published, Topics, now_ns
 
-TRIES = 50  # ports, one after the other, where a program finds its own
 FIRST_LOOK, SLOWER = 0.2, 1.5  # s between looks at the graph, which grow while nothing changes
 _KNOWN = {
     "clientPublish": Capability.ClientPublish,

@@ -22,12 +22,11 @@ from typing import Any
 from urllib.parse import quote, urlencode, urlsplit
 
 from foxglove_bridge.layout import Running, layout
-from foxglove_bridge.settings import BridgeError
+from foxglove_bridge.settings import TRIES, BridgeError
 
 VERSION = "1.28.1"
 ARCHIVE = f"https://github.com/lichtblick-suite/lichtblick/releases/download/v{VERSION}/lichtblick-web.tar.gz"
 PORT = 8766  # the next after the bridge's; the first free one from there
-_TRIES = 50
 _LOOPBACK = ("localhost", "127.0.0.1", "::1")
 
 
@@ -132,13 +131,13 @@ class Page(http.server.ThreadingHTTPServer):
 
     def __init__(self, port: int, bridge: int, running: Callable[[], Running]) -> None:
         self.bridge, self.running = bridge, running
-        for candidate in range(port, port + _TRIES) if port else (0,):
+        for candidate in range(port, port + TRIES) if port else (0,):
             try:
                 super().__init__(("127.0.0.1", candidate), functools.partial(_Handler, directory=str(folder())))
                 return
             except OSError:
                 continue
-        raise BridgeError(f"no port from {port} to {port + _TRIES - 1} is free; choose another one with --port")
+        raise BridgeError(f"no port from {port} to {port + TRIES - 1} is free; choose another one with --port")
 
     @property
     def address(self) -> str:

@@ -9,6 +9,7 @@ from typing import Any
 
 CAPABILITIES = ("clientPublish", "parameters", "parametersSubscribe", "services", "connectionGraph", "assets")
 MESHES = r"package://[-\w]+(/[-\w. %]+)+\.(dae|fbx|glb|gltf|jpe?g|mtl|obj|png|stl|tiff?|urdf|webp|xacro)"
+TRIES = 50  # ports, one after the other, where a program finds its own
 NOT_HERE = ("tls", "certfile", "keyfile", "use_compression", "send_buffer_limit")
 
 

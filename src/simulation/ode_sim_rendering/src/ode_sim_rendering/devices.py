@@ -64,3 +64,13 @@ def index_of(wanted: str, known: Sequence[str]) -> int:
         return list(known).index(full)
     there = ", ".join(f"{number} ({name})" for number, name in enumerate(known)) or "none"
     raise UnknownDevice(f"there is no device '{wanted}' to draw on; there is {there}")
+
+
+def card_draws() -> bool:
+    """Whether pictures come from a graphics card, as far as can be told before one is drawn: a driver may still fail."""
+    known, chosen = devices(), os.environ.get("ODE_SIM_GL_DEVICE", "")
+    try:
+        first = known[index_of(chosen, known) if chosen else 0] if known else SOFTWARE
+    except UnknownDevice:
+        first = known[0]
+    return first != SOFTWARE and os.environ.get("ODE_SIM_GL", "") != "osmesa"

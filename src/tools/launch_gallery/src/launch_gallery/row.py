@@ -30,7 +30,7 @@ def _number(value: float, unit: str) -> str:
     return f"{value:.3f} {unit}" if abs(value) >= 0.0005 else f"{value:.0e} {unit}" if abs(value) > 1e-9 else f"0 {unit}"
 
 
-def straight(found: dict) -> str:
+def straight(found: dict) -> str | list[str]:
     parts = []
     for name, along, across in (("straight", "ahead", "left"), ("aside", "left", "ahead")):
         if name in found:
@@ -40,7 +40,7 @@ def straight(found: dict) -> str:
                 f"{'' if name == 'straight' else 'left '}{motion[along]:.3f} of {wanted:.3f} m"
                 f" (aside {_number(motion[across], 'm')}, {_number(motion['turned'], 'rad')})"
             )
-    return "<br>".join(parts) or "-"
+    return parts if len(parts) > 1 else "".join(parts) or "-"
 
 
 def turn(found: dict, wheelbase: float) -> str:
@@ -74,14 +74,14 @@ def drift(found: dict) -> str:
     return f"{_number(_way(motion), 'm')}, {_number(abs(motion['turned']), 'rad')}{span}{fallen}"
 
 
-def sensors(found: dict) -> str:
+def sensors(found: dict) -> list[str]:
     """Each topic with its rate and what it says; joints and odometry last."""
     lines: list[str] = []
     for sensor in sorted(found.get("sensors", ()), key=lambda sensor: sensor["kind"] in _PLAIN):
         rate = "silent" if sensor["rate"] is None else f"{sensor['rate']:.1f} Hz"
         says = f" ({sensor['says']})" if sensor["says"] and sensor["says"] != rate else ""
         lines.append(f"{sensor['topic']} {rate}{says}")
-    return "<br>".join(lines) or "-"
+    return lines
 
 
 def reach(found: dict) -> list[str]:
@@ -100,8 +100,8 @@ def row(robot: str, repository: str, launch: str, found: dict, wheelbase: float)
         "straight": straight(found),
         "turn": turn(found, wheelbase),
         "drift in 60 s": drift(found),
-        "sensors": sensors(found).split("<br>"),
+        "sensors": sensors(found),
         "notes": "; ".join(reach(found) + found["notes"]) or "-",
     }
-    entry = {key: value for key, value in said.items() if value not in ("-", ["-"])}
+    entry = {key: value for key, value in said.items() if value not in ("-", [])}
     return yaml.safe_dump([entry], sort_keys=False, width=130, allow_unicode=True).strip()

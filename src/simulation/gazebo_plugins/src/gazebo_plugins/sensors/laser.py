@@ -73,11 +73,13 @@ class RayFan:
         return rays, self._retro(hits)
 
     def _by_pictures(self, server, sensor) -> RayPictures | None:
-        across, up = self.horizontal, self.vertical
+        across, up = (_core.RayScan(scan.samples, 1.0, scan.min_angle, scan.max_angle) for scan in (self.horizontal, self.vertical))
         if not ray_pictures.wanted(sensor.type, across.samples * up.samples):
             return None
+        rays = _core.RayFan(across, up, self.min, self.max).told_directions.reshape(up.samples, across.samples, 3)
+        yaws, pitches = np.unwrap(np.arctan2(rays[0, :, 1], rays[0, :, 0])), np.arcsin(rays[:, 0, 2])
         try:
-            return RayPictures(server, sensor, _angles(across), _angles(up), self.min, self.max)
+            return RayPictures(server, sensor, yaws, pitches, self.min, self.max)
         except CameraError as error:
             rospy.logwarn("sensor %s casts its rays against collisions: %s", sensor.scoped_name, error)
             return None
@@ -91,11 +93,6 @@ class RayFan:
         ids, places = np.unique(hits, return_inverse=True)
         collisions = [self.world.collision(index) for index in ids]
         return np.array([collision.laser_retro if collision else 0.0 for collision in collisions])[places]
-
-
-def _angles(scan: _core.RayScan) -> np.ndarray:
-    """Of each ray, rad; a single one looks straight ahead."""
-    return np.linspace(scan.min_angle, scan.max_angle, scan.samples) if scan.samples > 1 else np.zeros(1)
 
 
 def _scan(scan: SdfElement | None, direction: str, samples: int) -> _core.RayScan:

@@ -9,7 +9,7 @@ import rospy
 from gazebo_ros.studio import Shooting
 from ode_sim_rendering import Camera
 from ode_sim_rendering.camera import Fan
-from ode_sim_rendering.devices import SOFTWARE, UnknownDevice, devices, index_of
+from ode_sim_rendering.devices import card_draws
 
 VARIABLE = "ODE_SIM_GPU_RAY"
 _KINDS = ("gpu_ray", "gpu_lidar")
@@ -28,16 +28,7 @@ def wanted(kind: str, rays: int) -> bool:
     if told not in ("auto", "pictures", "rays"):
         rospy.logwarn_once("%s is '%s'; use pictures, rays or auto", VARIABLE, told)
         told = "auto"
-    return kind in _KINDS and (told == "pictures" or told == "auto" and rays >= _WORTH_IT and _card())
-
-
-def _card() -> bool:
-    known, chosen = devices(), os.environ.get("ODE_SIM_GL_DEVICE", "")
-    try:
-        first = known[index_of(chosen, known) if chosen else 0] if known else SOFTWARE
-    except UnknownDevice:
-        first = known[0]
-    return first != SOFTWARE and os.environ.get("ODE_SIM_GL", "") != "osmesa"
+    return kind in _KINDS and (told == "pictures" or told == "auto" and rays >= _WORTH_IT and card_draws())
 
 
 class RayPictures:
@@ -54,18 +45,14 @@ class RayPictures:
         fan = Fan(tuple(map(float, yaws)), tuple(map(float, pitches)))
         self._count = len(yaws) * len(pitches)
         self._shooting = Shooting(server, camera, f"sensor '{sensor.name}' of model '{sensor.model.name}'", fan=fan)
-        self._taken: np.ndarray | None = None
 
     def cast(self) -> tuple[np.ndarray, np.ndarray] | None:
         """(V*H,) ranges in m, +inf for none, and retros; None when no picture came, then or before."""
         if self._shooting.failed:
             return None
-        self._taken = None
-        self._shooting.shoot(("rays",), self._take)
-        return None if self._taken is None else (self._taken[0].astype(float), self._taken[1].astype(float))
-
-    def _take(self, frame) -> None:
-        self._taken = np.frombuffer(frame.data["rays"], np.float32).reshape(2, self._count).copy()
+        taken: list[np.ndarray] = []
+        self._shooting.shoot(("rays",), lambda frame: taken.append(np.frombuffer(frame.data["rays"], np.float32).astype(float)))
+        return (taken[0][: self._count], taken[0][self._count :]) if taken else None
 
     def close(self) -> None:
         self._shooting.close()
