@@ -14,34 +14,35 @@ using ignition::math::Vector3d;
 
 void Joint::SetAxis(unsigned int index, const Vector3d& direction)
 {
-  auto* axis = axis_of(core_, index);
+  auto* axis = settings(index);
   if (!axis || !(direction.Length() > 1e-9) || !direction.IsFinite())
     return;
-  const auto model = boost::dynamic_pointer_cast<Model>(GetParent() ? GetParent() : BasePtr());
-  const Vector3d world = model ? model->WorldPose().Rot().RotateVector(direction) : direction;
-  axis->xyz = ode(ParentWorldPose().Rot().RotateVectorReverse(world.Normalized()));
-  core_->model->dirty = true;
+  const Vector3d world = AxisFrame(index).RotateVector(direction.Normalized());
+  axis->xyz = ode(ParentWorldPose().Rot().RotateVectorReverse(world));
+  changed();
 }
 
 Vector3d Joint::LocalAxis(unsigned int index) const
 {
-  const auto* axis = axis_of(core_, index);
+  const auto* axis = settings(index);
   return axis ? ign(axis->xyz) : Vector3d();
 }
 
 // The first axis goes with the parent, the second with the child.
 Vector3d Joint::GlobalAxis(unsigned int index) const
 {
-  const auto* axis = axis_of(core_, index);
-  return axis ? ign(rotate(index == 0 ? core_->frame_W().q : core_->child_frame_W().q, axis->xyz)) : Vector3d();
+  return (index == 0 ? ParentWorldPose() : WorldPose()).Rot().RotateVector(LocalAxis(index));
 }
 
 Vector3d Joint::Anchor(unsigned int) const { return WorldPose().Pos(); }
 
-Pose3d Joint::InitialAnchorPose() const { return core_ ? ign(core_->X_CJ) : Pose3d(); }
+Pose3d Joint::InitialAnchorPose() const { return ign(wanted().X_CJ); }
 Pose3d Joint::WorldPose() const
 {
-  return core_ ? ign(core_->child->X_WL * core_->X_CJ) : child_ ? child_->WorldPose() : Pose3d();
+  if (core_)
+    return ign(core_->child_frame_W());
+  const LinkPtr& link = child_ ? child_ : parent_;
+  return link ? ign(link->Core()->X_WL * wanted().X_CJ) : Pose3d();
 }
 Pose3d Joint::ParentWorldPose() const { return core_ ? ign(core_->frame_W()) : WorldPose(); }
 
@@ -57,7 +58,7 @@ double Joint::InertiaRatio(const Vector3d& axis) const
 
 double Joint::GetWorldEnergyPotentialSpring(unsigned int index) const
 {
-  const auto* axis = axis_of(core_, index);
+  const auto* axis = settings(index);
   if (!axis)
     return 0.0;
   const double stretched = Position(index) - axis->spring_reference;

@@ -374,7 +374,6 @@ void Mirror::before(int64_t time_ns)
   now_ns_ = time_ns;
   if (host.clock)
     host.clock(time_ns * 1e-9);
-  tell_of_refused_joints(time_ns);
   common::UpdateInfo info;
   info.worldName = world_->Name();
   info.simTime = world_->SimTime();

@@ -89,9 +89,6 @@ public:
   };
 };
 
-/// One line for each joint that plugins asked for, and that cannot be made.
-void tell_of_refused_joints(int64_t now_ns);
-
 class GAZEBO_VISIBLE Mirror : public ode_sim::StepObserver
 {
 public:

@@ -222,7 +222,7 @@ double Model::GetWorldEnergyKinetic() const
   return sum;
 }
 
-JointPtr Model::CreateJoint(const std::string& name, const std::string& type, LinkPtr parent, LinkPtr child)
+JointPtr Model::newJoint(const std::string& name, const std::string& type)
 {
   if (GetJoint(name))
   {
@@ -230,25 +230,38 @@ JointPtr Model::CreateJoint(const std::string& name, const std::string& type, Li
     return JointPtr();
   }
   const JointPtr joint = GetWorld()->Physics()->CreateJoint(type, shared_from_this());
+  joint->SetName(name);
+  joints_.push_back(joint);
+  AddChild(joint);
+  return joint;
+}
+
+JointPtr Model::CreateJoint(const std::string& name, const std::string& type, LinkPtr parent, LinkPtr child)
+{
+  const JointPtr joint = newJoint(name, type);
   if (!joint)
     return joint;
-  joint->SetName(name);
   joint->Attach(parent, child);
   joint->Load(parent, child, ignition::math::Pose3d());
   joint->Init();
-  joints_.push_back(joint);
-  AddChild(joint);
+  return joint;
+}
+
+JointPtr Model::CreateJoint(sdf::ElementPtr sdf)
+{
+  const JointPtr joint = newJoint(sdf->Get<std::string>("name"), sdf->Get<std::string>("type"));
+  if (!joint)
+    return joint;
+  joint->Load(sdf);
+  joint->Init();
   return joint;
 }
 
 bool Model::RemoveJoint(const std::string& name)
 {
   const JointPtr joint = GetJoint(name);
-  if (!joint || joint->Core())
-  {
-    refused(GetScopedName() + ": RemoveJoint('" + name + "') takes joints that a plugin has made");
+  if (!joint)
     return false;
-  }
   joint->Detach();
   joints_.erase(std::find(joints_.begin(), joints_.end(), joint));
   RemoveChild(BasePtr(joint));

@@ -90,13 +90,17 @@ void find_carriers(const Scene& scene, Model& model) {
     Cluster& c = model.clusters[l.cluster];
     if (l.moving && (!c.root || model.loop)) l.carrier = c.carriers = true;
   };
-  for (auto& j : model.joints)
-    if (!j->merged())
-      for (Link* l : {j->parent, j->child})
-        if (l) {
-          model.clusters[l->cluster].has_joints = true;
-          carry(*l);
-        }
+  const auto hang = [&](const Model& from) {
+    for (auto& j : from.joints)
+      if (!j->merged())
+        for (Link* l : {j->parent, j->child})
+          if (l && l->model == &model) {
+            model.clusters[l->cluster].has_joints = true;
+            carry(*l);
+          }
+  };
+  hang(model);
+  if (scene.bonds) hang(*scene.bonds);
   for (auto& t : scene.welds)
     for (Link* l : {t.parent.get(), t.child.get()})
       if (l && l->model == &model) carry(*l);

@@ -158,6 +158,7 @@ void reassemble(Scene& scene) {
       m->loop = false;
       assemble(scene, *m);
     }
+  if (scene.bonds) assemble(scene, *scene.bonds);  // last: its joints hang on the bodies of the others
   plan_carried(scene);
   // The bodies of what the new plan has carried give up again what they are carried with.
   for (Cluster* c : scene.carried) {

@@ -79,6 +79,7 @@ bool may_touch(const Scene& scene, const Shape& a, const Shape& b) {
     if (la.cluster == lb.cluster && !la.moving && !lb.moving) return false;
     if (la.model->jointed.count(std::minmax(la.id, lb.id))) return false;
   }
+  if (scene.bonds && scene.bonds->jointed.count(std::minmax(la.id, lb.id))) return false;
   return !welded(scene, la, lb);
 }
 

@@ -209,13 +209,13 @@ bool World::set_joint_position(Joint& j, int axis, double q) {
   for (Link* l : beyond) {
     l->X_WL = normalized(X * l->X_WL);
     l->v = l->w = {};
+    l->model->dirty = true;
   }
   a.q = q;
   a.qd = 0;
   j.target = j.previous_target = q;
   j.rate = 0;
-  wake(scene_, *j.model);
-  j.model->dirty = true;
+  wake(scene_, *j.child->model);
   refresh();
   read_back(scene_);
   return true;
@@ -223,6 +223,8 @@ bool World::set_joint_position(Joint& j, int axis, double q) {
 
 void World::set_drive(Joint& j, double target) {
   if (j.turns() == 0 && j.slides() == 0) return;
+  if (j.model == scene_.bonds.get())
+    throw std::invalid_argument("a joint that came while the world ran follows no position command");
   const Axis& a = j.axes[0];
   j.target = limited(std::min(std::max(target, a.lower), a.upper), kFarthest, "a position command");
   if (j.drive != DriveMode::Off) return;

@@ -52,7 +52,7 @@ Load load_beyond(const Scene& scene, StepState& state, Joint& j) {
   return load;
 }
 
-// What contacts and welds give the load, about its anchor.
+// What contacts, welds and joints that came while the world ran give the load, about its anchor.
 void add_outer_forces(const Scene& scene, const StepState& state, const Load& load, Vec3& force, Vec3& torque) {
   auto beyond = [&](const Link* l) { return std::find(load.links->begin(), load.links->end(), l) != load.links->end(); };
   for (auto& c : state.contacts) {
@@ -70,6 +70,15 @@ void add_outer_forces(const Scene& scene, const StepState& state, const Load& lo
     const Vec3 f = vec(first ? t.feedback.f1 : t.feedback.f2), at = vec(dBodyGetPosition(dJointGetBody(joint, first ? 0 : 1)));
     force += f;
     torque += vec(first ? t.feedback.t1 : t.feedback.t2) + cross(at - load.anchor, f);
+  }
+  if (!scene.bonds) return;
+  for (auto& j : scene.bonds->joints) {
+    const bool child = beyond(j->child), parent = j->parent && beyond(j->parent);
+    if (child == parent) continue;
+    const Feedback& its = j->feedback;
+    force += child ? its.child_force : its.parent_force;
+    torque += (child ? its.child_torque : its.parent_torque) +
+              cross(j->frame_W().p - load.anchor, child ? its.child_force : its.parent_force);
   }
 }
 

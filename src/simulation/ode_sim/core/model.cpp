@@ -6,7 +6,7 @@
 namespace ode_sim {
 
 const std::vector<Link*>& links_beyond(Joint& joint, bool* loop) {
-  const int visit = ++joint.model->visits;
+  const int visit = ++joint.child->model->visits;
   std::vector<Link*>& out = joint.beyond;
   out.assign(1, joint.child);
   joint.child->visit = visit;

@@ -142,8 +142,8 @@ struct Model {
   double mass = 0;        // kg, of all links
   bool finished = false;  // built, and part of the shared arrays
   std::vector<std::shared_ptr<Link>> links;
-  std::vector<std::shared_ptr<Joint>> joints;
-  std::set<std::pair<int, int>> jointed;  // ids of links that a joint connects: they never collide
+  std::vector<std::shared_ptr<Joint>> joints, gone;  // gone: those that let go, for whom still holds them
+  std::set<std::pair<int, int>> jointed;             // ids of links that a joint connects: they never collide
 
   // What follows from it for the time being, see assembly.cpp.
   bool dirty = true;     // to be put together anew

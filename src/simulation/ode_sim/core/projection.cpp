@@ -167,7 +167,7 @@ class TreePlan {
 void plan_tree(Model& model) {
   model.tree.clear();
   model.tree_heads.clear();
-  TreePlan(model).make();
+  if (!model.links.empty()) TreePlan(model).make();
 }
 
 }  // namespace ode_sim

@@ -75,6 +75,9 @@ void publish(Scene& scene, const std::function<bool(const Joint&)>& known) {
       }
     }
   }
+  if (!scene.bonds) return;
+  for (auto& j : scene.bonds->joints)  // not in the arrays
+    if (!known(*j)) read_joint(*j);
 }
 
 void read_back(Scene& scene) {

@@ -64,6 +64,8 @@ struct Scene {
   std::vector<std::shared_ptr<Model>> models;
   std::map<int, Shape*> shapes;  // by id
   std::vector<Weld> welds;
+  std::shared_ptr<Model>
+      bonds;  // without links: of the joints that came while the world ran, see connections.cpp; null: none ever did
   BroadPhase broad_phase;
   MeshPieces mesh_pieces;
   Separations separations;

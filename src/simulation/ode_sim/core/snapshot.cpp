@@ -160,6 +160,14 @@ void visit(F& f, Link& l) {
   all(dBodyGetAngularVel(l.body), 3);
 }
 
+// Those that a snapshot tells of: that of joints which came while the world ran is none of them while there are no such joints.
+std::vector<Model*> told(const Scene& scene) {
+  std::vector<Model*> models;
+  for (auto& m : scene.models)
+    if (m != scene.bonds || !m->joints.empty()) models.push_back(m.get());
+  return models;
+}
+
 // All that a snapshot holds, in its order, but for what depends on the plan of clusters: see restore.
 template <class F>
 void walk(F& f, Scene& scene) {
@@ -169,8 +177,9 @@ void walk(F& f, Scene& scene) {
     f.number(*v);
   f.flag(set.like_gazebo);
   f.number(set.iters), f.number(set.max_contacts), f.number(set.seed), f.number(scene.iterations), f.number(scene.time_ns);
-  f.same(static_cast<int>(scene.models.size()), kOtherModels);
-  for (auto& m : scene.models) {
+  const std::vector<Model*> models = told(scene);
+  f.same(static_cast<int>(models.size()), kOtherModels);
+  for (Model* m : models) {
     f.same(m->id, kOtherModels);
     f.same(static_cast<int>(m->joints.size()), kOtherModels);
     f.same(static_cast<int>(m->links.size()), kOtherModels);
@@ -249,7 +258,7 @@ Relations relations_of(const Scene& scene) {
   Relations r;
   r.borne = scene.borne;
   for (auto& t : scene.welds) r.welds.push_back({t.parent ? t.parent->id : -1, t.child->id, t.X_PC, t.feedback});
-  for (auto& m : scene.models) {
+  for (const Model* m : told(scene)) {
     r.exempt.emplace_back(m->exempt.begin(), m->exempt.end());
     for (auto& j : m->joints)
       if (const auto leader = j->leader.lock()) r.leaders[j->id] = leader->id;
@@ -282,8 +291,9 @@ class Plan {
     visit(look_on, relations_);
     if (look_on.at != end_) refuse("it is too long");
     if (relations_.welds.size() != weld_ids.size()) refuse("it does not name its attachments");
-    if (relations_.exempt.size() != scene.models.size()) refuse(kOtherModels);
-    for (auto& m : scene.models) {
+    const std::vector<Model*> models = told(scene);
+    if (relations_.exempt.size() != models.size()) refuse(kOtherModels);
+    for (Model* m : models) {
       for (auto& l : m->links) links_[l->id] = l;
       for (auto& j : m->joints) joints_[j->id] = j;
     }
@@ -305,12 +315,14 @@ class Plan {
       joint->leader = leader == relations_.leaders.end() ? std::weak_ptr<Joint>() : joints_[leader->second];
     }
     // Putting clusters together places their bodies; where these truly were comes from the snapshot once more, afterwards.
-    for (size_t i = 0; i < scene_.models.size(); ++i) {
-      Model& m = *scene_.models[i];
+    const std::vector<Model*> models = told(scene_);
+    for (size_t i = 0; i < models.size(); ++i) {
+      Model& m = *models[i];
       m.exempt = {relations_.exempt[i].begin(), relations_.exempt[i].end()};
       judge_masses(m);
-      assemble(scene_, m);
+      if (&m != scene_.bonds.get()) assemble(scene_, m);
     }
+    if (scene_.bonds) assemble(scene_, *scene_.bonds);
     plan_carried(scene_);
     put_to_rest();
     read_numbers();

@@ -66,8 +66,12 @@ void recompose(Scene& scene, Model& m, Cluster& c) {
   compose(c);
   place_cluster(c);
   if (!c.has_joints) return;
-  for (auto& j : m.joints)
-    if (j->joint && ((j->parent && &cluster_of(*j->parent) == &c) || &cluster_of(*j->child) == &c)) install(scene, *j);
+  const auto renew = [&](const Model& of) {
+    for (auto& j : of.joints)
+      if (j->joint && ((j->parent && &cluster_of(*j->parent) == &c) || &cluster_of(*j->child) == &c)) install(scene, *j);
+  };
+  renew(m);
+  if (scene.bonds) renew(*scene.bonds);
 }
 
 bool drives_move(const Cluster& c) {

@@ -41,7 +41,7 @@ class Search {
   }
   void begin_with(const Cluster& c) {
     for (const Link* l : c.members) add_shapes(*l, shapes_);
-    take_welded(c);
+    take_bound(c);
   }
   std::vector<Cluster*> run() {
     for (size_t i = 0; i < shapes_.size() && !left_.empty(); ++i)
@@ -72,14 +72,18 @@ class Search {
     }
   }
 
-  void take_welded(const Cluster& c) {
-    for (auto& t : scene_.welds) {
-      if (!t.parent) continue;
-      const Cluster &a = cluster_of(*t.parent), &b = cluster_of(*t.child);
-      if (&a != &c && &b != &c) continue;
+  // By welds, or by joints that came while the world ran.
+  void take_bound(const Cluster& c) {
+    const auto look = [&](const Link* parent, const Link& child) {
+      if (!parent) return;
+      const Cluster &a = cluster_of(*parent), &b = cluster_of(child);
+      if (&a != &c && &b != &c) return;
       const Cluster* other = &a == &c ? &b : &a;
       take([&](const Cluster& d) { return &d == other; });
-    }
+    };
+    for (auto& t : scene_.welds) look(t.parent.get(), *t.child);
+    if (scene_.bonds)
+      for (auto& j : scene_.bonds->joints) look(j->parent, *j->child);
   }
 };
 

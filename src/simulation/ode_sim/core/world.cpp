@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "geometry.hpp"
 #include "phases.hpp"
@@ -20,6 +21,7 @@ World::World() {
 World::~World() {
   const OdeScope scope;                               // whichever thread it ends in
   for (auto& m : scene_.models) m->finished = false;  // nobody asks for the rest each time that one goes
+  if (scene_.bonds) remove_model(*std::exchange(scene_.bonds, nullptr));
   while (!scene_.models.empty()) remove_model(*scene_.models.back());
   scene_.step_joints.reset();
   scene_.ode.reset();
@@ -56,6 +58,11 @@ void World::remove_model(Model& model) {
     const Weld& t = scene_.welds[i];
     if ((t.parent && t.parent->model == &model) || t.child->model == &model) unweld(t.id);
   }
+  if (const auto bonds = scene_.bonds; bonds && bonds.get() != &model)
+    for (size_t i = bonds->joints.size(); i-- > 0;) {
+      Joint& j = *bonds->joints[i];
+      if ((j.parent && j.parent->model == &model) || j.child->model == &model) disconnect(j);
+    }
   for (auto& m : scene_.models)
     for (auto& j : m->joints)
       if (const auto leader = j->leader.lock(); leader && leader->model == &model) j->leader.reset();  // it holds its position
@@ -107,7 +114,8 @@ static int axes_of(JointType type) {
   }
 }
 
-std::shared_ptr<Joint> World::add_joint(Model& model, JointType type, Link* parent, Link& child, const Pose& X_CJ) {
+// Of the model; the links do not know of it yet.
+std::shared_ptr<Joint> World::make_joint(Model& model, JointType type, Link* parent, Link& child, const Pose& X_CJ) {
   auto joint = std::make_shared<Joint>();
   joint->id = next_joint_++;
   joint->model = &model;
@@ -122,6 +130,11 @@ std::shared_ptr<Joint> World::add_joint(Model& model, JointType type, Link* pare
   joint->index = static_cast<int>(model.joints.size());
   model.joints.push_back(joint);
   model.dirty = true;
+  return joint;
+}
+
+std::shared_ptr<Joint> World::add_joint(Model& model, JointType type, Link* parent, Link& child, const Pose& X_CJ) {
+  auto joint = make_joint(model, type, parent, child, X_CJ);
   if (!joint->holds()) return joint;
   if (!child.parent_joint) child.parent_joint = joint.get();
   child.joints.push_back(joint.get());

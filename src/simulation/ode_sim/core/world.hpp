@@ -59,6 +59,10 @@ class World {
   void refresh();                    // brings clusters up to date
   void disturb(const Model& model);  // before its shapes change: what touches it wakes
 
+  // Joints that come and go while the world runs, see connections.cpp.
+  std::shared_ptr<Joint> connect(JointType type, Link* parent, Link& child, const Pose& X_CJ);
+  void disconnect(Joint& joint);  // also one of a description; for good
+
   int weld(std::shared_ptr<Link> parent, std::shared_ptr<Link> child);
   void unweld(int id);
   void unweld_all();
@@ -75,6 +79,7 @@ class World {
   int next_weld_ = 1, next_model_ = 0, next_link_ = 0, next_joint_ = 0, next_shape_ = 0;
 
   bool owns(const Model* model) const { return model && model->world == this; }
+  std::shared_ptr<Joint> make_joint(Model& model, JointType type, Link* parent, Link& child, const Pose& X_CJ);
   void renumber(const Model* fresh = nullptr);
   void forget_contacts(const Model& model);
 };

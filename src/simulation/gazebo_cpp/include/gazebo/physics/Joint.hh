@@ -44,9 +44,9 @@ public:
   explicit Joint(BasePtr parent) : Base(parent) { AddType(JOINT); }
   ~Joint() override;
 
-  // Joints that plugins make: firm ones (fixed, or with both limits at 0) hold two links of any models together from Init() on.
+  // Joints that plugins make hold two links of any models from Init() on, or one and the world; `pose`: in the child.
   void Load(LinkPtr parent, LinkPtr child, const Pose3d& pose);
-  void Load(sdf::ElementPtr sdf) override { Base::Load(sdf); }
+  void Load(sdf::ElementPtr sdf) override;
   void Init() override;
   void Fini() override { Detach(); }
   virtual void Attach(LinkPtr parent, LinkPtr child);
@@ -100,10 +100,10 @@ public:
   double GetStopStiffness(unsigned int index) const { return stop("stiffness", index, 1e8); }
   double GetStopDissipation(unsigned int index) const { return stop("dissipation", index, 1); }
 
-  virtual void SetAxis(unsigned int index, const Vector3d& axis);  // model axes
+  virtual void SetAxis(unsigned int index, const Vector3d& axis);  // joint frame, or the model's where its description says so
   Vector3d LocalAxis(unsigned int index) const;                    // joint frame
   virtual Vector3d GlobalAxis(unsigned int index) const;
-  virtual void SetAnchor(unsigned int, const Vector3d&) {}
+  virtual void SetAnchor(unsigned int, const Vector3d& anchor);  // world; of a joint that a plugin made
   virtual Vector3d Anchor(unsigned int index) const;
   Pose3d InitialAnchorPose() const;
   Pose3d WorldPose() const;
@@ -125,14 +125,23 @@ public:
 private:
   friend class Mirror;
   bool firm() const;
+  void setLimit(unsigned int index, double limit, bool upper);
+  ode_sim::Feedback feedback() const;
+  void hold();
+  void letGo();
+  ode_sim::Joint& wanted() const;
+  ode_sim::Axis* settings(unsigned int index) const;
+  void changed() const;
   double stop(const std::string& what, unsigned int index, double otherwise) const;
   bool inModelAxes(unsigned int index) const;
   std::shared_ptr<ode_sim::Joint> core_;
   LinkPtr parent_, child_;
   std::weak_ptr<int> alive_;
+  mutable std::shared_ptr<ode_sim::Joint>
+      made_;                 // what a plugin wants of a joint that it makes; null for those of descriptions
+  bool wanted_now_ = false;  // since Init()
   int weld_ = 0;
-  double made_lower_ = -1e16, made_upper_ = 1e16;  // of a joint that a plugin makes
-  std::map<std::string, double> params_;           // that ODE would take and that have no effect here
+  std::map<std::string, double> params_;  // that ODE would take and that have no effect here
 };
 
 }  // namespace physics

@@ -61,6 +61,7 @@ public:
   double GetWorldEnergyKinetic() const;
   double GetWorldEnergy() const { return GetWorldEnergyPotential() + GetWorldEnergyKinetic(); }
   JointPtr CreateJoint(const std::string& name, const std::string& type, LinkPtr parent, LinkPtr child);
+  JointPtr CreateJoint(sdf::ElementPtr sdf);
   bool RemoveJoint(const std::string& name);
   void SetWindMode(bool enable);  // of all its links
   bool WindMode() const;          // of its first one
@@ -72,6 +73,7 @@ protected:
 
 private:
   friend class Mirror;
+  JointPtr newJoint(const std::string& name, const std::string& type);
   std::shared_ptr<ode_sim::Model> core_;
   ignition::math::Pose3d X_LM_;  // in the frame of the first link
   Link_V links_;

@@ -77,6 +77,8 @@ typedef std::vector<CollisionPtr> Collision_V;
 
 namespace ode_sim
 {
+struct Axis;
+struct Feedback;
 class RayFan;
 class World;
 struct Model;
