@@ -15,7 +15,8 @@ import xacro
 import xacro.cli
 from ament_index_python.packages import PackageNotFoundError
 
-from noetic_xacro.reading import PLACE, shortened
+from noetic_xacro.marks import PLACE
+from noetic_xacro.reading import shortened
 
 _LINES = 10  # of the files and macros around an error
 
@@ -25,7 +26,9 @@ def _place_of(error: BaseException) -> str:
     place = ""
     trace = error.__traceback__
     while trace is not None:
-        for value in trace.tb_frame.f_locals.values():
+        for name, value in trace.tb_frame.f_locals.items():
+            if name == "body":  # of a macro whose arguments are being evaluated
+                continue
             if isinstance(value, xml.dom.minidom.Element) and hasattr(value, PLACE):
                 place = getattr(value, PLACE)
         trace = trace.tb_next

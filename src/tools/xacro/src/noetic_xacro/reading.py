@@ -1,23 +1,22 @@
-"""What replaces functions of PyPI's xacro: a parser that notes file and line on each element, clones that keep them, words
-and macros without prefix. Does not import ``xacro``, which imports this and hands itself over.
+"""What replaces functions of PyPI's xacro: a parser that notes file and line on each element, and clones that keep them. Does not
+import ``xacro``, which imports this and hands itself over. Old forms and namespaces have modules of their own.
 """
 
 from __future__ import annotations
 
 import importlib
 import os
-import sys
 import xml.dom.expatbuilder
 import xml.dom.minidom
 from typing import Any
 
+from noetic_xacro import namespaces, old_forms
 from noetic_xacro.expressions import MOST_ITEMS, bound_symbols, safe_eval
-from noetic_xacro.reserved import RESERVED
+from noetic_xacro.marks import KEPT, PLACE
 from noetic_xacro.substitution import substituted
 
 MOST_ELEMENTS = 100_000  # that macros and blocks expand to, one beside the other and one in the other: some 20 s of work
 
-PLACE = "xacro_place"  # attribute set on DOM elements: "file:line"
 xacro: Any = None  # the module ``xacro`` whose functions are replaced; it imports this one
 
 
@@ -68,41 +67,8 @@ def _parse(inp, filename: str | None = None) -> xml.dom.minidom.Document:
         return inp
     document = _PlacedBuilder(path).parseString(data)
     assert document.documentElement is not None  # of XML that could be read
-    _prefix_words(document.documentElement, path)
+    old_forms.read_file(document.documentElement, path)
     return document
-
-
-# Words of xacro that robots from before Noetic write without prefix, and the attribute by which they are told from others.
-_WORDS = {
-    "property": "name",
-    "macro": "name",
-    "arg": "default",
-    "include": "filename",
-    "insert_block": "name",
-    "if": "value",
-    "unless": "value",
-}
-
-
-def _prefix_words(root: xml.dom.minidom.Element, path: str) -> None:
-    """``<property .../>`` becomes ``<xacro:property .../>``, with one warning a file; what stands in a plugin is not xacro's."""
-    found = []
-    todo = [root]
-    while todo:
-        for child in todo.pop().childNodes:
-            if child.nodeType != child.ELEMENT_NODE or child.tagName == "plugin":
-                continue
-            if child.hasAttribute(_WORDS.get(child.tagName, "")):
-                found.append((child.tagName, getattr(child, PLACE)))
-                child.tagName = child.nodeName = f"xacro:{child.tagName}"
-            todo.append(child)
-    if found and xacro.verbosity > 0:
-        word, place = min(found, key=lambda entry: int(entry[1].rsplit(":", 1)[1]))
-        print(
-            f"xacro: warning: {place}: <{word}> is written without prefix; write <xacro:{word}> (Noetic ignores the old form, "
-            f"here it is understood; {len(found)} such in {os.path.basename(path)})",
-            file=sys.stderr,
-        )
 
 
 def _keep_place_in_clones() -> None:
@@ -110,10 +76,11 @@ def _keep_place_in_clones() -> None:
     original, process = minidom._clone_node, xacro.process_doc
     count = 0
 
-    def process_doc(*arguments, **named):
+    def process_doc(document, *arguments, **named):
         nonlocal count
         count = 0
-        return process(*arguments, **named)
+        old_forms.begin(document)
+        return process(document, *arguments, **named)
 
     xacro.process_doc = process_doc
 
@@ -123,40 +90,12 @@ def _keep_place_in_clones() -> None:
         if count > MOST_ELEMENTS:
             raise xacro.XacroException(f"expands to more than {MOST_ELEMENTS} elements; do macros call others twice?")
         clone = original(node, deep, new_owner_document)
-        if hasattr(node, PLACE):
-            setattr(clone, PLACE, getattr(node, PLACE))
+        for mark in KEPT:
+            if hasattr(node, mark):
+                setattr(clone, mark, getattr(node, mark))
         return clone
 
     minidom._clone_node = clone_node
-
-
-def _accept_macros_without_prefix() -> None:
-    """``<wheel .../>`` for ``<xacro:wheel .../>``, as in packages from before Noetic: expanded, with one warning a name.
-
-    Without it the element stays in the URDF, is ignored there, and a robot without wheels or inertias is spawned. Names
-    that URDF and SDF use themselves (``<camera>`` in a sensor) are never taken for a macro.
-    """
-    original = xacro.handle_macro_call
-    warned = set()
-
-    def handle_macro_call(node, macros, symbols):
-        name = node.tagName
-        if ":" not in name and name not in RESERVED:
-            try:
-                xacro.resolve_macro(name, macros, symbols)
-            except KeyError:
-                return False
-            if name not in warned and xacro.verbosity > 0:
-                warned.add(name)
-                print(
-                    f"xacro: warning: {getattr(node, PLACE, '')}: macro '{name}' is called without prefix; write "
-                    f"<xacro:{name}> (Noetic ignores the old form, here it is expanded)",
-                    file=sys.stderr,
-                )
-            node.tagName = node.nodeName = f"xacro:{name}"
-        return original(node, macros, symbols)
-
-    xacro.handle_macro_call = handle_macro_call
 
 
 def _bound_texts() -> None:
@@ -201,4 +140,5 @@ def install(module: Any) -> None:
     _bound_texts()
     bound_symbols(xacro._global_symbols)
     _keep_place_in_clones()
-    _accept_macros_without_prefix()
+    old_forms.install(xacro)
+    namespaces.install(xacro)

@@ -1,20 +1,58 @@
-"""Element names of URDF and SDF (and of old xacro itself): no macro calls even if a macro has the same name."""
+"""Element names that robot descriptions, worlds and xacro itself use: none of them is a macro called without prefix.
 
-RESERVED = frozenset(
-    """
-    robot link joint material transmission gazebo sensor plugin arg param property macro include insert_block if unless
-    inertial visual collision origin geometry mass inertia box cylinder sphere mesh color texture parent child axis
-    limit dynamics mimic safety_controller calibration actuator type hardwareInterface mechanicalReduction role offset
-    verbose contact_coefficients group state rosparam node sdf world model pose static physics light scene gui state
-    population actor road frame wind atmosphere audio ambient diffuse specular emissive lighting script uri name
-    transparency cast_shadows laser_retro surface friction contact bounce ode bullet torsional kp kd mu mu1 mu2 fdir1
-    slip1 slip2 max_vel min_depth max_contacts self_collide gravity kinematic velocity_decay linear angular size radius
-    length scale submesh center normal plane heightmap image polyline point height capsule ellipsoid empty always_on
-    update_rate visualize topic camera ray imu gps sonar altimeter magnetometer rfid rfidtag transceiver force_torque
-    logical_camera wireless_receiver wireless_transmitter horizontal_fov width format clip near far noise mean stddev
-    save path depth_camera output distortion lens scan horizontal vertical samples resolution min_angle max_angle range
-    min max angular_velocity linear_acceleration x y z xyz lower upper effort velocity stiffness dissipation damping
-    spring_reference spring_stiffness provide_feedback cfm_damping implicit_spring_damper fudge_factor erp cfm
-    suspension projector fov sky shadows background grid
-""".split()
-)
+Names of SDF that are parts of robots as well (``gripper``, ``battery``, ``lidar``) are not among them: outside of ``<gazebo>``, where no
+macro is called without prefix anyhow, a robot's description has no such element.
+"""
+
+_URDF = """
+    actuator axis box calibration camera capsule child collision color compensator contact_coefficients cylinder dampingFactor
+    disableFixedJointLumping dynamics fdir1 flexJoint fudgeFactor gap_joint gazebo gear_ratio geometry group hardwareInterface
+    implicitSpringDamper inertia inertial initial_joint_position joint jointBacklash kd kp laserRetro leftActuator limit link map
+    mass material maxContacts maxVel mechanicalReduction mesh mimic minDepth motorTorqueConstant mu1 mu2 offset origin parent
+    passive_joint preserveFixedJoint provideFeedback pulsesPerRevolution ray rightActuator robot role rollJoint rosparam
+    safety_controller screw_reduction selfCollide sensor simulated_actuated_joint simulated_reduction sphere springReference
+    springStiffness state static_map stopCfm stopErp stopKd stopKp texture thread_pitch transmission turnGravityOff type
+    use_simulated_gripper_joint verbose visual
+"""
+_SRDF = """
+    chain disable_collisions disable_default_collisions enable_collisions enable_default_collisions end_effector group_state
+    joint_property link_sphere_approximation property subgroup virtual_joint
+"""
+_XACRO_AND_LAUNCH = """
+    arg attribute call element env if include insert_block launch macro node param remap unless
+"""
+_SDF = """
+    accel acceleration accuracy actor air_pressure albedo_map allow_auto_disable altimeter always_on ambient ambient_occlusion_map
+    angle angular angular_velocity animation aspect_ratio atmosphere attach_steps attenuation audio audio_sink audio_source
+    auto_start axis2 background bias_mean bias_stddev blend bone_attachment bounce bullet c1 c2 c3 cast_shadows category_bitmask
+    center cfm cfm_damping clip clouds coefficient collide_bitmask collide_without_contact collide_without_contact_bitmask
+    collision_detector color_end color_range_image color_start cols constant constraints contact contact_max_correcting_vel
+    contact_surface_layer custom_function custom_rpy cutoff_angle cx cy damping dart delay_start deletions density depth_camera
+    detach_steps device diffuse direction dissipation distortion distribution double_sided duration dynamic_bias_correlation_time
+    dynamic_bias_stddev dynamic_friction effort elastic_modulus elevation ellipsoid emissive emissive_map emitting empty
+    enable_metrics enable_orientation enable_wind env_texture_size environment_map erp essid f fade_dist falloff far far_clip
+    filename flesh_mass_fraction fog force force_torque format fov frame frequency friction friction2 friction_model fudge_factor
+    fun fx fy gain gearbox_ratio gearbox_reference_body glossiness glossiness_map gps granularity grasp_check grav_dir_x gravity
+    grid gripper_link gui heading_deg height heightmap horizontal horizontal_fov humidity image implicit_spring_damper imu
+    inherit_yaw initial_position inner_angle insertions interpolate_x intrinsics island_threads iterations iters ixx ixy ixz iyy iyz
+    izz k1 k2 k3 kinematic laser_retro latitude_deg layer length lens lifetime light light_map lighting linear linear_acceleration
+    linear_velocity localization logical_camera longitude_deg lower magnetic_field magnetometer max max_angle max_contacts max_dist
+    max_force max_frequency max_step_size max_transient_velocity max_vel max_velocity mean mean_size measure_direction meta metal
+    metalness metalness_map min min_angle min_contact_count min_depth min_dist min_frequency min_height min_step_size min_velocity
+    model model_count mu must_be_base_link must_be_loop_joint name near near_clip noise normal normal_map ode
+    orientation_reference_frame origin_visual outer_angle output override_impact_capture_velocity
+    override_stiction_transition_velocity p1 p2 palm_link particle_emitter particle_scatter_ratio particle_size patch_radius path
+    pbr physics pitch plane plastic_coef_restitution plastic_impact_velocity plugin point poissons_ratio polyline population pos
+    pose position_sensing precision precon_iters pressure projection_type projector provide_feedback quadratic radius range rate
+    real_time real_time_factor real_time_update_rate reference_altitude render_order resolution restitution_coefficient rfid rfidtag
+    road rolling_friction roughness roughness_map rows s samples sampling save scale scale_rate scale_to_hfov scan scene script sdf
+    self_collide sensitivity shader shadows sim_time simbody size sky slip slip1 slip2 soft_cfm soft_contact soft_erp solver
+    solver_type sonar sor specular specular_map speed spherical_coordinates split_impulse split_impulse_penetration_threshold
+    spring_reference spring_stiffness static static_friction stddev step stiffness submesh sunrise sunset surface surface_model
+    surface_radius suspension temperature temperature_gradient thread_position_correction threshold time topic torque torsional
+    track_visual trajectory transceiver transparency update_rate upper uri use_dynamic_moi_rescaling use_model_frame
+    use_parent_model_frame use_patch_radius use_terrain_paging velocity velocity_decay velocity_sensing vertical vertical_position
+    vertical_velocity view_controller viscous_friction visibility_flags visibility_mask visualize voltage wall_time waypoint width
+    wind wireless_receiver wireless_transmitter world world_frame_orientation wrench x xyz y z
+"""
+RESERVED = frozenset((_URDF + _SRDF + _XACRO_AND_LAUNCH + _SDF).split())
