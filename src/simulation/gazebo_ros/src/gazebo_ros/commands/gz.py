@@ -1,83 +1,30 @@
 """``gz``: what students type to ask or change a running simulator. It talks to the node ``/gazebo`` by its
-services; ``gz topic`` is about Gazebo's own transport."""
+services (of ROS_NAMESPACE, where one is); ``gz topic`` is about Gazebo's own transport."""
 
 from __future__ import annotations
 
 import argparse
 import sys
-import time
+from collections.abc import Callable
 from typing import Any
 
 import node_signals
 import rosgraph
 import rospy
-from gazebo_msgs.msg import ModelState, PerformanceMetrics
-from gazebo_msgs.srv import (
-    ApplyJointEffort,
-    DeleteModel,
-    GetModelProperties,
-    GetModelState,
-    GetPhysicsProperties,
-    GetWorldProperties,
-    JointRequest,
-    SetModelState,
-    SetPhysicsProperties,
-    SpawnModel,
-)
-from geometry_msgs.msg import Point, Pose, Quaternion
-from ode_sim import math3
+from gazebo_msgs.srv import ApplyJointEffort, GetModelProperties, GetPhysicsProperties, JointRequest, SetPhysicsProperties
 from ode_sim.description import DescriptionError, load_world, read_model
 from ode_sim.description.model import World
 from ode_sim.description.sdf_writer import model_text, world_text
 from std_srvs.srv import Empty
 
+from gazebo_ros.commands.asking import call
 from gazebo_ros.commands.command_line import VERSION, Failure
+from gazebo_ros.commands.gz_model import camera, model
+from gazebo_ros.commands.gz_stats import stats
 from gazebo_ros.commands.gz_topic import topic
 from gazebo_ros.srv import StepWorld
 
-
-def call(name: str, service: type, *arguments: Any) -> Any:
-    """The answer of ``/gazebo/<name>``, a ``service`` of that class, to ``arguments``.
-
-    :raises Failure: no simulator, or it refuses
-    """
-    try:
-        rospy.wait_for_service(f"/gazebo/{name}", 2.0)
-        response = rospy.ServiceProxy(f"/gazebo/{name}", service)(*arguments)
-    except rospy.ROSInterruptException:
-        raise
-    except (rospy.ROSException, rospy.ServiceException) as error:
-        raise Failure(f"no simulator answers at {rosgraph.get_master_uri()} (/gazebo/{name}): {error}") from error
-    if not getattr(response, "success", True):
-        raise Failure(response.status_message)
-    return response
-
-
-def _pose(options: argparse.Namespace) -> Pose:
-    return Pose(Point(options.x, options.y, options.z), Quaternion(*math3.quat_from_rpy(options.roll, options.pitch, options.yaw)))
-
-
-def model(options: argparse.Namespace) -> None:
-    """List, show, move, spawn or delete."""
-    if options.spawn_file:
-        try:
-            with open(options.spawn_file, encoding="utf-8") as stream:
-                text = stream.read()
-        except OSError as error:
-            raise Failure(f"cannot read {options.spawn_file}: {error.strerror}") from error
-        call("spawn_sdf_model", SpawnModel, options.model_name, text, "", _pose(options), "")
-    elif not options.model_name:
-        print("\n".join(call("get_world_properties", GetWorldProperties).model_names))
-    elif options.delete:
-        call("delete_model", DeleteModel, options.model_name)
-    elif options.info or options.pose:
-        state = call("get_model_state", GetModelState, options.model_name, "")
-        p, q = state.pose.position, state.pose.orientation
-        print(" ".join(f"{v:.6g}" for v in (p.x, p.y, p.z, *math3.quat_to_rpy((q.x, q.y, q.z, q.w)))))
-        if options.info:
-            print(call("get_model_properties", GetModelProperties, options.model_name))
-    else:
-        call("set_model_state", SetModelState, ModelState(options.model_name, _pose(options), ModelState().twist, ""))
+_TARGETS = tuple(f"--{of}-{what}" for of in ("pos", "vel") for what in "tpid")
 
 
 def world(options: argparse.Namespace) -> None:
@@ -114,17 +61,6 @@ def physics(options: argparse.Namespace) -> None:
     )
 
 
-def stats(options: argparse.Namespace) -> None:
-    """Real-time factor and sim time, a line per message."""
-    end = None if options.duration is None else time.monotonic() + options.duration
-    while not rospy.is_shutdown() and (end is None or time.monotonic() < end):
-        try:
-            message = rospy.wait_for_message("/gazebo/performance_metrics", PerformanceMetrics, 2.0)
-            print(f"Factor[{message.real_time_factor:.2f}] SimTime[{message.header.stamp.to_sec():.2f}] Paused[F]")
-        except rospy.ROSException:
-            print(f"Factor[0.00] SimTime[{call('get_world_properties', GetWorldProperties).sim_time:.2f}] Paused[T]")
-
-
 def sdf(options: argparse.Namespace) -> None:
     """Check a URDF, SDF or world file, or print it as SDF."""
     path = options.check or options.print
@@ -145,7 +81,11 @@ def sdf(options: argparse.Namespace) -> None:
 
 def joint(options: argparse.Namespace) -> None:
     """Put a force or torque on a joint, from now on; 0 ends it."""
-    if not options.joint_name or options.force is None:
+    if (
+        any(getattr(options, name[2:].replace("-", "_")) is not None for name in _TARGETS)
+        or not options.joint_name
+        or options.force is None
+    ):
         raise Failure(
             "a joint (-j) and its force (-f, N or Nm) are needed; targets of position and velocity are "
             "the work of a controller: see ros_control"
@@ -176,28 +116,41 @@ def helps(options: argparse.Namespace) -> None:
             raise Failure(f"no command {options.about}") from None
 
 
-def parser() -> argparse.ArgumentParser:
-    top = argparse.ArgumentParser(
-        prog="gz", description="Ask or change a running simulator (the node /gazebo).", formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    top.add_argument("-v", "--version", action="version", version=VERSION)
-    commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
-
-    def command(f: Any, name: str = "") -> argparse.ArgumentParser:
-        added = commands.add_parser(name or f.__name__, help=f.__doc__, description=f.__doc__)
-        added.set_defaults(run=f)
-        return added
-
+def _options_of_things(command: Callable[[Any], argparse.ArgumentParser]) -> None:
     add = command(model).add_argument
     add("-m", "--model-name", default="", help="without it: list the models")
     add("-d", "--delete", action="store_true")
     add("-i", "--info", action="store_true")
     add("-p", "--pose", action="store_true", help="print x y z roll pitch yaw")
     add("-f", "--spawn-file", metavar="FILE", help="URDF or SDF")
+    add("-s", "--spawn-string", action="store_true", help="URDF or SDF from standard input")
     for name in ("x", "y", "z"):
-        add(f"-{name}", type=float, default=0.0, help="m")
+        add(f"-{name}", f"--pose-{name}", dest=name, type=float, default=0.0, help="m; of a file the place of its own <pose> is taken")
     for short, name in (("R", "roll"), ("P", "pitch"), ("Y", "yaw")):
-        add(f"-{short}", f"--{name}", type=float, default=0.0, help="rad")
+        add(f"-{short}", f"--{name}", f"--pose-{short}", dest=name, type=float, default=0.0, help="rad")
+    add = command(camera).add_argument
+    add("-l", "--list", action="store_true", help="as model::link::sensor")
+    add("-c", "--camera-name", default="", help="accepted, to say what to do instead")
+    add("-f", "--follow", metavar="MODEL", help="accepted, to say what to do instead")
+
+
+def parser() -> argparse.ArgumentParser:
+    top = argparse.ArgumentParser(
+        prog="gz",
+        description="Ask or change a running simulator (the node gazebo of ROS_NAMESPACE, or /gazebo).",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    top.add_argument("-v", "--version", action="version", version=VERSION)
+    commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    def command(f: Any, name: str = "", of_a_world: bool = True) -> argparse.ArgumentParser:
+        added = commands.add_parser(name or f.__name__, help=f.__doc__, description=f.__doc__)
+        added.set_defaults(run=f)
+        if of_a_world:
+            added.add_argument("-w", "--world-name", default="", help="accepted: a simulator has one world")
+        return added
+
+    _options_of_things(command)
     add = command(world).add_argument
     add("-p", "--pause", type=int, choices=(0, 1))
     add("-s", "--step", action="store_true")
@@ -212,12 +165,14 @@ def parser() -> argparse.ArgumentParser:
     add("-i", "--iters", type=int)
     add = command(stats).add_argument
     add("-d", "--duration", type=float, help="s; without it: until Ctrl-C")
-    add("-p", "--plot", action="store_true", help="accepted")
+    add("-p", "--plot", action="store_true", help="columns with commas, for programs")
     add = command(joint).add_argument
     add("-m", "--model-name", default="")
     add("-j", "--joint-name", default="")
     add("-f", "--force", type=float, help="N or Nm")
-    add = command(topic).add_argument
+    for name in _TARGETS:
+        add(name, type=float, help=argparse.SUPPRESS)
+    add = command(topic, of_a_world=False).add_argument
     add("-l", "--list", action="store_true")
     for short, name in (("e", "echo"), ("i", "info"), ("z", "hz"), ("b", "bw")):
         add(f"-{short}", f"--{name}", metavar="TOPIC")
@@ -225,10 +180,10 @@ def parser() -> argparse.ArgumentParser:
     add("-u", "--unformatted", action="store_true", help="each message in one line")
     add("-w", "--world-name", default="", help="what ~ stands for, behind /gazebo/; without it: the world that runs")
     add("-d", "--duration", type=float, help="s of showing or measuring; without it: until Ctrl-C")
-    add = command(log).add_argument
+    add = command(log, of_a_world=False).add_argument
     add("-d", "--record", metavar="0|1", help="accepted, to say what to do instead")
-    command(helps, "help").add_argument("about", nargs="?", default="", metavar="COMMAND")
-    add = command(sdf).add_mutually_exclusive_group(required=True).add_argument
+    command(helps, "help", of_a_world=False).add_argument("about", nargs="?", default="", metavar="COMMAND")
+    add = command(sdf, of_a_world=False).add_mutually_exclusive_group(required=True).add_argument
     add("-k", "--check", metavar="FILE")
     add("-p", "--print", metavar="FILE", help="a URDF becomes a model in SDF")
     return top
@@ -236,7 +191,7 @@ def parser() -> argparse.ArgumentParser:
 
 def main(arguments: list[str]) -> int:
     """Exit code: 0 done, 1 refused, 2 wrong options."""
-    options = parser().parse_args(arguments)
+    options = parser().parse_args(rospy.myargv(["gz", *arguments])[1:])
     try:
         if options.run not in (sdf, log, helps, topic):
             if not rosgraph.is_master_online():

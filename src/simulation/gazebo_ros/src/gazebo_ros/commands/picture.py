@@ -8,8 +8,8 @@ import sys
 import node_signals
 import rosgraph
 
+from gazebo_ros.commands.asking import call
 from gazebo_ros.commands.command_line import Failure
-from gazebo_ros.commands.gz import call
 from gazebo_ros.srv import TakePicture
 
 
