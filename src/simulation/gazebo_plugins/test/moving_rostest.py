@@ -10,6 +10,7 @@ import numpy as np
 import rospy
 import rostest
 from dynamic_reconfigure.client import Client
+from gazebo_msgs.srv import SetModelConfiguration
 from geometry_msgs.msg import Twist, Vector3, WrenchStamped
 from listening import Ear, Mouth, until
 from models import box, elements, joint, link, plugin, sdf, wheel
@@ -200,7 +201,9 @@ class Moving(PluginWorld):
         odometry, first, last = self.drive("/hauled", 0.3, 0.0, "/hauled/odom", lambda t: t.linear.y < -0.39, -0.4)
         np.testing.assert_allclose(xyz(last.position) - xyz(first.position), (0.3, -0.4, 0), atol=5e-3)
         np.testing.assert_allclose(xyz(odometry.pose.pose.position) + (0, 140, 0), xyz(last.position), atol=0.03)
-        _, first, last = self.drive("/hauled", 0.0, 0.5, "/hauled/odom", lambda t: t.angular.z > 0.4)
+        self.assertEqual((odometry.pose.covariance[35], odometry.twist.covariance[35]), (0.01, 0.01))  # it does not turn
+        odometry, first, last = self.drive("/hauled", 0.0, 0.5, "/hauled/odom", lambda t: t.angular.z > 0.4)
+        self.assertEqual((odometry.pose.covariance[35], odometry.twist.covariance[35]), (100.0, 100.0))
         self.assertAlmostEqual(yaw_of(last) - yaw_of(first), 0.5, delta=0.03)
 
         body = link("base_footprint", (0, 0, 0.05), mass=10, inertia=0.3, shape=box(0.5, 0.3, 0.1), mu=0)
@@ -210,7 +213,8 @@ class Moving(PluginWorld):
             0,
             115,
         )
-        _, first, last = self.drive("/nexus", 2.0, 0.0, "/nexus/odom", lambda t: t.linear.x > 0.59)
+        odometry, first, last = self.drive("/nexus", 2.0, 0.0, "/nexus/odom", lambda t: t.linear.x > 0.59)
+        self.assertEqual((odometry.pose.covariance[35], odometry.twist.covariance[35]), (0.01, 0.01))
         self.assertLess(last.position.x - first.position.x, 0.26 * 0.6)
         self.step(0.5)
         self.assertAlmostEqual(self.pose("nexus").position.x, last.position.x, delta=1e-6)
@@ -276,6 +280,41 @@ class Moving(PluginWorld):
         before = speed()
         self.step(1.0)
         self.assertAlmostEqual(speed() - before, 0.2, delta=0.02)
+
+    def test_encoders_count_what_rolls(self):
+        """Wheels that are put at another angle have not rolled there; 0.3 m/s for 1 s is 0.3 m."""
+        tags = dict(wheelTorque=20, odometrySource="encoder", updateRate=100)
+        wheels = dict(leftJoint="left_joint", rightJoint="right_joint", wheelSeparation=0.5, wheelDiameter=0.2)
+        encoders = dict(
+            actuatedWheelDiameter=0.2,
+            encoderWheelDiameter=0.2,
+            encoderWheelSeparation=0.5,
+            encoderWheelLeftJoint="left_joint",
+            encoderWheelRightJoint="right_joint",
+        )
+        fork = link("fork", (0.3, 0, 0.2)) + joint("front_steering_joint", "revolute", "base_link", "fork")
+        fork += wheel("front", (0.3, 0, 0.1)) + joint("front_wheel_joint", "revolute", "fork", "front", (0, 1, 0))
+        turn = rospy.ServiceProxy("/gazebo/set_model_configuration", SetModelConfiguration)
+        slide = elements(geometry=box(0.45, 0.01, 0.1), surface="<friction><ode><mu>0</mu><mu2>0</mu2></ode></friction>")
+        slide = f'<collision name="s"><pose>0 0 -0.1 0 0 0</pose>{slide}</collision></link>'
+        two = self.base(left=(0, 0.25), right=(0, -0.25)).replace("</link>", slide, 1)
+        three = self.base(left=(-0.2, 0.25), right=(-0.2, -0.25)) + fork
+        for y, kind, base, named in ((170, "diff_drive", two, wheels), (175, "tricycle_drive", three, encoders)):
+            name = f"counts_{kind}"
+            self.spawn(name, sdf(base, plugin(f"gazebo_ros_{kind}", robotNamespace=f"/{name}", **tags, **named)), 0, y)
+            self.addCleanup(self._delete_model, name)
+            self.step(0.5)
+            before = self.measure(f"/{name}/odom", Odometry, 0.1, 0)
+            self.assertTrue(turn(name, "", ["left_joint", "right_joint"], [2.0, 3.0]).success)
+            after = self.measure(f"/{name}/odom", Odometry, 0.1, 0)
+            place, speed = after.pose.pose.position, after.twist.twist
+            self.assertAlmostEqual(place.x, before.pose.pose.position.x, delta=5e-3)
+            self.assertAlmostEqual(yaw_of(after.pose.pose), yaw_of(before.pose.pose), delta=5e-3)
+            self.assertAlmostEqual(abs(speed.linear.x) + abs(speed.angular.z), 0, delta=0.05)
+            odometry, first, last = self.drive(f"/{name}", 0.3, 0, f"/{name}/odom", lambda t: abs(t.linear.x - 0.3) < 1e-3)
+            went = last.position.x - first.position.x
+            self.assertAlmostEqual(went, 0.3, delta=5e-3)
+            self.assertAlmostEqual(odometry.pose.pose.position.x - place.x, last.position.x, delta=0.02)
 
     def test_wheel_slip(self):
         """On a slope a rolling robot that slips sideways drifts; told not to, it keeps its line."""

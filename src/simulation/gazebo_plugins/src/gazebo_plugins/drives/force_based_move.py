@@ -16,6 +16,7 @@ from gazebo_plugins.ros_side import Topics
 
 _POSE_VARIANCES = 0.001, 0.001, 1e12, 1e12, 1e12, 100.0
 _TWIST_VARIANCES = 0.001, 0.001, 0.001, 1e12, 1e12, 100.0
+_STRAIGHT, _SURE, _UNSURE = 1e-4, 0.01, 100.0  # rad/s that are no turn; variance of the yaw without a turn and in one
 
 
 class ForceBasedMove(ModelPlugin):
@@ -82,6 +83,7 @@ class ForceBasedMove(ModelPlugin):
         self.last_time = now
         self._travel(velocity, elapsed)
         if self.gate.due(now.to_nsec()):
+            self.odometry.set_yaw_variance(_SURE if abs(velocity[2]) < _STRAIGHT else _UNSURE)
             self.odometry.publish(now, self.place, velocity)
             if self.sends_tf:
                 self.odometry.send_tf(now, self.place)

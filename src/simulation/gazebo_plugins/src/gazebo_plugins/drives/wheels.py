@@ -93,13 +93,19 @@ class OdometryPublisher:
         message.twist.twist = Twist(Vector3(velocity[0], velocity[1], 0.0), Vector3(0.0, 0.0, velocity[2]))
         self.publisher.publish(message)
 
+    def set_yaw_variance(self, variance: float) -> None:
+        """``variance``, rad^2 and (rad/s)^2, of the yaw in the messages from now on."""
+        message = self._message
+        message.pose.covariance[35] = message.twist.covariance[35] = variance
+
     def send_tf(self, now: rospy.Time, pose: Pose) -> None:
         """Send the transform that puts the base at ``pose`` at the time ``now``."""
         TfBroadcaster.send(now, self.frame, self.base, pose)
 
 
 class EncoderOdometry:
-    """Dead reckoning from the angles of a left and a right wheel, from the place where it was started.
+    """Dead reckoning from the rates of a left and a right wheel, from the place where it was started. A wheel that somebody puts at
+    another angle has not rolled there.
 
     :param radius: of both wheels, m
     :param separation: between their contact points, m
@@ -113,13 +119,10 @@ class EncoderOdometry:
     def reset(self) -> None:
         self._x = self._y = self._yaw = 0.0
         self.velocity = (0.0, 0.0, 0.0)
-        self._positions = [wheel.position() for wheel in self._wheels]
 
     def integrate(self, dt: float) -> None:
         """One step of ``dt`` seconds, with the heading at the middle of the step."""
-        positions = [wheel.position() for wheel in self._wheels]
-        left, right = ((new - old) * self._radius for new, old in zip(positions, self._positions))
-        self._positions = positions
+        left, right = (wheel.velocity() * self._radius * dt for wheel in self._wheels)
         forward, turn = (left + right) / 2, (right - left) / self._separation
         heading = self._yaw + turn / 2
         self._x += forward * math.cos(heading)
