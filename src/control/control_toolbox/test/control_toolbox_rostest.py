@@ -84,7 +84,16 @@ class ControlToolboxTest(test_support.TestCase):
         self.assertEqual(rospy.get_param("/pid/d"), 1000.0)
 
     def test_gains_beyond_the_sliders_hold(self):
-        self.assertEqual(self.load(p=1e6, d=5000.0).gains, Gains(1e6, 0.0, 5000.0))
+        """Pid::updateDynamicReconfig hands them to updateConfig, which shows and stores what it is given."""
+        pid = self.load(p=1e6, d=5000.0)
+        self.assertEqual(pid.gains, Gains(1e6, 0.0, 5000.0))
+        client = self.client()
+        config = client.get_configuration(timeout=20)
+        self.assertEqual((config["p"], config["d"], rospy.get_param("/pid/p")), (1e6, 5000.0, 1e6))
+        pid.set_gains(2e6, 0.0, 1.0, 0.0, 0.0)
+        self.assertEqual(rospy.get_param("/pid/p"), 2e6)
+        answer = client.update_configuration({"p": 3e6, "i": 1.0})
+        self.assertEqual((answer["p"], answer["i"]), (1e5, 1.0), "what a client asks for is kept in range")
 
     def test_set_gains_by_the_program_reaches_the_clients(self):
         pid = self.load(p=5.0)

@@ -11,28 +11,47 @@ from sensor_msgs.msg import LaserScan
 
 
 class Scans(unittest.TestCase):
-    def setUp(self):
-        self.heard = queue.Queue()
-        self.listener = rospy.Subscriber("scan_filtered", LaserScan, self.heard.put)
-        self.scans = rospy.Publisher("scan", LaserScan, queue_size=1)
-
-    def told(self, wanted):
-        scan = LaserScan(angle_min=-0.1, angle_max=0.1, angle_increment=0.1, range_min=0.1, range_max=10.0, ranges=[0.2, 2.0, 4.0])
-        scan.header.frame_id = "laser"
+    def told(self, wanted, topic="scan", scan=None):
+        """Publish ``scan`` until what comes back has the ranges ``wanted``."""
+        heard = queue.Queue()
+        listener = rospy.Subscriber("scan_filtered" if topic == "scan" else "wide_filtered", LaserScan, heard.put)
+        scans = rospy.Publisher(topic, LaserScan, queue_size=1)
+        if scan is None:
+            scan = LaserScan(angle_min=-0.1, angle_max=0.1, angle_increment=0.1, range_min=0.1, range_max=10.0, ranges=[0.2, 2.0, 4.0])
+            scan.header.frame_id = "laser"
+        ranges = []
         for _ in range(300):
-            self.scans.publish(scan)
+            scans.publish(scan)
             try:
-                ranges = [str(round(r, 3)) for r in self.heard.get(timeout=0.1).ranges]
+                ranges = [str(round(r, 3)) for r in heard.get(timeout=0.1).ranges]
             except queue.Empty:
                 continue
             if ranges == wanted:
-                return
-        self.fail(f"not {wanted}")
+                break
+        listener.unregister()
+        scans.unregister()
+        self.assertEqual(ranges, wanted)
 
     def test_a_chain_that_is_changed(self):
         self.told(["0.0", "nan", "4.0"])
         Client("/laser_filter/box", timeout=20).update_configuration({"max_x": 6.0, "min_x": 4.0})
         self.told(["0.0", "2.0", "nan"])
+
+    def test_b_values_beyond_the_bounds_hold_until_a_client_asks(self):
+        """configure() of upstream's filters hands the chain's values to updateConfig, which does not look at the bounds."""
+        # 360 degrees in steps of a radian: only the rays at 4 and 5 rad are in the sector from 3.4 to 5.1
+        scan = LaserScan(
+            angle_min=0.0, angle_increment=1.0, range_min=0.1, range_max=1000.0, ranges=[400.0, 0.2, 1.0, 700.0, 1.0, 1.0, 2.0]
+        )
+        scan.header.frame_id = "wide"
+        scan.intensities = [500000.0] * 7
+        self.told(["400.0", "-inf", "1.0", "inf", "nan", "nan", "2.0"], "wide_scan", scan)
+        box = Client("/wide/box", timeout=20)
+        config = box.get_configuration(timeout=20)
+        self.assertEqual((config["max_x"], config["min_x"], config["min_z"]), (500.0, -100.0, -1.0))
+        self.assertEqual(box.update_configuration({"max_x": 400.0})["max_x"], 100.0, "what a client asks for is kept in range")
+        sector = Client("/wide/sector", timeout=20)
+        self.assertEqual(sector.get_configuration(timeout=20)["angle_max"], 5.1)
 
 
 if __name__ == "__main__":

@@ -54,12 +54,19 @@ class Parameter:
     def high(self) -> Any:
         return _TYPES[self.type][4] if self.max is None else self.max
 
+    def convert(self, value: Any) -> Any:
+        """``value`` as this parameter's type, inside its range or not.
+
+        :raises ValueError: not convertible.
+        """
+        return self.type(value)
+
     def clamp(self, value: Any) -> Any:
         """``value`` as this parameter's type, inside its range.
 
         :raises ValueError: not convertible.
         """
-        value = self.type(value)
+        value = self.convert(value)
         if self.type in (int, float):
             if value != value:
                 raise ValueError(f"{self.name} is not a number")
@@ -91,7 +98,8 @@ class Parameter:
 class Server:
     """A dynamic_reconfigure server in ``namespace`` (absolute, or relative to the node's namespace, or ``~...``).
 
-    :param parameters: what can be set. :param initial: by name, in place of the parameter server's values and the defaults.
+    :param parameters: what can be set. :param initial: by name, in place of the parameter server's values and the defaults; holds as it
+        is, in the range or not.
     :param callback: is given all values and the level of what was changed; it may return others, which then hold.
     :param current: gives the values that are, where they change otherwise, too.
     """
@@ -129,12 +137,12 @@ class Server:
             return dict(self._config)
 
     def update(self, values: Mapping[str, Any], call_back: bool = False) -> None:
-        """Change values from the program's side and tell the clients.
+        """Change values from the program's side, which are taken as they are, and tell the clients.
 
         :param call_back: also call the callback, as for a change by a client.
         """
         with self._lock:
-            config = self._merged(self._config, values)
+            config = self._merged(self._config, values, Parameter.convert)
             if call_back:
                 config = self._called_back(config, self._level(self._config, config))
             self._take(config)
@@ -153,9 +161,9 @@ class Server:
         self._updates.unregister()
 
     def _first_value(self, parameter: Parameter, initial: Mapping[str, Any]) -> Any:
-        if parameter.name in initial and self._current is not None:
-            return initial[parameter.name]  # it is what is, whatever the table allows
-        value = initial[parameter.name] if parameter.name in initial else rospy.get_param(self._ns + parameter.name, parameter.default)
+        if parameter.name in initial:
+            return parameter.convert(initial[parameter.name])  # it is what is, whatever the table allows
+        value = rospy.get_param(self._ns + parameter.name, parameter.default)
         try:
             return parameter.clamp(value)
         except (TypeError, ValueError, OverflowError):
@@ -172,7 +180,9 @@ class Server:
     def _live(self) -> dict[str, Any]:
         return self._config if self._current is None else dict(self._current())
 
-    def _merged(self, config: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
+    def _merged(
+        self, config: Mapping[str, Any], values: Mapping[str, Any], take: Callable[[Parameter, Any], Any] = Parameter.clamp
+    ) -> dict[str, Any]:
         config = dict(config)
         for name, value in values.items():
             if name not in self._parameters:
@@ -181,7 +191,7 @@ class Server:
                 )
                 continue
             try:
-                config[name] = self._parameters[name].clamp(value)
+                config[name] = take(self._parameters[name], value)
             except (TypeError, ValueError, OverflowError) as error:
                 rospy.logwarn("dynamic_reconfigure: %s%s keeps %r: %s", self._ns, name, config[name], error)
         return config
@@ -197,7 +207,7 @@ class Server:
         corrected = self._callback(dict(config), level)
         if corrected is None:
             return config
-        return {name: parameter.clamp(corrected[name]) for name, parameter in self._parameters.items()}
+        return {name: parameter.convert(corrected[name]) for name, parameter in self._parameters.items()}
 
     def _take(self, config: dict[str, Any]) -> None:
         changed = {name: value for name, value in config.items() if value != self._config[name]}

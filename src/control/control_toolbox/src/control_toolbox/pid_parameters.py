@@ -52,7 +52,7 @@ class RosPid(Pid):
 
     def _reconfigure(self, config: dict[str, Any], level: int) -> None:
         if level == -1:
-            return  # the server repeats the loaded gains, clamped to what a slider shows: the loaded ones hold
+            return  # the server repeats the loaded gains
         self.gains = Gains(config["p"], config["i"], config["d"], config["i_clamp_max"], config["i_clamp_min"], config["antiwindup"])
 
     def compute_command(self, error: float, dt: float, error_dot: float | None = None) -> float:

@@ -66,7 +66,7 @@ class DiffDriveController(WheeledBase, Controller):
 
     def _reconfigure(self, config, level: int) -> None:
         if level == -1:
-            return  # the server repeats what was loaded, clamped to what a slider shows: the loaded values hold
+            return  # the server repeats what was loaded
         self._multipliers = tuple(config[row.name] for row in _TABLE[:3])
         self._publisher.tf_enabled = config["enable_odom_tf"]
         self._publisher.set_rate(config["publish_rate"])

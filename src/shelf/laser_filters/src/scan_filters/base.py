@@ -57,13 +57,15 @@ class Setting:
 
 
 class Filter:
-    """``values``: parameters by name. ``apply`` changes a scan of its own in place."""
+    """``values``: parameters by name, of which ``given`` are those that the chain has. ``apply`` changes a scan of its own in place."""
 
     settings: Sequence[Setting] = ()
+    remembers = True  # what the chain does not give is what dynamic_reconfigure left on the parameter server
 
     def __init__(self, name: str, given: dict[str, Any], transform: Transform | None = None):
         self.name = name
         self.transform = transform
+        self.given = frozenset(given)
         self.values: dict[str, Any] = {}
         for setting in self.settings:
             value = given.get(setting.name, setting.default)

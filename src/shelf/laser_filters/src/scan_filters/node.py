@@ -50,12 +50,15 @@ class Node:
 
     def _serve(self, one: Filter) -> Server:
         live = [setting for setting in one.settings if setting.live and setting.kind is not object]
-        table = [Parameter(s.name, s.kind, one.values[s.name], *(() if s.low is None else (s.low, s.high))) for s in live]
+        table = [
+            Parameter(s.name, s.kind, one.values[s.name] if s.default is None else s.default, *(() if s.low is None else (s.low, s.high)))
+            for s in live
+        ]
         return Server(
             f"{rospy.get_name()}/{one.name}",
             table,
             lambda config, _level: one.change(config),
-            initial={s.name: one.values[s.name] for s in live},
+            initial={s.name: one.values[s.name] for s in live if s.name in one.given or not one.remembers},
         )
 
     def _transformed(self, points: np.ndarray, to: str, whence: str, stamp: float) -> np.ndarray:

@@ -62,6 +62,7 @@ class FootprintFilter(_PlaceFilter):
 class PolygonFilter(_PlaceFilter):
     """Points over a polygon, given as [[x, y], ...]."""
 
+    remembers = False
     settings = (
         Setting("polygon_frame", str, live=False),
         Setting("polygon", object),

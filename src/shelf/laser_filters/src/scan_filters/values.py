@@ -186,17 +186,20 @@ class SpeckleFilter(Filter):
 class ShadowsFilter(Filter):
     """Points between two things, where a ray grazed the edge of the nearer one: the line to a neighbour points at the sensor."""
 
+    remembers = False
     settings = (
-        Setting("min_angle", float, None, 0.0, 90.0),
-        Setting("max_angle", float, None, 90.0, 180.0),
+        Setting("min_angle", float, None, 0.0, 360.0),
+        Setting("max_angle", float, None, 0.0, 360.0),
         Setting("window", int, None, 0, 100),
         Setting("neighbors", int, 0, 0, 100),
         Setting("remove_shadow_start_point", bool, False),
     )
 
     def prepare(self, given) -> None:
-        self._min = math.radians(min(max(self.values["min_angle"], 0.0), 90.0))
-        self._max = math.radians(min(max(self.values["max_angle"], 90.0), 180.0))
+        if given:
+            self.values.update(min_angle=min(max(self.values["min_angle"], 0.0), 90.0))
+            self.values.update(max_angle=min(max(self.values["max_angle"], 90.0), 180.0))
+        self._min, self._max = math.radians(self.values["min_angle"]), math.radians(self.values["max_angle"])
 
     def apply(self, scan: Scan) -> None:
         window, reach, count = self.values["window"], self.values["neighbors"], len(scan.ranges)
