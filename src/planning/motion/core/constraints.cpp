@@ -136,15 +136,17 @@ ConstraintSet::ConstraintSet(const PlanningScene& scene, const Constraints& cons
     }
     if (!std::isfinite(c.position) || !(c.above >= 0) || !(c.below >= 0))
       throw InvalidInput("joint constraint on '" + c.joint + "': the position must be finite and the tolerances 0 or more");
-    Joint out{variable, model_->joints[model_->variable_joint[variable]].continuous, c.position, c.above, c.below};
+    const JointModel& joint = model_->joints[model_->variable_joint[variable]];
+    const bool turns = joint.continuous || (joint.type == JointType::Planar && variable == joint.first_variable + 2);
+    Joint out{variable, turns, turns ? wrapAngle(c.position) : c.position, c.above, c.below};
     const VariableBounds& b = model_->bounds[variable];
-    if (!out.continuous && b.has_position)
+    if (!turns && b.has_position)
     {
-      // As upstream: a goal beyond a limit means the limit.
-      if (out.position > b.max_position)
-        out.position = b.max_position, out.above = 0;
-      if (out.position < b.min_position)
-        out.position = b.min_position, out.below = 0;
+      // As upstream: what lies beyond a limit as a whole means the limit.
+      if (out.position - out.below > b.max_position)
+        out.position = b.max_position, out.below = 0;
+      else if (out.position + out.above < b.min_position)
+        out.position = b.min_position, out.above = 0;
     }
     joints.push_back(out);
   }
@@ -362,14 +364,21 @@ struct Wishes
   double squared = 0;
 };
 
-void comply(RobotState& state, const std::vector<ConstraintSet::Joint>& joints)
+void comply(RobotState& state, const RobotModel& model, const std::vector<ConstraintSet::Joint>& joints)
 {
   for (const ConstraintSet::Joint& c : joints)
   {
     const double off =
         c.continuous ? wrapAngle(state.positions()[c.variable] - c.position) : state.positions()[c.variable] - c.position;
-    if (off > c.above || off < -c.below)
-      state.setVariable(c.variable, c.position + std::min(std::max(off, -SHARE * c.below), SHARE * c.above));
+    double low = -c.below, high = c.above;
+    const VariableBounds& b = model.bounds[c.variable];
+    if (!c.continuous && b.has_position)
+      low = std::max(low, b.min_position - c.position), high = std::min(high, b.max_position - c.position);
+    if (low <= off && off <= high)
+      continue;
+    const double middle = std::min(std::max(0.0, low), high);
+    const double inside = std::min(std::max(off, middle + SHARE * (low - middle)), middle + SHARE * (high - middle));
+    state.setVariable(c.variable, c.continuous ? wrapAngle(c.position + inside) : c.position + inside);
   }
 }
 }  // namespace
@@ -379,7 +388,7 @@ bool ConstraintSet::project(RobotState& state, const JointModelGroup& group, int
   const int n = static_cast<int>(group.size());
   Eigen::VectorXd q(n);
   Wishes wishes(state, group);
-  comply(state, joints);
+  comply(state, *model_, joints);
   auto locked = [&](int variable) {
     return std::any_of(joints.begin(), joints.end(), [&](const Joint& c) { return c.variable == variable; });
   };

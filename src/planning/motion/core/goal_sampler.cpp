@@ -102,7 +102,7 @@ void GoalSampler::sampleJoints(std::size_t wanted, Random& random, const std::fu
         low = std::max(low, b.min_position);
         high = std::min(high, b.max_position);
       }
-      const double value = attempt == 0 ? c.position : low + (high - low) * uniform(random);
+      const double value = attempt == 0 ? std::min(std::max(c.position, low), high) : low + (high - low) * uniform(random);
       state.setVariable(c.variable, c.continuous ? wrapAngle(value) : value);
     }
     if (good(state))

@@ -140,11 +140,6 @@ void PlanningScene::addObject(const WorldObject& given)
                        std::to_string(given.shapes.size()) + " shapes");
   WorldObject object = given;
   object.shape_poses.resize(object.shapes.size(), Transform::Identity());
-  if (object.shapes.size() == 1 && object.pose.isApprox(Transform::Identity(), 1e-12))
-  {
-    object.pose = object.shape_poses[0];
-    object.shape_poses[0].setIdentity();
-  }
   addToWorld(object);
 }
 

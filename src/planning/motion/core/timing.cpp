@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace motion
 {
@@ -11,6 +12,8 @@ constexpr double TOLERANCE = 1e-3;     // of a limit of an acceleration; upstrea
 constexpr double SAME = 1e-8;          // rad or m: way points that are nearer to each other are one
 constexpr double SHORTEST = 1e-6;      // s, of a segment: times of messages are whole nanoseconds
 constexpr double MOST_STRETCH = 0.01;  // s, of a segment at one touch, as upstream
+constexpr double NEARLY = 0.01;        // by which a spline may be beyond a limit before the whole of it is slowed down
+constexpr double GENTLY = 1.0 / 16;  // of what a segment of a spline needs, in one sweep, as upstream: more would go beyond it
 
 TimedPath atRest(const Rows& points)
 {
@@ -67,29 +70,61 @@ Around around(const Rows& points, const std::vector<double>& segments, std::size
   return {i == 0 ? -v2 : v1, i == last ? -v1 : v2, dt1, dt2};
 }
 
-// Stretches one of the two segments at way point i, by no more than it needs; false if there is nothing to do.
+// The smallest root of a x^2 + b x + c beyond `from`; infinity where there is none.
+double rootBeyond(double a, double b, double c, double from)
+{
+  double best = std::numeric_limits<double>::infinity();
+  const double inside = b * b - 4 * a * c;
+  if (inside < 0)
+    return best;
+  const double q = -0.5 * (b + std::copysign(std::sqrt(inside), b));  // without losing digits
+  for (const double root : {q / a, c / q})
+    if (root > from && root < best)
+      best = root;
+  return best;
+}
+
+// Stretches one of the two segments at way point i, by no more than it needs; false if there is nothing to do. The shortest time at which the
+// acceleration is its limit is taken: a longer one may be too long, where the joint would have to brake as hard.
 bool stretch(const Rows& points, std::vector<double>& segments, std::size_t i, std::size_t j, double limit, bool later)
 {
   const std::size_t last = points.size() - 1;
+  const bool end = i == 0 || i == last;
   const std::size_t segment = i == 0 ? 0 : i == last ? last - 1 : later ? i : i - 1;
-  auto fits = [&]() {
-    const Around a = around(points, segments, i, j);
-    return a.time_before + a.time_after <= 0 || std::abs(a.acceleration()) <= limit * (1 + TOLERANCE);
-  };
-  if (fits())
+  const Around a = around(points, segments, i, j);
+  if (a.time_before + a.time_after <= 0 || std::abs(a.acceleration()) <= limit * (1 + TOLERANCE))
     return false;
-  const double from = segments[segment];
-  double low = from, high = from + MOST_STRETCH;
-  segments[segment] = high;
-  if (!fits())
-    return true;
-  for (int k = 0; k < 20; ++k)
+  const double from = segments[segment], way = points[segment + 1][j] - points[segment][j];
+  const double most = std::copysign(limit, a.acceleration());
+  double fits;
+  if (end)
+    fits = std::sqrt(2 * std::abs(way) / limit);
+  else if (later)
+    fits = rootBeyond(most, most * a.time_before + 2 * a.before, -2 * way, from);
+  else
+    fits = rootBeyond(most, most * a.time_after - 2 * a.after, 2 * way, from);
+  segments[segment] = std::min(fits, from + MOST_STRETCH);
+  return segments[segment] > from;
+}
+
+// Times of the segments between which every joint's mean velocity changes no faster than it may.
+std::vector<double> parabolicSegments(const Rows& points, const TimingLimits& limits)
+{
+  std::vector<double> segments = shortestSegments(points, limits);
+  // Upstream stops after 100 sweeps, fitting or not; here it goes on until the limits are kept.
+  bool changed = true;
+  for (int sweep = 0; changed && sweep < 20000; ++sweep)
   {
-    segments[segment] = 0.5 * (low + high);
-    (fits() ? high : low) = segments[segment];
+    changed = false;
+    for (std::size_t j = 0; j < points[0].size(); ++j)
+    {
+      for (std::size_t i = 0; i < points.size(); ++i)
+        changed |= stretch(points, segments, i, j, limits.acceleration[j], true);
+      for (std::size_t i = points.size(); i-- > 0;)
+        changed |= stretch(points, segments, i, j, limits.acceleration[j], false);
+    }
   }
-  segments[segment] = high;
-  return true;
+  return segments;
 }
 
 void fillTimes(TimedPath& out, const std::vector<double>& segments)
@@ -106,20 +141,7 @@ TimedPath iterativeParabolic(const Rows& given, const TimingLimits& limits)
   TimedPath out = atRest(points);
   if (points.size() < 2)
     return out;
-  std::vector<double> segments = shortestSegments(points, limits);
-  // Upstream stops after 100 sweeps, fitting or not; here it goes on until the limits are kept.
-  bool changed = true;
-  for (int sweep = 0; changed && sweep < 20000; ++sweep)
-  {
-    changed = false;
-    for (std::size_t j = 0; j < points[0].size(); ++j)
-    {
-      for (std::size_t i = 0; i < points.size(); ++i)
-        changed |= stretch(points, segments, i, j, limits.acceleration[j], true);
-      for (std::size_t i = points.size(); i-- > 0;)
-        changed |= stretch(points, segments, i, j, limits.acceleration[j], false);
-    }
-  }
+  const std::vector<double> segments = parabolicSegments(points, limits);
   fillTimes(out, segments);
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t j = 0; j < points[i].size(); ++j)
@@ -192,10 +214,11 @@ TimedPath iterativeSpline(const Rows& given, const TimingLimits& limits)
       }
     }
     const double worst = *std::max_element(factor.begin(), factor.end());
-    if (worst <= 1.0 + 1e-6)
-      break;
+    const bool nearly = worst <= 1.0 + NEARLY;  // then all of it at once
     for (std::size_t i = 0; i < segments.size(); ++i)
-      segments[i] *= 1.0 + std::min(factor[i] * 1.0005 - 1.0, 0.5) * (factor[i] > 1.0);
+      segments[i] *= nearly ? worst : 1.0 + (factor[i] - 1.0) * GENTLY;
+    if (nearly)
+      break;
   }
   fillTimes(out, segments);
   for (std::size_t j = 0; j < points[0].size(); ++j)

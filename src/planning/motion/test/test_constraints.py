@@ -30,11 +30,35 @@ def test_joint(scene, value, satisfied):
     assert ("'elbow_joint'" in result.description) is not satisfied
 
 
-def test_joint_goal_beyond_a_limit_means_the_limit(scene):
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize(
+    "position, tolerance, value, satisfied",
+    [
+        (4.0, 0.1, np.pi, True),  # all of it is beyond the limit: the limit is meant
+        (4.0, 0.1, 3.14, False),
+        (3.2, 0.1, np.pi, True),  # part of it is within: all of it stays what it is
+        (3.2, 0.1, 3.101, True),
+        (3.2, 0.1, 3.099, False),
+        (3.1, 0.1, 3.001, True),
+    ],
+)
+def test_a_joint_constraint_beyond_a_limit(scene, sign, position, tolerance, value, satisfied):
+    """As kinematic_constraints::JointConstraint::configure() of MoveIt has it; the joint goes from -pi to pi."""
     state = scene.state
-    state.set("elbow_joint", np.pi)
-    constraint = motion.JointConstraint("elbow_joint", 4.0, above=0.1, below=0.1)
-    assert motion.evaluate(scene, state, motion.Constraints(joint=[constraint]))[0]
+    state.set("elbow_joint", sign * value)
+    constraint = motion.JointConstraint("elbow_joint", sign * position, above=tolerance, below=tolerance)
+    (result,) = motion.evaluate(scene, state, motion.Constraints(joint=[constraint]))
+    assert result.satisfied is satisfied
+
+
+@pytest.mark.parametrize("turns", [-3, 0, 1, 5])
+def test_an_angle_without_limits_is_one_however_often_it_is_turned(turns):
+    scene = motion.PlanningScene(motion.load_model(*robots.arm("fetch")))
+    state = scene.state
+    state.set("wrist_roll_joint", 3.1)
+    constraint = motion.JointConstraint("wrist_roll_joint", -3.1 + 2 * np.pi * turns, above=0.1, below=0.1)
+    (result,) = motion.evaluate(scene, state, motion.Constraints(joint=[constraint]))
+    assert result.satisfied and result.distance == pytest.approx(2 * np.pi - 6.2)
 
 
 def test_position_of_a_point_of_the_link_in_a_moving_frame(scene):

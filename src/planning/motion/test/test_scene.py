@@ -220,7 +220,7 @@ def test_objects_are_added_replaced_appended_moved_removed(scene):
     scene.add_object("o", [motion.Sphere(0.1)], shape_poses=[at(1)], pose=at(2, 1))
     np.testing.assert_allclose(scene.object("o").pose.position, [2, 1, 0])
     scene.add_object("o", [motion.Sphere(0.1)], shape_poses=[at(1)])
-    np.testing.assert_allclose([scene.object("o").pose.position, scene.object("o").shape_poses[0].position], [[1, 0, 0], [0, 0, 0]])
+    np.testing.assert_allclose([scene.object("o").pose.position, scene.object("o").shape_poses[0].position], [[0, 0, 0], [1, 0, 0]])
     scene.append_shapes("o", [motion.Box(1, 1, 1)], [at(0, 5)])
     assert len(scene.object("o").shapes) == 2
     scene.move_object("o", at(7))

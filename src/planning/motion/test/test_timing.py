@@ -67,6 +67,33 @@ def test_one_joint_straight_is_the_textbook_trapeze(model):
     assert slow.duration == pytest.approx(1.5 / 0.315 + 0.315 / 2, rel=2e-3)
 
 
+def straight(model, way, count, method, velocity, acceleration):
+    """Duration (s) of ``way`` rad of the first joint in ``count`` points, at these limits."""
+    rows = np.zeros((count, 6))
+    rows[:, 0] = np.linspace(0, way, count)
+    trajectory = motion.Trajectory(model, "arm", model.state(), rows)
+    scaling = {"velocity_scaling": velocity / 3.15, "acceleration_scaling": acceleration / 2.0}
+    return motion.time_parameterize(model, trajectory, method, **scaling).duration
+
+
+@pytest.mark.parametrize(
+    "way, count, velocity, acceleration", [(0.034, 86, 0.1, 0.5), (1.0, 1001, 2.0, 2.0), (0.3, 301, 0.2, 0.4), (1.4, 27, 1.0, 2.0)]
+)
+def test_parabolic_times_are_the_trapeze_however_dense_the_points(model, way, count, velocity, acceleration):
+    """On paper: way / v + v / a, or 2 sqrt(way / a) where it never cruises."""
+    trapeze = way / velocity + velocity / acceleration if way > velocity**2 / acceleration else 2 * np.sqrt(way / acceleration)
+    assert straight(model, way, count, "iterative_parabolic", velocity, acceleration) == pytest.approx(trapeze, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    "way, count, velocity, acceleration, upstream",
+    [(0.034, 86, 0.1, 0.5, 1.013), (0.014, 36, 0.1, 0.5, 0.478), (1.0, 101, 1.0, 1.0, 4.832), (1.4416, 27, 1.0, 2.0, 1.951)],
+)
+def test_splines_are_as_quick_as_upstreams(model, way, count, velocity, acceleration, upstream):
+    """MoveIt's algorithm, without its two more points, for the same points."""
+    assert straight(model, way, count, "iterative_spline", velocity, acceleration) == pytest.approx(upstream, rel=0.1)
+
+
 def test_time_optimal_beats_parabolic_and_rounds_corners_within_tolerance(model):
     corner = np.zeros((3, 6))
     corner[1, :2] = 1.0, 0.0

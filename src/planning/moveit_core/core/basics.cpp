@@ -122,7 +122,7 @@ bool isEmpty(const moveit_msgs::Constraints& msg)
          msg.joint_constraints.empty();
 }
 
-bool isEmpty(const geometry_msgs::Quaternion& msg) { return msg.x == 0.0 && msg.y == 0.0 && msg.z == 0.0 && msg.w == 1.0; }
+bool isEmpty(const geometry_msgs::Quaternion& msg) { return msg.x == 0.0 && msg.y == 0.0 && msg.z == 0.0 && msg.w == 0.0; }
 
 bool isEmpty(const geometry_msgs::Pose& msg)
 {

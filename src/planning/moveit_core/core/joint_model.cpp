@@ -300,6 +300,8 @@ void JointModel::interpolate(const double* from, const double* to, const double 
 
 double JointModel::getMaximumExtent(const Bounds& other_bounds) const
 {
+  if (core_->continuous)  // as upstream, although no two angles are farther apart than half of that
+    return other_bounds[0].max_position_ - other_bounds[0].min_position_;
   return WithBounds(*this, other_bounds)->maximumExtent();
 }
 

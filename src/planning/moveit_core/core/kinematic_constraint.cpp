@@ -84,7 +84,11 @@ bool JointConstraint::configure(const moveit_msgs::JointConstraint& jc)
   }
   motion::Constraints constraints;
   constraints.joint.push_back({ jc.joint_name, jc.position, jc.tolerance_above, jc.tolerance_below, constraint_weight_ });
-  return make(constraints, nullptr);
+  if (!make(constraints, nullptr))
+    return false;
+  const auto& taken = core_->joints.front();  // angles within a turn; beyond a limit, the limit
+  message_.position = taken.position, message_.tolerance_above = taken.above, message_.tolerance_below = taken.below;
+  return true;
 }
 
 const moveit::core::JointModel* JointConstraint::getJointModel() const
@@ -197,11 +201,18 @@ bool PositionConstraint::configure(const moveit_msgs::PositionConstraint& pc, co
   c.weight = constraint_weight_;
   moveit_msgs::CollisionObject region;
   region.id = "position constraint of link '" + pc.link_name + "'";
-  region.primitives = pc.constraint_region.primitives;
-  region.primitive_poses = pc.constraint_region.primitive_poses;
-  region.meshes = pc.constraint_region.meshes;
-  region.mesh_poses = pc.constraint_region.mesh_poses;
-  region.pose.position.x = std::numeric_limits<double>::min();  // not "unset": shapes keep their own poses
+  const auto pairs = [&pc](const auto& shapes, const auto& poses, auto& to_shapes, auto& to_poses) {
+    const std::size_t both = std::min(shapes.size(), poses.size());
+    if (shapes.size() > both)
+      ROS_WARN_NAMED(
+          log_names::KINEMATIC_CONSTRAINTS,
+          "Position constraint for link '%s': its region has %zu shapes and poses for %zu of them; the others are left out",
+          pc.link_name.c_str(), shapes.size(), both);
+    to_shapes.assign(shapes.begin(), shapes.begin() + both), to_poses.assign(poses.begin(), poses.begin() + both);
+  };
+  pairs(pc.constraint_region.primitives, pc.constraint_region.primitive_poses, region.primitives, region.primitive_poses);
+  pairs(pc.constraint_region.meshes, pc.constraint_region.mesh_poses, region.meshes, region.mesh_poses);
+  region.pose.orientation.w = 1;  // set: shapes keep their own poses
   moveit::core::ObjectParts parts;
   if (!moveit::core::readObject(region, parts) || parts.shapes.empty())
   {

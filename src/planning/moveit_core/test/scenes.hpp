@@ -23,7 +23,6 @@ inline moveit_msgs::CollisionObject box(const std::string& id, double x, double 
   object.primitive_poses[0].position.y = y;
   object.primitive_poses[0].position.z = z;
   object.primitive_poses[0].orientation.w = 1.0;
-  object.pose.orientation.w = 1.0;
   object.operation = moveit_msgs::CollisionObject::ADD;
   return object;
 }

@@ -18,6 +18,7 @@ from moveit_msgs.msg import (
     OrientationConstraint,
     PlanningScene,
     PlanningSceneComponents,
+    PositionConstraint,
 )
 from shape_msgs.msg import Mesh, MeshTriangle, Plane, SolidPrimitive
 
@@ -34,6 +35,36 @@ def attached(name, link, operation=CollisionObject.ADD, touch=()):
     message = AttachedCollisionObject(link_name=link, touch_links=list(touch))
     message.object.id, message.object.operation = name, operation
     return message
+
+
+@pytest.mark.parametrize("w, frame", [(0.0, 0.5), (1.0, 0.0)])
+def test_an_object_of_one_shape_is_where_its_shape_is_if_nobody_says_where_it_is(editor, scene, w, frame):
+    """A pose is not set as long as all of it is 0; w = 1 is one without a turn, and stays."""
+    message = CollisionObject(id="one", primitives=[SolidPrimitive(SolidPrimitive.BOX, [0.1, 0.1, 0.1])], primitive_poses=[at(0.5)])
+    message.header.frame_id, message.pose.orientation.w = scene.frame, w
+    message.subframe_names, message.subframe_poses = ["lid"], [at(z=0.3)]
+    assert editor.collision_object(message)
+    assert scene.frame_pose("one").position[0] == frame and scene.frame_pose("one/lid").position[0] == frame
+    move = CollisionObject(id="one", operation=CollisionObject.MOVE, pose=at(z=1.0), header=message.header)
+    assert editor.collision_object(move)
+    assert scene.frame_pose("one").position == pytest.approx((0.0, 0.0, 1.0))
+
+
+@pytest.mark.parametrize("shapes, poses, taken", [(1, 2, 1), (2, 1, 1), (2, 2, 2)])
+def test_regions_are_of_the_shapes_that_have_poses(scene, shapes, poses, taken):
+    constraint = PositionConstraint(link_name="tip", weight=1.0)
+    constraint.header.frame_id = scene.frame
+    constraint.constraint_region.primitives = [SolidPrimitive(SolidPrimitive.SPHERE, [0.1])] * shapes
+    constraint.constraint_region.primitive_poses = [at(0.1)] * poses
+    (read,) = convert.constraints(Constraints(position_constraints=[constraint]), scene).position
+    assert len(read.region) == taken
+
+
+def test_a_region_without_a_pose_is_none(scene):
+    constraint = PositionConstraint(link_name="tip", weight=1.0)
+    constraint.constraint_region.primitives = [SolidPrimitive(SolidPrimitive.SPHERE, [0.1])]
+    with pytest.raises(ValueError, match="has no region"):
+        convert.constraints(Constraints(position_constraints=[constraint]), scene)
 
 
 def test_a_fixed_frame_is_named_in_the_header_and_ends_at_the_planning_frame(editor, scene, said):

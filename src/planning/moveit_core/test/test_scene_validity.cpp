@@ -8,6 +8,7 @@
 
 #include <moveit/kinematic_constraints/utils.h>
 #include <moveit/robot_state/conversions.h>
+#include <moveit/utils/message_checks.h>
 
 #include "scenes.hpp"
 
@@ -132,6 +133,69 @@ TEST(Scene, feasibilityAndConstraints)
   moveit_msgs::Constraints unknown = goal;
   unknown.position_constraints[0].link_name = "no_such";
   EXPECT_FALSE(kinematic_constraints::KinematicConstraintSet(scene->getRobotModel()).add(unknown, scene->getTransforms()));
+}
+
+// As MoveIt's message_checks and its planning scene have it: a pose is not set as long as all of it is 0.
+TEST(Scene, anObjectOfOneShapeIsWhereItsShapeIsIfNobodySaysWhereItIs)
+{
+  geometry_msgs::Pose none, identity;
+  identity.orientation.w = 1.0;
+  EXPECT_TRUE(moveit::core::isEmpty(none));
+  EXPECT_FALSE(moveit::core::isEmpty(identity));
+  const auto scene = readyScene();
+  moveit_msgs::CollisionObject object = box("crate", 0.5, 0.0, 0.1, 0.1);
+  object.pose = none;
+  ASSERT_TRUE(scene->processCollisionObjectMsg(object));
+  EXPECT_NEAR(scene->getFrameTransform("crate").translation().x(), 0.5, 1e-12);
+  object.id = "placed", object.pose = identity;
+  ASSERT_TRUE(scene->processCollisionObjectMsg(object));
+  EXPECT_NEAR(scene->getFrameTransform("placed").translation().x(), 0.0, 1e-12);
+  EXPECT_NEAR(scene->getWorld()->getObject("placed")->global_shape_poses_.at(0).translation().x(), 0.5, 1e-12);
+
+  moveit_msgs::CollisionObject move;
+  move.header = object.header, move.id = "placed", move.operation = moveit_msgs::CollisionObject::MOVE;
+  move.pose = identity, move.pose.position.z = 1.0;
+  ASSERT_TRUE(scene->processCollisionObjectMsg(move));
+  EXPECT_NEAR(scene->getWorld()->getObject("placed")->global_shape_poses_.at(0).translation().x(), 0.5, 1e-12);
+  EXPECT_NEAR(scene->getWorld()->getObject("placed")->global_shape_poses_.at(0).translation().z(), 1.1, 1e-12);
+}
+
+// As MoveIt's JointConstraint and PositionConstraint; "lift" goes to 2 rad, "turn" has no limits.
+TEST(Constraints, areTakenAsUpstreamTakesThem)
+{
+  const auto scene = readyScene();
+  moveit_msgs::JointConstraint message;
+  message.weight = 1.0, message.tolerance_above = message.tolerance_below = 0.1;
+  const auto configured = [&](const std::string& joint, double position) {
+    kinematic_constraints::JointConstraint constraint(scene->getRobotModel());
+    message.joint_name = joint, message.position = position;
+    EXPECT_TRUE(constraint.configure(message));
+    return constraint;
+  };
+  EXPECT_NEAR(configured("turn", 7.0).getDesiredJointPosition(), 7.0 - 2 * M_PI, 1e-12);
+  EXPECT_EQ(configured("lift", 2.05).getDesiredJointPosition(), 2.05);
+  EXPECT_EQ(configured("lift", 2.05).getJointToleranceBelow(), 0.1);
+  EXPECT_EQ(configured("lift", 2.5).getDesiredJointPosition(), 2.0);
+  EXPECT_NEAR(configured("lift", 2.5).getJointToleranceBelow(), 0.0, 1e-9);
+  EXPECT_EQ(configured("lift", -2.5).getDesiredJointPosition(), -2.0);
+
+  moveit_msgs::PositionConstraint region;
+  region.link_name = "hand", region.header.frame_id = "base", region.weight = 1.0;
+  region.constraint_region.primitives = box("", 0, 0, 0, 0.1).primitives;
+  kinematic_constraints::PositionConstraint constraint(scene->getRobotModel());
+  EXPECT_FALSE(constraint.configure(region, scene->getTransforms()));
+  region.constraint_region.primitive_poses.resize(2);  // one more than shapes
+  for (geometry_msgs::Pose& pose : region.constraint_region.primitive_poses)
+    pose.orientation.w = 1.0;
+  EXPECT_TRUE(constraint.configure(region, scene->getTransforms()));
+}
+
+TEST(Robot, aContinuousJointExtendsOverAWholeTurn)
+{
+  const auto model = makeArm();
+  EXPECT_NEAR(model->getJointModel("turn")->getMaximumExtent(), 2 * M_PI,
+              1e-12);  // as upstream: the upper bound less the lower
+  EXPECT_NEAR(model->getJointModel("lift")->getMaximumExtent(), 4.0, 1e-12);
 }
 
 int main(int argc, char** argv)

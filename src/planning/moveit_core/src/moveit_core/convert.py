@@ -11,8 +11,9 @@ from collections.abc import Callable, Iterable, Sequence
 
 import motion
 import numpy as np
+import rospy
 from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion, Transform, Vector3
-from moveit_msgs.msg import Constraints
+from moveit_msgs.msg import BoundingVolume, Constraints
 from shape_msgs.msg import Mesh, MeshTriangle, Plane, SolidPrimitive
 
 IDENTITY = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
@@ -229,17 +230,25 @@ def _joint(message, scene) -> motion.JointConstraint:
     return motion.JointConstraint(message.joint_name, numbers[0], above=numbers[1], below=numbers[2], weight=message.weight)
 
 
+def _placed(region: BoundingVolume, what: str) -> BoundingVolume:
+    """The shapes of ``region`` that have poses, and no pose more; a line says which are left out."""
+    placed = BoundingVolume()
+    for field, poses_field in (("primitives", "primitive_poses"), ("meshes", "mesh_poses")):
+        entries, given = getattr(region, field), getattr(region, poses_field)
+        both = min(len(entries), len(given))
+        if len(entries) != len(given):
+            rospy.logwarn("%s has %d %s and %d poses for them; the first %d are taken", what, len(entries), field, len(given), both)
+        setattr(placed, field, entries[:both])
+        setattr(placed, poses_field, given[:both])
+    return placed
+
+
 def _position(message, scene) -> motion.PositionConstraint:
     what = f"position constraint of link '{message.link_name}'"
     _check_link(message.link_name, scene, what)
-    found, poses = shapes(message.constraint_region, what)
+    found, poses = shapes(_placed(message.constraint_region, what), what)
     if not found:
         raise ValueError(f"{what} has no region: give it a primitive and its pose")
-    if len(message.constraint_region.primitive_poses) != len(message.constraint_region.primitives):
-        raise ValueError(
-            f"{what} has {len(message.constraint_region.primitives)} primitives and "
-            f"{len(message.constraint_region.primitive_poses)} poses for them"
-        )
     offset = message.target_point_offset
     frame = _frame(message.header.frame_id, scene, what)
     return motion.PositionConstraint(

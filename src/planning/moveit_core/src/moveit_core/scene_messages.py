@@ -378,9 +378,9 @@ def _has_shapes(message: CollisionObject) -> bool:
 
 
 def _is_zero(pose) -> bool:
-    """No translation and no rotation, or an empty quaternion."""
+    """As a message comes into being: nobody has set it. One without rotation has w = 1."""
     at, turn = pose.position, pose.orientation
-    return (at.x, at.y, at.z, turn.x, turn.y, turn.z) == (0, 0, 0, 0, 0, 0)
+    return (at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w) == (0, 0, 0, 0, 0, 0, 0)
 
 
 def _list(names: Iterable[str]) -> str:
