@@ -2,11 +2,14 @@
 """A scan through a chain of two filters; one of them is changed while it runs."""
 
 import queue
+import time
 import unittest
 
 import rospy
 import rostest
+import tf2_ros
 from dynamic_reconfigure.client import Client
+from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import LaserScan
 
 
@@ -52,6 +55,36 @@ class Scans(unittest.TestCase):
         self.assertEqual(box.update_configuration({"max_x": 400.0})["max_x"], 100.0, "what a client asks for is kept in range")
         sector = Client("/wide/sector", timeout=20)
         self.assertEqual(sector.get_configuration(timeout=20)["angle_max"], 5.1)
+
+    def test_scans_wait_for_a_transform_that_comes_later(self):
+        """As behind a tf MessageFilter: up to 50 wait, until the transform is known at their time and 0.03 s later."""
+        heard = queue.Queue()
+        listener = rospy.Subscriber("late_filtered", LaserScan, lambda scan: heard.put(scan.header.stamp))
+        scans = rospy.Publisher("late_scan", LaserScan, queue_size=60)
+        tf = tf2_ros.TransformBroadcaster()
+        end = time.monotonic() + 30
+        while not (scans.get_num_connections() and listener.get_num_connections() and tf.pub_tf.get_num_connections() >= 3):
+            self.assertLess(time.monotonic(), end, "the nodes are not connected")
+            time.sleep(0.01)
+        start = rospy.Time.now()
+        stamps = [start + rospy.Duration(0.1 * i) for i in range(20)]
+        place = TransformStamped(child_frame_id="laser_late")
+        place.header.frame_id, place.header.stamp, place.transform.rotation.w = "odom", start - rospy.Duration(1.0), 1.0
+        tf.sendTransform(place)
+        for stamp in stamps:
+            scan = LaserScan(angle_increment=0.1, range_max=10.0, ranges=[1.0])
+            scan.header.frame_id, scan.header.stamp = "laser_late", stamp
+            scans.publish(scan)
+        with self.assertRaises(queue.Empty):
+            heard.get(timeout=1.5)
+        place.header.stamp = start + rospy.Duration(1.92)  # the last one, of 1.9 s, is not known 0.03 s later
+        tf.sendTransform(place)
+        self.assertEqual([heard.get(timeout=20) for _ in stamps[:-1]], stamps[:-1])
+        with self.assertRaises(queue.Empty):
+            heard.get(timeout=0.5)
+        place.header.stamp = start + rospy.Duration(2.0)
+        tf.sendTransform(place)
+        self.assertEqual(heard.get(timeout=20), stamps[-1])
 
 
 if __name__ == "__main__":

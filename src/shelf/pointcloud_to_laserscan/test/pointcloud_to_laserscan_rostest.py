@@ -3,11 +3,14 @@
 
 import math
 import queue
+import time
 import unittest
 
 import rospy
 import rostest
-from sensor_msgs.msg import LaserScan
+import tf2_ros
+from geometry_msgs.msg import TransformStamped
+from sensor_msgs.msg import LaserScan, PointCloud2
 from sensor_msgs.point_cloud2 import create_cloud_xyz32
 from std_msgs.msg import Header
 
@@ -15,7 +18,7 @@ from std_msgs.msg import Header
 class Scans(unittest.TestCase):
     def test_a_scan_of_a_cloud(self):
         scans = queue.Queue()
-        clouds = rospy.Publisher("points", type(create_cloud_xyz32(Header(), [])), queue_size=1)
+        clouds = rospy.Publisher("points", PointCloud2, queue_size=1)
         self.assertEqual(clouds.get_num_connections(), 0)  # nobody listens to the scan yet
         rospy.Subscriber("scan", LaserScan, scans.put)
         # the camera looks along x, lies on its side (roll of a quarter turn): its y is up
@@ -34,6 +37,35 @@ class Scans(unittest.TestCase):
         self.assertEqual(len(hits), 2, hits)
         self.assertAlmostEqual(min(hits.values()), 2.0, places=3)
         self.assertAlmostEqual(max(hits.values()), math.hypot(2, 2), places=3)
+
+    def test_clouds_wait_for_a_transform_that_comes_later(self):
+        """As behind a tf2 MessageFilter: as many as the concurrency level may wait, and the oldest of more than those goes."""
+        scans = queue.Queue()
+        listener = rospy.Subscriber("late_scan", LaserScan, lambda scan: scans.put(scan.header.stamp))
+        clouds = rospy.Publisher("late_points", PointCloud2, queue_size=10)
+        tf = tf2_ros.TransformBroadcaster()
+        end = time.monotonic() + 30
+        while not (clouds.get_num_connections() and listener.get_num_connections() and tf.pub_tf.get_num_connections()):
+            self.assertLess(time.monotonic(), end, "the node is not connected")
+            time.sleep(0.01)
+        start = rospy.Time.now()
+
+        def known(after):
+            place = TransformStamped(header=Header(stamp=start + rospy.Duration(after), frame_id="odom"), child_frame_id="base")
+            place.transform.rotation.w = 1.0
+            tf.sendTransform(place)
+
+        known(-1.0)
+        stamps = [start + rospy.Duration(0.1 * i) for i in range(5)]
+        for stamp in stamps:
+            clouds.publish(create_cloud_xyz32(Header(frame_id="base", stamp=stamp), [(2.0, 0.2, 0.5)]))
+        with self.assertRaises(queue.Empty):
+            scans.get(timeout=1.0)  # much longer than transform_tolerance, 10 ms
+        known(0.35)  # the third and the fourth are ready, the first two have gone
+        self.assertEqual([scans.get(timeout=20), scans.get(timeout=20)], stamps[2:4])
+        known(1.0)
+        self.assertEqual(scans.get(timeout=20), stamps[4])
+        self.assertTrue(scans.empty())
 
 
 if __name__ == "__main__":

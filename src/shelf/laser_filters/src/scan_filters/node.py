@@ -10,12 +10,14 @@ import rospy
 import tf2_ros
 from dynamic_parameters import Parameter, Server
 from node_signals.parameters import ParameterError, number
+from node_signals.transforms import TransformFilter
 from sensor_msgs.msg import LaserScan
 
 from .base import Filter, FilterError, Scan
 from .chain import chain, run
 
 _PATIENCE = rospy.Duration(1.0)  # for a transform
+_QUEUE = 50  # scans
 
 
 def _rotation(q) -> np.ndarray:
@@ -33,8 +35,14 @@ class Node:
     """:raises FilterError: the chain cannot be made."""
 
     def __init__(self):
-        self._buffer = tf2_ros.Buffer()
-        self._listener = tf2_ros.TransformListener(self._buffer)
+        target = rospy.get_param("~tf_message_filter_target_frame", "")
+        if target:  # scans wait for their transform
+            self._filter: TransformFilter | None = TransformFilter(target, _QUEUE, self._take, number("~tf_message_filter_tolerance", 0.03))
+            self._buffer = self._filter.buffer
+        else:
+            self._filter = None
+            self._buffer = tf2_ros.Buffer()
+            self._listener = tf2_ros.TransformListener(self._buffer)
         name = "~filter_chain" if rospy.has_param("~filter_chain") else "~scan_filter_chain"
         if name == "~filter_chain":
             rospy.logwarn("parameter ~filter_chain is the old name of ~scan_filter_chain")
@@ -43,10 +51,8 @@ class Node:
             rospy.logwarn("no parameter %s: scans go through as they are", rospy.resolve_name("~scan_filter_chain"))
         self._filters = chain(entries or [], self._transformed)
         self._servers = [self._serve(one) for one in self._filters if any(setting.live for setting in one.settings)]
-        self._target = rospy.get_param("~tf_message_filter_target_frame", "")
-        self._tolerance = rospy.Duration(number("~tf_message_filter_tolerance", 0.03))
-        self._out = rospy.Publisher("scan_filtered", LaserScan, queue_size=10)
-        self._scans = rospy.Subscriber("scan", LaserScan, self._take, queue_size=10)
+        self._out = rospy.Publisher("scan_filtered", LaserScan, queue_size=_QUEUE)
+        self._scans = rospy.Subscriber("scan", LaserScan, self._filter.add if self._filter else self._take, queue_size=_QUEUE)
 
     def _serve(self, one: Filter) -> Server:
         live = [setting for setting in one.settings if setting.live and setting.kind is not object]
@@ -71,10 +77,6 @@ class Node:
         return points @ _rotation(found.rotation).T + (place.x, place.y, place.z)
 
     def _take(self, message: LaserScan) -> None:
-        if self._target and not self._buffer.can_transform(
-            self._target, message.header.frame_id, message.header.stamp + self._tolerance, _PATIENCE
-        ):
-            return
         scan = Scan(
             np.array(message.ranges, np.float32),
             np.array(message.intensities, np.float32),

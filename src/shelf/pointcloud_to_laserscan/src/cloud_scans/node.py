@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import math
+import os
 import sys
 
 import node_signals
+import numpy as np
 import rospy
 import tf2_ros
 from node_signals.parameters import get, number
+from node_signals.transforms import TransformFilter
 from sensor_msgs.msg import LaserScan, PointCloud2, PointField
+from std_msgs.msg import Header
 
 from .projection import Fan, turned, xyz
 
@@ -30,19 +34,19 @@ class Node:
     def __init__(self):
         self._fan = Fan(**{name: get(f"~{name}", value, float) for name, value in _DEFAULTS.items()})
         self._frame = rospy.get_param("~target_frame", "")
-        self._patience = rospy.Duration(number("~transform_tolerance", 0.01))
+        self._size = queue_size()
         self._scan_time = number("~scan_time", 1 / 30)
         beyond = self._fan.range_max + get("~inf_epsilon", 1.0, float)
         self._empty = math.inf if rospy.get_param("~use_inf", True) else beyond
-        self._buffer = tf2_ros.Buffer()
-        self._listener = tf2_ros.TransformListener(self._buffer) if self._frame else None
+        self._filter = TransformFilter(self._frame, self._size, self._take) if self._frame else None
         self._cloud: rospy.Subscriber | None = None
         self._scan = rospy.Publisher("scan", LaserScan, self, queue_size=10)
 
     # who listens to the scan; clouds are large, and are only fetched for somebody
     def peer_subscribe(self, _topic, _publish, _peer) -> None:
         if self._cloud is None:
-            self._cloud = rospy.Subscriber("cloud_in", PointCloud2, self._take, queue_size=1, buff_size=1 << 24)
+            take = self._filter.add if self._filter else self._take
+            self._cloud = rospy.Subscriber("cloud_in", PointCloud2, take, queue_size=self._size, buff_size=1 << 24)
 
     def peer_unsubscribe(self, _topic, remaining: int) -> None:
         if not remaining and self._cloud is not None:
@@ -76,12 +80,25 @@ class Node:
             raise ValueError("it has no fields x, y, z of type FLOAT32")
         offsets = [fields[name].offset for name in "xyz"]
         points = xyz(cloud.data, cloud.width, cloud.height, cloud.point_step, cloud.row_step, offsets, cloud.is_bigendian)
-        if not self._frame or self._frame == cloud.header.frame_id:
-            return points
-        whence, when = cloud.header.frame_id, cloud.header.stamp
-        found = self._buffer.lookup_transform(self._frame, whence, when, self._patience).transform
-        place, turn = found.translation, found.rotation
-        return turned(points, (place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))
+        return points if self._filter is None else moved(points, self._filter.buffer, self._frame, cloud.header)
+
+
+def queue_size() -> int:
+    """How many messages may wait, as ``~concurrency_level`` says it: that many; 0: one for each processor."""
+    level = rospy.get_param("~concurrency_level", 1)
+    return level if isinstance(level, int) and level > 0 else os.cpu_count() or 1
+
+
+def moved(points: np.ndarray, buffer: tf2_ros.Buffer, frame: str, header: Header) -> np.ndarray:
+    """(N, 3) ``points`` of a message with ``header`` as ``frame`` has them.
+
+    :param buffer: knows the transform, or raises.
+    """
+    if frame == header.frame_id:
+        return points
+    found = buffer.lookup_transform(frame, header.frame_id, header.stamp).transform
+    place, turn = found.translation, found.rotation
+    return turned(points, (place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))
 
 
 def main() -> int:
