@@ -46,6 +46,11 @@ class Publishing(Case):
         client.tell("publish", topic="/nobody_knows", msg={"data": 1}, id="n")
         client.complaint("publish: nobody publishes or reads /nobody_knows")
         self.assertEqual(client.ops("status")[0]["id"], "n")
+        client.tell("publish", topic="/told_by_itself", type="std_msgs/String", msg={"data": "hello"}, latch=True)
+        client.tell("publish", topic="/listened_to", type="std_msgs/Float64", msg={"data": "the topic's type counts, as upstream"})
+        wait_until(lambda: len(got) == 2, "the second message")
+        _, later = self.listener("/told_by_itself", String)
+        wait_until(lambda: [m.data for m in later] == ["hello"], "the message of a type that the operation says")
 
     def test_what_cannot_be_published(self):
         self.listener("/strings", String)
@@ -142,6 +147,35 @@ class Subscribing(Case):
             client = self.client()
             client.tell("subscribe", topic="/latched")
             client.wait(lambda client=client: client.heard("/latched") == [{"data": "once"}], "the latched message")
+
+    def test_latched_for_each_subscription_of_a_client(self):
+        """MultiSubscriber.subscribe of rosbridge_library hands it over whenever the client subscribes."""
+        publisher = self.publisher("/latched_again", String, latch=True)
+        publisher.publish("kept")
+        client = self.client()
+
+        def times(count):
+            client.wait(lambda: len(client.heard("/latched_again")) >= count, f"the latched message, {count} times")
+            client.settled(f"settled {count}")
+            self.assertEqual(client.heard("/latched_again"), [{"data": "kept"}] * count)
+
+        client.tell("subscribe", topic="/latched_again", id="a", throttle_rate=60000)
+        times(1)
+        client.tell("subscribe", topic="/latched_again", id="b", throttle_rate=60000)
+        times(2)
+        client.tell("subscribe", topic="/latched_again", id="b", type="std_msgs/String")
+        times(3)
+        client.tell("unsubscribe", topic="/latched_again", id="a")
+        client.tell("subscribe", topic="/latched_again", id="a")
+        times(4)
+        client.tell("unsubscribe", topic="/latched_again")
+        client.tell("subscribe", topic="/latched_again", id="a", queue_length=1)
+        times(5)
+        client.tell("subscribe", topic="/latched_again", id="c", type="std_msgs/Int32")
+        client.complaint("/latched_again has messages of the type std_msgs/String")
+        client.tell("subscribe", topic="/latched_again", id="d", compression="cbor", queue_length=2)
+        times(6)
+        self.assertTrue(any(isinstance(frame, bytes) for frame in client.frames), "it comes in the form that is asked for last")
 
     def test_what_cannot_be_subscribed(self):
         self.publisher("/typed", String)

@@ -140,9 +140,8 @@ class Client:
     def _publish(self, message: dict[str, Any]) -> None:
         topic = _get(message, "topic", str)
         self._allow(topic, "topics_glob")
-        publication = self._shared.publications.register(
-            self.number, topic, None, _get(message, "latch", bool, False), _get(message, "queue_size", int, 100)
-        )
+        latch, queue_size = _get(message, "latch", bool, False), _get(message, "queue_size", int, 100)
+        publication = self._shared.publications.register(self.number, topic, None, latch, queue_size, _get(message, "type", str, None))
         if topic not in self._advertised:
             self._published.add(topic)
         publication.publish(message.get("msg", {}))

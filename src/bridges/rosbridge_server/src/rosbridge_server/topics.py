@@ -40,13 +40,13 @@ def established(topic: str) -> str | None:
     return None if found == rosgraph.names.ANYTYPE else found
 
 
-def class_of(topic: str, wanted: str | None) -> Any:
+def class_of(topic: str, wanted: str | None, otherwise: str | None = None) -> Any:
     """
-    :param wanted: type that a client names, if it does
+    :param wanted: type that a client names, if it does. :param otherwise: type where nothing else says it
     :raises RosbridgeError: the topic has another type, none that is known, or nothing here defines it
     """
     there = established(topic)
-    name = wanted if wanted is not None else there
+    name = wanted if wanted is not None else there or otherwise
     if name is None:
         raise TopicError(f"nobody publishes or reads {topic} yet, so its type is not known; give a field 'type'")
     kind = ros_loader.get_message_class(name)
@@ -105,17 +105,16 @@ class Feed:
         self._subscriber = rospy.Subscriber(topic, rospy.AnyMsg, self._take, buff_size=BUFFER, tcp_nodelay=True)
 
     def add(self, reader: Subscription) -> None:
-        """Let ``reader`` be told what comes, and what is latched."""
+        """Let ``reader`` be told what comes, and what is latched: once more for each time that its client subscribes."""
         with self._lock:
-            new = reader not in self._readers
-            self._readers += [reader] if new else []
-        if new:  # what is latched was told to the subscriber when it connected
+            self._readers += [reader] if reader not in self._readers else []
 
-            def once(raw: Any) -> None:
-                reader.take(Message(raw, self.kind))
+        def once(raw: Any) -> None:
+            reader.take(Message(raw, self.kind), latched=True)
 
-            self._subscriber.impl.add_callback(once, None)
-            self._subscriber.impl.remove_callback(once, None)
+        # what is latched was told to the subscriber when it connected
+        self._subscriber.impl.add_callback(once, None)
+        self._subscriber.impl.remove_callback(once, None)
 
     def remove(self, reader: Subscription) -> bool:
         """``reader`` is told no more. Whether nobody reads any more; then it listens no more."""
@@ -232,8 +231,11 @@ class Subscription:
             self._closed = True
             self._changed.notify_all()
 
-    def take(self, message: Message) -> None:
-        """Sends, keeps or drops ``message``; does not wait for the client."""
+    def take(self, message: Message, latched: bool = False) -> None:
+        """Sends, keeps or drops ``message``; does not wait for the client.
+
+        :param latched: it comes for a new wish, and no pause drops it: there is no next one
+        """
         with self._changed:
             if self._closed:
                 return
@@ -242,7 +244,7 @@ class Subscription:
                 self._changed.notify_all()
                 return
             now = time.monotonic()
-            if self._pause and now < self._last + self._pause:
+            if self._pause and not latched and now < self._last + self._pause:
                 return
             self._last = now
         self._tell(message)
@@ -327,10 +329,13 @@ class Publications:
         self._lock = threading.Lock()
         self._there: dict[str, Publication] = {}
 
-    def register(self, client: int, topic: str, wanted: str | None, latch: bool, queue_size: int) -> Publication:
+    def register(
+        self, client: int, topic: str, wanted: str | None, latch: bool, queue_size: int, otherwise: str | None = None
+    ) -> Publication:
         """The publisher of ``topic``, which ``client`` (its number) uses from now on.
 
         :param wanted: the type that it asks for; None: whichever it is. :param latch, queue_size: as for ``rospy.Publisher``
+        :param otherwise: the type of a topic that nobody knows yet
         :raises RosbridgeError: see :func:`class_of`
         """
         topic = rospy.resolve_name(topic)
@@ -338,7 +343,7 @@ class Publications:
             found = self._there.get(topic)
             if found is None:
                 try:
-                    found = self._there[topic] = Publication(topic, class_of(topic, wanted), latch, queue_size)
+                    found = self._there[topic] = Publication(topic, class_of(topic, wanted, otherwise), latch, queue_size)
                 except (rospy.ROSException, ValueError) as error:
                     raise TopicError(f"{topic} cannot be published: {error}") from None
             elif wanted is not None and ros_loader.get_message_class(wanted) is not found.kind:
