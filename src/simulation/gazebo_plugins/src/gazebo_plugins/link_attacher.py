@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import rospy
 from gazebo_ros.plugin import PluginError, WorldPlugin
 from gazebo_ros_link_attacher.srv import Attach, AttachRequest, AttachResponse
@@ -23,14 +25,14 @@ class LinkAttacher(WorldPlugin):
         ]
 
     def _attach(self, request: AttachRequest) -> AttachResponse:
-        return self._answer(request, self._hold)
+        return self._answer(lambda: self._hold(request))
 
     def _detach(self, request: AttachRequest) -> AttachResponse:
-        return self._answer(request, self._let_go)
+        return self._answer(lambda: self._let_go(request))
 
-    def _answer(self, request: AttachRequest, action) -> AttachResponse:
+    def _answer(self, action: Callable[[], None]) -> AttachResponse:
         try:
-            self.server.call(lambda: action(*self._links(request)))
+            self.server.call(action)
         except (PluginError, ValueError) as error:
             rospy.logerr("link attacher: %s", error)
             return AttachResponse(ok=False)
@@ -47,18 +49,25 @@ class LinkAttacher(WorldPlugin):
             links.append(model.links[link_name])
         return links
 
-    def _hold(self, first, second) -> None:
-        key = (first.scoped_name, second.scoped_name)
-        held = self.attachments.get(key)
+    def _hold(self, request: AttachRequest) -> None:
+        first, second = self._links(request)
+        held = self.attachments.get(_pair(request))
         if held is None or not held.active:
-            self.attachments[key] = self.server.world.attach(first, second)
+            self.attachments[_pair(request)] = self.server.world.attach(first, second)
 
-    def _let_go(self, first, second) -> None:
-        held = self.attachments.pop((first.scoped_name, second.scoped_name), None)
-        if held is None or not held.active:
-            raise PluginError(f"{first.scoped_name} and {second.scoped_name} are not attached")
-        held.detach()
+    def _let_go(self, request: AttachRequest) -> None:
+        """What was held once is let go as often as somebody asks, also when its models are gone."""
+        held = self.attachments.get(_pair(request))
+        if held is None:
+            first, second = self._links(request)
+            raise PluginError(f"{first.scoped_name} and {second.scoped_name} were never attached in this order")
+        if held.active:
+            held.detach()
 
     def shutdown(self) -> None:
         for service in self.services:
             service.shutdown("the plugin is unloaded")
+
+
+def _pair(request: AttachRequest) -> Pair:
+    return (f"{request.model_name_1}::{request.link_name_1}", f"{request.model_name_2}::{request.link_name_2}")
