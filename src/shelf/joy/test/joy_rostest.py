@@ -9,19 +9,76 @@ import unittest
 import pexpect
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray
 from joystick.state import AXIS, BUTTON, EVENT, INIT
-from sensor_msgs.msg import Joy
+from sensor_msgs.msg import Joy, JoyFeedback, JoyFeedbackArray
 
 
 class Joystick(unittest.TestCase):
-    def test_plugged_in_late_and_again(self):
+    def node(self, *arguments):
+        """The node with a pipe in the place of a device, its path, and what it publishes."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         device = os.path.join(folder.name, "js0")
         seen = queue.Queue()
-        rospy.Subscriber("joy", Joy, seen.put)
-        node = pexpect.spawn("rosrun", ["joy", "joy_node", f"_dev:={device}", "_deadzone:=0"], encoding="utf-8", timeout=60)
+        listener = rospy.Subscriber("joy", Joy, seen.put)
+        self.addCleanup(listener.unregister)
+        node = pexpect.spawn("rosrun", ["joy", "joy_node", f"_dev:={device}", *arguments], encoding="utf-8", timeout=60)
         self.addCleanup(node.close, force=True)
+        return node, device, seen
+
+    def told(self, arguments, *lines):
+        """The deadzone that the node takes, in the line of the joystick that is there, after its warnings ``lines``."""
+        node, device, _ = self.node(*arguments)
+        os.mkfifo(device)
+        for line in lines:
+            node.expect_exact(line)
+        node.expect(r"deadzone_: ([\d.]+)\.\s")
+        value = float(node.match[1])
+        node.sendintr()
+        node.expect(pexpect.EOF)
+        return value
+
+    def test_numbers_out_of_bounds_are_told_and_bounded(self):
+        """As joy_node 1.15.1: a deadzone from 1 on is one of 32767, the largest is 0.9, what is negative is 0."""
+        self.assertEqual(self.told(["_deadzone:=2000"], "parameter ~deadzone is 2000"), round(2000 / 32767, 6))
+        self.assertEqual(self.told(["_deadzone:=1"], "parameter ~deadzone is 1"), round(1 / 32767, 6))
+        self.assertEqual(self.told(["_deadzone:=0.95"], "~deadzone is 0.95, more than 0.9"), 0.9)
+        negative = ["deadzone", "autorepeat_rate", "coalesce_interval"]
+        self.assertEqual(self.told([f"_{name}:=-1" for name in negative], *(f"~{name} is -1, less than 0" for name in negative)), 0.0)
+
+    def test_what_a_message_and_the_diagnostics_say(self):
+        statuses = queue.Queue()
+        listener = rospy.Subscriber("/diagnostics", DiagnosticArray, lambda array: [statuses.put(status) for status in array.status])
+        self.addCleanup(listener.unregister)
+        node, device, seen = self.node("_default_trig_val:=true", "__name:=pad")
+
+        def status(message):
+            while True:
+                found = statuses.get(timeout=60)
+                if (found.name, found.message) == ("pad: Joystick Driver Status", message):
+                    return found.level, {entry.key: entry.value for entry in found.values}
+
+        self.assertEqual(status("Joystick not open.")[0], 2)
+        os.mkfifo(device)
+        node.expect_exact(f"Opened joystick: {device}.")
+        level, values = status("OK")
+        self.assertEqual((level, values["device"], values["dead zone"], values["topic"]), (0, device, "0.05", "/joy"))
+        pipe = os.open(device, os.O_WRONLY)
+        os.write(pipe, EVENT.pack(0, -32767, AXIS | INIT, 2))
+        message = seen.get(timeout=60)
+        self.assertEqual((message.axes, message.header.frame_id), ((0.0, 0.0, 1.0), device))
+        feedback = rospy.Publisher("joy/set_feedback", JoyFeedbackArray, queue_size=1, latch=True)
+        feedback.publish([JoyFeedback(type=1, id=0, intensity=1.0)])  # a pipe has no motors, and lives on
+        os.write(pipe, EVENT.pack(0, 1, BUTTON, 0))
+        while not seen.get(timeout=60).buttons:
+            pass
+        os.close(pipe)
+        node.sendintr()
+        node.expect(pexpect.EOF)
+
+    def test_plugged_in_late_and_again(self):
+        node, device, seen = self.node("_deadzone:=0")
         node.expect_exact(f"Couldn't open joystick {device}. Will retry every second. (No such file or directory)")
         os.mkfifo(device)
         node.expect_exact(f"Opened joystick: {device}.")

@@ -33,6 +33,14 @@ def test_sticky_buttons():
     assert seen == [1, 1, 0, 0]
 
 
+def test_the_first_value_of_an_axis_counts_where_it_is_trusted():
+    """A trigger that nobody touches: its kernel says -32767, upstream's default_trig_val makes 1 of it."""
+    state = State(trust=True)
+    assert not state.take(-32767, AXIS | INIT, 2)
+    state.take(round(0.05 * 32767), AXIS | INIT, 0)
+    assert state.axes == [0, 0, 1]
+
+
 @pytest.mark.parametrize("deadzone", [-0.1, 1.0, float("nan")])
 def test_deadzone_has_a_range(deadzone):
     with pytest.raises(ValueError, match="deadzone must be from 0 to below 1"):
