@@ -1,0 +1,1 @@
+"""Grippers of one or two bus servos."""

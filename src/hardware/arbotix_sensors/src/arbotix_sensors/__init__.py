@@ -1,0 +1,1 @@
+"""Rangers on analogue pins of an ArbotiX board."""
