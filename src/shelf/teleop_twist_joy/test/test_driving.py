@@ -53,8 +53,26 @@ def test_axes_that_a_joystick_lacks():
 
 
 @pytest.mark.parametrize(
+    "parameters, axes, buttons",
+    [
+        ({"axis_linear": 1.0, "axis_angular": 2.0, "enable_button": 4.0}, {"x": 1, "yaw": 2}, (4, -1)),
+        ({"axis_linear": 0.9, "axis_angular": 1.5, "enable_turbo_button": 5.2}, {"x": 1, "yaw": 2}, (0, 5)),
+        ({"axis_linear": {"x": 1.0, "y": 2.9}, "scale_linear": {"x": 1, "y": True}}, {"x": 1, "y": 2, "yaw": 0}, (0, -1)),
+        ({"axis_linear": {"x": True}, "scale_linear": {"x": 1.5}}, {"x": 1, "yaw": 0}, (0, -1)),
+    ],
+)
+def test_whole_numbers_with_a_point(parameters, axes, buttons):
+    """roscpp's getParam(int) takes the nearest whole number of a double; a map of them (xml_cast) casts each, also from bool."""
+    driver = Driver(parameters)
+    assert (driver.axes, (driver.enable, driver.turbo)) == (axes, buttons)
+
+
+@pytest.mark.parametrize(
     "parameters, said",
     [
+        ({"enable_button": "A"}, "enable_button must be the number of a button, but is 'A'"),
+        ({"enable_turbo_button": float("nan")}, "enable_turbo_button must be the number of a button, but is nan"),
+        ({"axis_linear": float("inf")}, "axis_linear must give numbers (axes whole ones), but x is inf"),
         ({"axis_linear": {"x": 1}, "scale_linear": 0.5}, "axis_linear and scale_linear must both be numbers, or both maps like {x: 1}"),
         ({"axis_angular": {"turn": 1}}, "axis_angular has a field 'turn'; there are yaw, pitch, roll"),
         ({"axis_linear": "left"}, "axis_linear must give numbers (axes whole ones), but x is 'left'"),

@@ -85,8 +85,8 @@ class Node:
 
 def queue_size() -> int:
     """How many messages may wait, as ``~concurrency_level`` says it: that many; 0: one for each processor."""
-    level = rospy.get_param("~concurrency_level", 1)
-    return level if isinstance(level, int) and level > 0 else os.cpu_count() or 1
+    level = round(number("~concurrency_level", 1))
+    return level if level > 0 else os.cpu_count() or 1
 
 
 def moved(points: np.ndarray, buffer: tf2_ros.Buffer, frame: str, header: Header) -> np.ndarray:

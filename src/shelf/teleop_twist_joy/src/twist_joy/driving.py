@@ -1,11 +1,26 @@
 """From axes and buttons to velocities. No ROS in it."""
 
+import math
 from collections.abc import Sequence
+
+from node_signals.parameters import is_number
 
 FIELDS = {"linear": ("x", "y", "z"), "angular": ("yaw", "pitch", "roll")}
 _DEFAULTS = {"linear": ("x", 1, 0.5, 1.0), "angular": ("yaw", 0, 0.5, None)}  # field, axis, scale, turbo (None: as scale)
 
 Velocities = dict[str, float]
+
+
+def _whole(value: float) -> int:
+    """The nearest whole number, as roscpp reads a parameter for one; of a map's it takes what is before the point."""
+    return math.floor(value + 0.5)
+
+
+def _button(parameters: dict, name: str, default: int) -> int:
+    value = parameters.get(name, default)
+    if not is_number(value):
+        raise ValueError(f"{name} must be the number of a button, but is {value!r:.40}")
+    return _whole(value)
 
 
 class Driver:
@@ -17,8 +32,8 @@ class Driver:
     """
 
     def __init__(self, parameters: dict):
-        self.enable = int(parameters.get("enable_button", 0))
-        self.turbo = int(parameters.get("enable_turbo_button", -1))
+        self.enable = _button(parameters, "enable_button", 0)
+        self.turbo = _button(parameters, "enable_turbo_button", -1)
         self.required = bool(parameters.get("require_enable_button", True))
         self.axes: dict[str, int] = {}
         self.scales: dict[str, Velocities] = {"normal": {}, "turbo": {}}
@@ -42,9 +57,9 @@ class Driver:
             for key, value in (values if mapped else {field: values}).items():
                 if key not in FIELDS[kind]:
                     raise ValueError(f"{name}{kind} has a field {key!r:.40}; there are {', '.join(FIELDS[kind])}")
-                if type(value) not in (int, float) or into is self.axes and type(value) is not int:
+                if not is_number(int(value) if mapped and isinstance(value, bool) else value):
                     raise ValueError(f"{name}{kind} must give numbers (axes whole ones), but {key} is {value!r:.40}")
-                into[key] = value
+                into[key] = (int(value) if mapped else _whole(value)) if into is self.axes else float(value)
 
     def drive(self, axes: Sequence[float], buttons: Sequence[int]) -> Velocities | None:
         """m/s and rad/s of the six fields, for ``axes`` and ``buttons`` of a Joy message.
