@@ -346,6 +346,17 @@ class Cameras(unittest.TestCase):
         self.assertIn(values[60, 80 - OFF], (1999, 2000))
         self.assertEqual(values[60, 80], 0)
 
+    def test_what_a_depth_camera_does_not_publish_is_told(self):
+        tags = "<normalsTopicName>n</normalsTopicName><reduceNormals>50</reduceNormals>"
+        text = BAD.format(name="blunt", width=64).replace('type="camera"', 'type="depth"').replace("ros_camera.so", "ros_depth_camera.so")
+        with Ear("/rosout", Log) as log:
+            spawn = rospy.ServiceProxy("/gazebo/spawn_sdf_model", SpawnModel)
+            self.assertTrue(spawn("blunt", text.replace("</cameraName>", "</cameraName>" + tags), "", Pose(), "").success)
+            until(
+                lambda: any("<normalsTopicName>, <reduceNormals> are without effect" in m.msg for m in log.messages), "line about normals"
+            )
+        rospy.ServiceProxy("/gazebo/delete_model", DeleteModel)("blunt")
+
     def test_depth_camera(self):
         cloud = self.take("/depth_cam/points", PointCloud2)[0]
         self.assertEqual((cloud.height, cloud.width), (1, 160 * 120))

@@ -73,6 +73,21 @@ class Plugins(PluginWorld):
         slow = self.measure("/standing/slow_imu", Imu, 2.0, 2)  # 1 Hz unless <updateRateHZ> says otherwise
         self.assertAlmostEqual(yaw_of(slow), 0.5, places=3)
 
+    def test_an_imu_sensor_whose_rates_do_not_fit_is_told(self):
+        imu = f"""<sensor name="imu" type="imu"><update_rate>30</update_rate>
+            {plugin("gazebo_ros_imu_sensor", topicName="odd_imu", frameName="l", robotNamespace="/", updateRateHZ=30)}</sensor>"""
+        with Ear("/rosout", Log) as log:
+            self.spawn("odd_rates", sdf(link("l", extra=imu)), 16, 0, 1)
+            until(
+                lambda: any("gives 20 messages a second of simulated time, not the 30" in m.msg for m in log.messages), "line about rates"
+            )
+        self.addCleanup(self._delete_model, "odd_rates")
+        with Ear("/odd_imu", Imu) as ear:
+            for wanted in range(1, 21):
+                self.step(0.05)
+                until(lambda: len(ear.messages) >= wanted, "a message")  # noqa: B023
+            self.assertEqual(len(ear.messages), 20)
+
     def test_imu_of_a_model(self):
         self.turning_and_standing()
         bare = self.measure("/turning/bare_imu", Imu, 0.01, 0)
@@ -102,6 +117,62 @@ class Plugins(PluginWorld):
         self.assertAlmostEqual(fix.altitude, 5.1, places=3)
         velocity = self.measure("/turning/fix_velocity", Vector3Stamped, 0.3, 0)
         np.testing.assert_allclose(xyz(velocity.vector), (1, 0, 0), atol=1e-6)
+
+    def merged(self, name, plugins, x):
+        """A base that turns with 2 rad/s about z, yawed by 90 degrees, and on it, behind a fixed joint, a pod 1 m ahead and 0.5 m up
+        that is yawed by 90 degrees more."""
+        inertial = '<inertial><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>'
+        self.spawn(
+            name,
+            f"""<robot name="r"><link name="base">{inertial}</link><link name="pod"/>
+            <joint name="j" type="fixed"><parent link="base"/><child link="pod"/><origin xyz="1 0 0.5" rpy="0 0 1.5707963"/></joint>
+            <gazebo reference="base"><turnGravityOff>true</turnGravityOff></gazebo><gazebo>{plugins}</gazebo></robot>""",
+            x,
+            10,
+            1,
+        )
+        self.addCleanup(self._delete_model, name)
+        turned = Quaternion(0, 0, math.sqrt(0.5), math.sqrt(0.5))
+        self._set_model_state(ModelState(name, Pose(Point(x, 10, 1), turned), Twist(Vector3(), Vector3(0, 0, 2)), ""))
+
+    def test_truth_of_a_link_behind_a_fixed_joint(self):
+        """Where that link is: the offset of the merge turns with the robot, that of the file does not."""
+        told = {"": "xyzOffset", "rel": "frameName"}
+        plugins = "".join(
+            plugin(
+                "gazebo_ros_p3d",
+                robotNamespace="/podded",
+                topicName=f"truth{end}",
+                bodyName="base" if end else "pod",
+                **{tag: "pod" if end else "100 0 0"},
+            )
+            for end, tag in told.items()
+        )
+        self.merged("podded", plugins, 30)
+        truth = self.measure("/podded/truth", Odometry, 0.001, 0)
+        np.testing.assert_allclose(xyz(truth.pose.pose.position), (130, 11, 1.5), atol=0.01)
+        self.assertAlmostEqual(abs(yaw_of(truth.pose.pose)), math.pi, delta=0.01)
+        np.testing.assert_allclose(xyz(truth.twist.twist.linear), (-2, 0, 0), atol=0.02)
+        relative = self.measure("/podded/truthrel", Odometry, 0.001, 0).pose.pose
+        np.testing.assert_allclose(xyz(relative.position), (0, 1, -0.5), atol=1e-6)  # behind it is to the left of what looks to the left
+        self.assertAlmostEqual(yaw_of(relative), -math.pi / 2, delta=1e-6)
+
+    def test_imus_behind_a_fixed_joint(self):
+        """The pod is drawn towards the middle by w^2 r, which is to its left."""
+        plugins = plugin("gazebo_ros_imu", robotNamespace="/swung", topicName="imu", bodyName="pod")
+        plugins += plugin("hector_gazebo_ros_imu", robotNamespace="/swung", topicName="hector", bodyName="pod")
+        plugins += plugin("hector_gazebo_ros_magnetic", robotNamespace="/swung", bodyName="pod", inclination=0)
+        plugins += plugin("hector_gazebo_ros_gps", robotNamespace="/swung", bodyName="pod", updateRate=500, referenceAltitude=5)
+        self.merged("swung", plugins, 40)
+        for topic, weight in (("imu", 0.0), ("hector", G)):
+            imu = self.measure(f"/swung/{topic}", Imu, 0.01, 0)
+            np.testing.assert_allclose(xyz(imu.linear_acceleration), (0, 4, weight), atol=0.05, err_msg=topic)
+            np.testing.assert_allclose(xyz(imu.angular_velocity), (0, 0, 2), atol=1e-3)
+        self.assertAlmostEqual(abs(yaw_of(imu)), math.pi, delta=0.06)
+        np.testing.assert_allclose(xyz(self.measure("/swung/magnetic", Vector3Stamped, 0.001, 0).vector), (-1, 0, 0), atol=0.07)
+        self.assertAlmostEqual(self.measure("/swung/fix", NavSatFix, 0.01, 0).altitude, 6.5, delta=1e-6)
+        velocity = self.measure("/swung/fix_velocity", Vector3Stamped, 0.01, 0)
+        self.assertAlmostEqual(velocity.vector.x, -2, delta=0.02)
 
     # ---------------------------------------------------------------------------------------------------- forces
 

@@ -68,5 +68,6 @@ class RateWatch:
             return ""
         return (
             f"of the sensor's {sensor_rate:g} a second (<update_rate>) the plugin takes those that are "
-            f"1/{plugin_rate:g} s or more apart (<updateRate>). Give both the same number"
+            f"1/{plugin_rate:g} s or more apart (<updateRate>). "
+            + ("Leave <updateRate> out" if sensor_rate == plugin_rate else "Give both the same number, or leave <updateRate> out")
         )

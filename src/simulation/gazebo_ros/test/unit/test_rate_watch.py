@@ -39,6 +39,12 @@ def test_rates_that_do_not_divide():
     assert "gives 15.2 pictures" in line and "not the 20" in line and "Give both the same number" in line
 
 
+def test_the_same_rate_twice():
+    """Pictures of 30 a second are 34, 33 and 33 ms apart: of those only each that is 1/30 s after the last is taken."""
+    (line,) = told(range(0, 9000, 50), plugin=30.0)
+    assert "gives 20 pictures" in line and line.endswith("Leave <updateRate> out")
+
+
 def test_periods_are_whole_steps():
     (line,) = told(range(0, 9000, 40), dt=0.02)
     assert line.endswith("one is taken after a step of the physics, which is 0.02 s long")

@@ -4,6 +4,8 @@ import math
 
 import pytest
 from ode_sim import math3
+from ode_sim.description.model import Pose
+from ode_sim.description.urdf_extensions import given_offset, merged_at
 from urdf_texts import box, convert, joint, link, messages
 
 
@@ -127,6 +129,26 @@ def test_model_plugin_names_follow_a_lumped_link():
     assert element.find("bodyName").text == "base"
     assert [float(v) for v in element.find("xyzOffset").text.split()] == [1.0, 2.0, 0.0]
     assert [float(v) for v in element.find("rpyOffset").text.split()] == [0.0, 0.0, 0.0]
+
+
+def test_where_a_lumped_link_was_and_what_the_file_gave_can_be_asked():
+    """Two fixed joints: 1 m ahead and turned to the left, then 2 m ahead of that."""
+    model, _ = convert(
+        link("base"),
+        link("mast", None),
+        link("imu", None),
+        joint("f", "base", "mast", xyz="1 0 0", rpy="0 0 1.5707963267948966"),
+        joint("g", "mast", "imu", xyz="2 0 0"),
+        '<gazebo><plugin name="p" filename="libx.so"><bodyName>imu</bodyName><xyzOffset>0 0 3</xyzOffset></plugin></gazebo>',
+        '<gazebo><plugin name="q" filename="libx.so"><bodyName>base</bodyName>'
+        '<xyzOffset given="a" bodyName="1 2">1 0 0</xyzOffset></plugin></gazebo>',
+    )
+    merged, plain = (plugin.element for plugin in model.plugins)
+    at = merged_at(merged, "bodyName")
+    assert at.p == pytest.approx((1.0, 2.0, 0.0)) and math3.to_rpy(at)[2] == pytest.approx(math.pi / 2)
+    assert given_offset(merged) == pytest.approx((0.0, 0.0, 3.0, 0.0, 0.0, 0.0))
+    assert merged_at(merged, "frameName") == Pose()
+    assert merged_at(plain, "bodyName") == Pose() and given_offset(plain) is None
 
 
 def test_contact_sensor_of_a_lumped_link_names_what_sdformat_makes_of_it():

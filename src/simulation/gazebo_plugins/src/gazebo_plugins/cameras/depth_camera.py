@@ -17,6 +17,7 @@ from gazebo_plugins.cameras.ros_camera import RosCamera, node_namespace
 
 _FIELDS = [PointField(name, offset, PointField.FLOAT32, 1) for name, offset in (("x", 0), ("y", 4), ("z", 8), ("rgb", 16))]
 _POINT_STEP = 32
+_OF_GAZEBO_9 = ("reflectanceTopicName", "normalsTopicName", "reduceNormals")
 
 
 class DepthCamera(SensorPlugin):
@@ -47,6 +48,15 @@ class DepthCamera(SensorPlugin):
             join(camera.namespace, sdf.text_or("pointCloudTopicName", "points")), PointCloud2, queue_size=camera.queue_size
         )
         sensor.connect(self.measure, wanted=self.wanted)
+        asked = [f"<{tag}>" for tag in _OF_GAZEBO_9 if sdf.has(tag)]
+        if asked:
+            rospy.logwarn(
+                "sensor '%s' of model '%s': %s without effect: reflectances and normals are not published, as on Noetic's Gazebo 11 "
+                "(Gazebo 9.13 did)",
+                sensor.name,
+                sensor.model.name,
+                ", ".join(asked) + (" is" if len(asked) == 1 else " are"),
+            )
 
     def depth_range(self, sdf):
         """(nearest, farthest) depth that is valid, m, by the plugin's element ``sdf``."""

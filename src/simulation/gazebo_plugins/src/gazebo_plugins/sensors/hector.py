@@ -15,6 +15,7 @@ from geometry_msgs.msg import Quaternion, Vector3, Vector3Stamped
 from hector_gazebo_plugins.srv import SetBias, SetBiasResponse, SetReferenceGeoPose, SetReferenceGeoPoseResponse
 from node_signals.rates import PeriodAdded
 from ode_sim import math3
+from ode_sim.description.urdf_extensions import merged_at
 from sensor_msgs.msg import Imu, MagneticField, NavSatFix, NavSatStatus
 from sensor_msgs.msg import Range as RangeMsg
 from std_srvs.srv import Empty, EmptyResponse
@@ -34,6 +35,7 @@ class _BodyPlugin(ModelPlugin):
         self.server = server
         self.topics = Topics(sdf, model.name, "C")
         self.link = find_link(model, server.world, sdf) if sdf.get("bodyName", "") else next(iter(model.links.values()))
+        self.merged = merged_at(sdf.element, "bodyName")  # where the sensor's link was on the one that is left of it
         self.gate = PeriodAdded(sdf.get("updateRate", rate))
         self.errors: dict[str, DriftingError] = {}
         self.parameters: list[ParameterServer] = []
@@ -92,7 +94,7 @@ class HectorImu(_BodyPlugin):
         self._offer({f"{topic}/accel": self.accel, f"{topic}/rate": self.rate, f"{topic}/yaw": self.yaw})
         self.message, self.bias_message = Imu(), Imu()
         self.message.header.frame_id = sdf.get("frameId", self.link.name) or self.link.name
-        self.acceleration = Differentiator(self.link)
+        self.acceleration = Differentiator(self.link, self.merged.p)
 
     def _calibrate(self, _) -> EmptyResponse:
         self.server.call(lambda: self.rate.start(np.zeros(3)))
@@ -150,7 +152,7 @@ class HectorImu(_BodyPlugin):
 
     def reset(self) -> None:
         super().reset()
-        self.acceleration = Differentiator(self.link)
+        self.acceleration = Differentiator(self.link, self.merged.p)
 
 
 def _with_status(status: int, service: int) -> NavSatStatus:
@@ -243,10 +245,11 @@ class HectorGps(_BodyPlugin):
         now_ns = now.to_nsec()
         if not self.gate.due(now_ns) or not (self.fix.get_num_connections() or self.velocity.get_num_connections()):
             return
-        vx, vy, vz = self.velocity_error.measured(self.link.linear_velocity(), now_ns)
+        place = math3.transform(self.link.pose, self.merged.p)
+        vx, vy, vz = self.velocity_error.measured(self.link.velocity_at(place), now_ns)
         error = self.position_error
         dt = error.wander(now_ns)
-        x, y, z = error.measured(self.link.pose.p, now_ns)
+        x, y, z = error.measured(place, now_ns)
         error.current = error.current + dt * self.velocity_error.current  # a receiver adds up what it takes for its velocity
         north, west = self._north_west(x, y)
         message = NavSatFix()
@@ -283,7 +286,8 @@ class HectorMagnetic(_BodyPlugin):
         now = self.server.now()
         if not self.gate.due(now.to_nsec()) or not self.publisher.get_num_connections():
             return
-        field = self.error.measured(math3.quat_rotate(math3.quat_inverse(self.link.pose.q), self.field_W), now.to_nsec())
+        q_SW = math3.quat_inverse(math3.quat_multiply(self.link.pose.q, self.merged.q))
+        field = self.error.measured(math3.quat_rotate(q_SW, self.field_W), now.to_nsec())
         message = self.kind()
         message.header.stamp, message.header.frame_id = now, self.frame
         setattr(message, "magnetic_field" if self.kind is MagneticField else "vector", Vector3(*field))

@@ -12,11 +12,13 @@ from gazebo_ros.plugin import ModelPlugin, SensorPlugin
 from geometry_msgs.msg import Quaternion, Vector3
 from node_signals.rates import Spaced
 from ode_sim import math3
+from ode_sim.description.urdf_extensions import given_offset, merged_at
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Empty, EmptyResponse
 
 from gazebo_plugins.ros_side import Noise, Topics, diagonal, find_link, required, subscribed
 from gazebo_plugins.sensors.noise import SdfNoise, axis_noise
+from gazebo_plugins.sensors.two_rates import tell_what_is_left
 
 
 class Differentiator:
@@ -45,10 +47,11 @@ class ImuPlugin(ModelPlugin):
         self.server = server
         self.topics = Topics(sdf, model.name, "C")
         self.link = find_link(model, server.world, sdf)
-        self.offset = math3.quat_from_rpy(*sdf.get("rpyOffset", (0.0, 0.0, 0.0)))
+        self.merged, given = merged_at(sdf.element, "bodyName"), given_offset(sdf.element)
+        self.offset = math3.quat_from_rpy(*(given[3:] if given else sdf.get("rpyOffset", (0.0, 0.0, 0.0))))
         sigma = sdf.get("gaussianNoise", 0.0)
         self.noise = Noise(server.world.rng(f"{model.name}/imu/{self.link.name}"), sigma)
-        self.acceleration = Differentiator(self.link)
+        self.acceleration = Differentiator(self.link, self.merged.p)
         message = self.message = Imu()
         message.header.frame_id = sdf.get("frameName", "") or self.link.name
         for name in ("orientation_covariance", "angular_velocity_covariance", "linear_acceleration_covariance"):
@@ -64,7 +67,7 @@ class ImuPlugin(ModelPlugin):
         now = self.server.now()
         if not self.publisher.get_num_connections() or not self.gate.due(now.to_nsec()):
             return
-        q_WL = math3.quat_multiply(self.offset, self.link.pose.q)
+        q_WL = math3.quat_multiply(self.offset, math3.quat_multiply(self.link.pose.q, self.merged.q))
         q_LW = math3.quat_inverse(q_WL)
         message = self.message
         message.header.stamp = now
@@ -98,7 +101,9 @@ class ImuSensor(SensorPlugin):
         self.reference = math3.quat_inverse(self._orientation()) if sdf.get("initialOrientationAsReference", False) else None
         self.acceleration = Differentiator(sensor.link, sensor.description.pose.p)
         self.last_ns = 0
-        self.gate = Spaced(sdf.get("updateRateHZ", 1.0))
+        rate = sdf.get("updateRateHZ", 1.0)
+        self.gate = Spaced(rate)
+        tell_what_is_left(sensor, rate, "updateRateHZ", server.world.dt)
         self.publisher = self.topics.publisher(sdf.text_or("topicName", "imu_data"), Imu)
         sensor.connect(self.measure, subscribed(self.publisher))
 

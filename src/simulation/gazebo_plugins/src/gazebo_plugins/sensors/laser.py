@@ -20,6 +20,7 @@ from gazebo_plugins.ros_side import Topics, subscribed, told_namespace
 from gazebo_plugins.sensors import ray_pictures
 from gazebo_plugins.sensors.noise import SdfNoise
 from gazebo_plugins.sensors.ray_pictures import RayPictures
+from gazebo_plugins.sensors.two_rates import tell_what_is_left
 
 
 class RayFan:
@@ -178,7 +179,9 @@ class Range(SensorPlugin):
         message.min_range, message.max_range = self.fan.min, self.fan.max
         self.sigma = sdf.get("gaussianNoise", 0.0)
         self.rng = server.world.rng(sensor.scoped_name + "/range")
-        self.gate = Spaced(sdf.get("updateRate", 0.0))
+        rate = sdf.get("updateRate", 0.0)
+        self.gate = Spaced(rate)
+        tell_what_is_left(sensor, rate, "updateRate", server.world.dt)
         self.publisher = self.topics.publisher(sdf.text_or("topicName", "/range"), RangeMsg)
         sensor.connect(self.measure, subscribed(self.publisher))
 

@@ -8,6 +8,7 @@ from nav_msgs.msg import Odometry
 from node_signals.rates import Spaced
 from ode_sim import math3
 from ode_sim.description.model import Pose
+from ode_sim.description.urdf_extensions import given_offset, merged_at
 
 from gazebo_plugins.ros_side import Noise, Topics, diagonal, find_link, pose_msg, required
 
@@ -15,7 +16,8 @@ _WORLD = ("world", "/world", "map", "/map")
 
 
 class P3D(ModelPlugin):
-    """Twist in world axes, not in those of the child frame: packages that read ground truth know it so."""
+    """Twist in world axes, not in those of the child frame: packages that read ground truth know it so. Offsets of the file are along the
+    reference's axes; a link that was merged into another is where it is on that."""
 
     def load(self, server, model, sdf) -> None:
         self.server = server
@@ -29,8 +31,10 @@ class P3D(ModelPlugin):
                 raise PluginError(
                     f"<frameName> must be world, map or a link of model {model.name}; '{frame}' is none of them ({', '.join(model.links)})"
                 )
-        self.xyz = sdf.get("xyzOffset", sdf.get("xyzOffsets", (0.0, 0.0, 0.0)))
-        self.rpy = math3.quat_from_rpy(*sdf.get("rpyOffset", sdf.get("rpyOffsets", (0.0, 0.0, 0.0))))
+        self.merged, self.reference_merged = merged_at(sdf.element, "bodyName"), merged_at(sdf.element, "frameName")
+        given = given_offset(sdf.element)
+        self.xyz = given[:3] if given else sdf.get("xyzOffset", sdf.get("xyzOffsets", (0.0, 0.0, 0.0)))
+        self.rpy = math3.quat_from_rpy(*(given[3:] if given else sdf.get("rpyOffset", sdf.get("rpyOffsets", (0.0, 0.0, 0.0)))))
         sigma = sdf.get("gaussianNoise", 0.0)
         self.noise = Noise(server.world.rng(f"{model.name}/p3d/{self.link.name}"), sigma)
         message = self.message = Odometry()
@@ -45,12 +49,12 @@ class P3D(ModelPlugin):
         now = self.server.now()
         if not self.publisher.get_num_connections() or not self.gate.due(now.to_nsec()):
             return
-        pose = self.link.pose
-        linear, angular = self.link.linear_velocity(), self.link.angular_velocity()
+        pose = math3.compose(self.link.pose, self.merged)
+        linear, angular = self.link.velocity_at(pose.p), self.link.angular_velocity()
         if self.reference is not None:
-            X_WR = self.reference.pose
+            X_WR = math3.compose(self.reference.pose, self.reference_merged)
             q_RW = math3.quat_inverse(X_WR.q)
-            linear = math3.quat_rotate(q_RW, math3.sub(linear, self.reference.linear_velocity()))
+            linear = math3.quat_rotate(q_RW, math3.sub(linear, self.reference.velocity_at(X_WR.p)))
             angular = math3.quat_rotate(q_RW, math3.sub(angular, self.reference.angular_velocity()))
             pose = math3.relative(X_WR, pose)
         message = self.message

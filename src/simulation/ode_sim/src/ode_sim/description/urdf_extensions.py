@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import math
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from ode_sim import math3
 from ode_sim.description.model import FARTHEST, Pose, quoted
-from ode_sim.description.xmlsource import Element, child, clone, is_true, text_of
+from ode_sim.description.xmlsource import Element, child, clone, is_true, leading_numbers, text_of
 
 if TYPE_CHECKING:
     from ode_sim.description.sdf import SdfReader
 
 LUMP = "_fixed_joint_lump__"
+_GIVEN = "given"  # attribute of an <xyzOffset>
 _MATERIAL_SCRIPT = "file://media/materials/scripts/gazebo.material"
 
 # tag -> path below the element it is inserted in
@@ -52,6 +54,34 @@ _OWN_MEANING = (
 )
 _NAMING = {"plugin": ("bodyName", "frameName"), "joint": ("parent", "child"), "gripper": ("gripper_link", "palm_link")}
 _MOVED_WITH_POSE = ("sensor", "light", "projector")
+
+
+def _numbers(*values: float) -> str:
+    return " ".join(map(repr, values))
+
+
+def _pose(text: str) -> Pose:
+    """Of seven numbers; the identity for any other text."""
+    numbers = leading_numbers(text, 7)
+    if len(numbers) < 7 or not all(map(math.isfinite, numbers)):
+        return Pose()
+    x, y, z, *q = numbers
+    return Pose((x, y, z), math3.quat_normalize(q))
+
+
+def merged_at(plugin: ET.Element, tag: str) -> Pose:
+    """X_LM of the link that ``<tag>`` of a ``plugin`` of the robot named in the URDF, on the link L that it was merged into; the identity
+    where it is a link still."""
+    offset = plugin.find("xyzOffset")
+    return Pose() if offset is None else _pose(offset.get(tag, ""))
+
+
+def given_offset(plugin: ET.Element) -> tuple[float, ...] | None:
+    """x, y, z, roll, pitch, yaw (m, rad) of ``<xyzOffset>`` and ``<rpyOffset>`` of a ``plugin`` in the URDF, before a link that it names
+    was merged; None where none was."""
+    offset = plugin.find("xyzOffset")
+    numbers = () if offset is None else leading_numbers(offset.get(_GIVEN, ""), 6)
+    return numbers if len(numbers) == 6 and all(map(math.isfinite, numbers)) else None
 
 
 @dataclass
@@ -138,7 +168,7 @@ class Extensions:
                 if named is not None and text_of(named) == link:
                     element.remove(named)
                     child(element, tag, parent)
-                    self._move_offset(element, x_pl)
+                    self._move_offset(element, tag, x_pl)
         elif element.tag == "joint":
             for tag in ("parent", "child"):
                 named = element.find(tag)
@@ -149,17 +179,24 @@ class Extensions:
                 if text_of(named) == link:
                     named.text = parent
 
-    def _move_offset(self, plugin: Element, x_pl: Pose) -> None:
+    def _move_offset(self, plugin: Element, of: str, x_pl: Pose) -> None:
+        """sdformat's offset, from the link that is left to what the plugin was given. Attributes keep what it is made of: where the links
+        of ``<bodyName>`` and ``<frameName>`` were on those that are left, and what the file gave."""
         xyz, rpy = ((0.0, 0.0, 0.0),) * 2
+        kept: dict[str, str] = {}
         for tag in ("xyzOffset", "rpyOffset"):
             old = plugin.find(tag)
             if old is not None:
+                kept.update(old.attrib)
                 values = self._reader.numbers(old, (0.0, 0.0, 0.0), most=FARTHEST)
                 xyz, rpy = (values, rpy) if tag == "xyzOffset" else (xyz, values)
                 plugin.remove(old)
+        kept.setdefault(_GIVEN, _numbers(*xyz, *rpy))
+        at = math3.compose(x_pl, _pose(kept.get(of, "")))
+        kept[of] = _numbers(*at.p, *at.q)
         pose = math3.compose(x_pl, math3.from_rpy(*xyz, *rpy))
-        child(plugin, "xyzOffset", " ".join(repr(v) for v in pose.p))
-        child(plugin, "rpyOffset", " ".join(repr(v) for v in math3.to_rpy(pose)))
+        child(plugin, "xyzOffset", _numbers(*pose.p), kept)
+        child(plugin, "rpyOffset", _numbers(*math3.to_rpy(pose)))
 
     # ------------------------------------------------------------------ insertion
 
