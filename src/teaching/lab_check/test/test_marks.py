@@ -240,6 +240,62 @@ def test_descriptions_that_cannot_be():
     assert "not positive" in insane(robot("ixx='0' iyy='1' izz='1'").find("link"))
 
 
+NOT_COMPLETE, NO_BODY = "not complete, or holds what is no finite number", "belong to no body"
+
+
+@pytest.mark.parametrize(
+    "inertia, mass, words",
+    [
+        # Positive moments, but no positive definite matrix: [[a, b], [b, a]] has the eigenvalues a - b and a + b.
+        ("ixx='0.01' iyy='0.01' izz='0.01' ixy='0.5' ixz='0' iyz='0'", "1", NO_BODY),
+        ("ixx='0.01' iyy='0.01' izz='0.01' ixy='0' ixz='-0.02' iyz='0'", "1", NO_BODY),
+        # Positive definite, and each moment less than the others' sum, but the principal ones are 0.2, 1.0 and 1.8.
+        ("ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0.8'", "1", NO_BODY),
+        # A cube of 1 kg and 1 m about a corner.
+        ("ixx='0.6667' iyy='0.6667' izz='0.6667' ixy='-0.25' ixz='-0.25' iyz='-0.25'", "1", ""),
+        ("ixx='nan' iyy='1' izz='1'", "1", NOT_COMPLETE),
+        ("ixx='1' iyy='inf' izz='1'", "1", NOT_COMPLETE),
+        ("ixx='1' iyy='1' izz='1' ixy='nan' ixz='0' iyz='0'", "1", NOT_COMPLETE),
+        ("ixx='1' iyy='1' izz='1' ixy='x' ixz='0' iyz='0'", "1", NOT_COMPLETE),
+        ("ixx='1' iyy='1'", "1", NOT_COMPLETE),
+        ("ixx='1' iyy='1' izz='1'", "nan", NOT_COMPLETE),
+        ("ixx='1' iyy='1' izz='1'", "inf", NOT_COMPLETE),
+        ("ixx='1' iyy='1' izz='1'", "-1", "not positive"),
+    ],
+)
+@pytest.mark.parametrize("format", ["urdf", "sdf"])
+def test_inertias_that_no_body_has(inertia, mass, words, format):
+    """Of a matrix: positive definite, and its principal moments none more than the sum of the others."""
+    numbers = f"<mass value='{mass}'/><inertia {inertia}/>"
+    if format == "sdf":
+        pairs = (word.split("=") for word in inertia.replace("'", "").split())
+        numbers = f"<mass>{mass}</mass><inertia>{''.join(f'<{key}>{value}</{key}>' for key, value in pairs)}</inertia>"
+    link = f"<link name='a'><inertial>{numbers}</inertial></link>"
+    root = ET.fromstring(
+        f"<robot name='r'>{link}</robot>" if format == "urdf" else f"<sdf version='1.6'><model name='r'>{link}</model></sdf>"
+    )
+    said = complain(root, {"inertias": "sane", "links": ["a"]})
+    assert words in said[0] if words else not said, said
+
+
+def test_what_is_not_there_is_not_as_asked():
+    """A description without links, shapes, inertias or joints has nothing wrong with them, and nothing right."""
+    for wanted in ({}, {"collisions": True}, {"limits": True}, {"inertias": "sane"}, {"moving": 0}):
+        assert "has no link" in complain(ET.fromstring("<robot name='r'/>"), wanted)[0]
+    bare = ET.fromstring("<robot name='r'><link name='a'/></robot>")
+    assert complain(bare, {"collisions": True}) == ["no link has a collision"]
+    assert complain(bare, {"limits": True}) == ["no joint can move, so that none has limits"]
+    assert complain(bare, {"inertias": "sane"}) == ["no link has an inertia"]
+    assert "no limit" in complain(robot(limit="<limit effort='inf' velocity='nan'/>"), {"limits": True})[0]
+
+
+def test_figures_that_are_no_numbers_stay_out_of_reports():
+    """JSON has no word for them: whoever reads results.json strictly would read none of it."""
+    result = share(TASK, [Verdict("joint", False, "", figures={"closest": float("inf"), "xyz": [0.0, float("nan")], "last": 1.0})])
+    assert result.verdicts[0].figures == {"last": 1.0}
+    assert json.loads(json.dumps(result.verdicts[0].figures, allow_nan=False))
+
+
 # ---------------------------------------------------------------------------------------------- a class
 
 

@@ -109,12 +109,50 @@ def keys_of(schema):
             yield from keys_of(part)
 
 
+JOINT = "joint: {name: j0, value: 1, tolerance: 0.1}"
+
+
+@pytest.mark.parametrize(
+    "wrong, words",
+    [
+        (JOINT.replace("0.1", "-0.1"), "-0.1 is less than 0"),
+        ("still: {joints: [j0], tolerance: -1}", "-1 is less than 0"),
+        ("tf: {from: a, to: b, xyz: [0, 0, 0], tolerance: -0.1}", "-0.1 is less than 0"),
+        ("path: {points: [[1, 0]], tolerance: -0.1}", "-0.1 is less than 0"),
+        ("image: {topic: /a, colour: [0, 0, 0], tolerance: -1}", "-1 is less than 0"),
+        (JOINT.replace("value: 1", "value: .nan"), "value: is no number (.nan)"),
+        (JOINT.replace("0.1", ".nan"), "tolerance: is no number (.nan)"),
+        (JOINT.replace("value: 1", "value: -.inf"), "value: has to be finite"),
+        (JOINT.replace("0.1}", "0.1, within: .inf}"), "within: has to be finite"),
+        ("moved: {by: [.nan, 1]}", "by.1: is no number"),
+        ("moved: {to: [0, .inf]}", "to.2: has to be finite"),
+        ("path: {points: [[1, .nan]], tolerance: 0.1}", "points.1.2: is no number"),
+        ("param: {name: /x, value: .nan}", "value: is no number"),
+        ("topic: {name: /x, rate: [11, 9]}", "[11, 9]: the least comes first"),
+        ("distance: {from: a, to: b, least: 2, most: 1}", "least: 2 is more than most, 1"),
+    ],
+)
+def test_numbers_by_which_nothing_could_be_judged(tmp_path, wrong, words):
+    found = problems(tmp_path, GOOD.replace(JOINT, wrong))
+    assert "spec.yaml:9:" in found and words in found, found
+
+
+def test_bounds_may_have_no_end_and_messages_may_hold_anything(tmp_path):
+    """A robot that is told to go to nowhere is an exercise, too."""
+    text = GOOD.replace(JOINT, "moved: {by: [0.5, .inf]}").replace(
+        "- run: {command: p node}", "- publish: {topic: /x, type: std_msgs/Float64, message: {data: .nan}}"
+    )
+    (tmp_path / "spec.yaml").write_text(text)
+    assert spec.load(tmp_path / "spec.yaml").points == 3
+
+
 @pytest.mark.parametrize(
     "wrong, right",
     [
         ("topic: {name: /a, rate: 10}", "rate: [9, 11]"),
         ("moved: {distance: 2}", "by: [0.9, 1.1]"),
-        ("node: {name: /x}", "node: /my_node"),
+        ("node: {nam: /x}", "node: /my_node"),
+        ("node: [/x]", "node: /my_node"),
         ("still: {joints: j0}", "joints: [j0, j1]"),
         ("path: {points: [1, 2], tolerance: 0.1}", "points: [[1, 0], [1, 1]]"),
         ("no_errors: true", 'ignore: ["No p gain"]'),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -108,7 +109,7 @@ def share(task: dict[str, Any], verdicts: list[Verdict]) -> TaskResult:
     total = sum(weights) or 1.0
     for weight, verdict in zip(weights, verdicts):
         verdict.reason = sentence(verdict.reason)
-        verdict.figures = verdict.figures if len(repr(verdict.figures)) <= _MOST_FIGURES else {}
+        verdict.figures = _told(verdict.figures) if len(repr(verdict.figures)) <= _MOST_FIGURES else {}
         verdict.of = rounded(task["points"] * weight / total)
         verdict.points = verdict.of if verdict.passed else 0.0
     met = all(verdict.passed for verdict in verdicts)
@@ -118,6 +119,15 @@ def share(task: dict[str, Any], verdicts: list[Verdict]) -> TaskResult:
         for verdict in verdicts:
             verdict.points = 0.0
     return TaskResult(task["name"], rounded(points), rounded(task["points"]), verdicts, hint=task.get("hint", ""))
+
+
+def _told(figures: dict[str, Any]) -> dict[str, Any]:
+    """Those that JSON has numbers for."""
+
+    def finite(value: Any) -> bool:
+        return all(map(finite, value)) if isinstance(value, (list, tuple)) else not isinstance(value, float) or math.isfinite(value)
+
+    return {name: value for name, value in figures.items() if finite(value)}
 
 
 def failed_task(task: dict[str, Any], reason: str) -> TaskResult:

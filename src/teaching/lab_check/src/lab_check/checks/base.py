@@ -6,7 +6,7 @@ import pathlib
 import re
 import signal
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from types import FrameType
 from typing import Any
@@ -29,6 +29,7 @@ class Context:
     model: str = ""
     samples: list[Sample] = field(default_factory=list)
     simulator_seconds: Callable[[], float] = lambda: 0.0  # processor time of the simulator
+    required: Sequence[str] = ()  # packages that a submission must hold
 
     @property
     def bench(self) -> Bench:
@@ -45,11 +46,15 @@ class Check:
     """One expectation: told of each sample, asked at the end.
 
     ``wanted`` is what the spec says. ``horizon`` is for how many simulated seconds after the commands it wants to watch;
-    ``settled`` that more time cannot change the verdict.
+    ``settled`` that more time cannot change the verdict. When all have watched for so long, those go on alone that wait for something
+    that is not :meth:`there` yet, until ``patience`` s after the commands; ``in_wall_time``: for no fewer seconds of wall time, as
+    programs start in that.
     """
 
     horizon = 0.0
     settled = False
+    patience = 0.0
+    in_wall_time = False
 
     def __init__(self, wanted: Any, context: Context):
         self.wanted, self.context = wanted, context
@@ -65,9 +70,16 @@ class Check:
     def sample(self, sample: Sample) -> None:
         """Look at ``sample``, after each quantum."""
 
+    def there(self) -> bool:
+        """What is waited for has come."""
+        return True
+
     def verdict(self) -> tuple[bool, str, dict[str, Any]]:
-        """(passed, sentence, figures)"""
+        """(passed, sentence, figures); may be asked again"""
         raise NotImplementedError
+
+    def end(self) -> None:
+        """After the verdict."""
 
 
 _PATIENCE = 5.0  # s that a pattern may be looked for

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import math
 import xml.etree.ElementTree as ET
 from typing import Any
 
 import lenient_xml
 
 from ..isolation.untrusted_files import matching, read_regular
-from .base import Check, names, search
+from .base import Check, Context, names, search
+from .inertia import insane, number
 
 _LARGEST = 1_000_000  # bytes of a file in which a pattern is looked for
 
@@ -21,6 +21,9 @@ class FileCheck(Check):
         path = self.wanted["path"]
         found = self._find(path)
         if self.wanted.get("absent"):
+            package = path.partition("/")[0]
+            if package in self.context.required and package not in self.context.packages:
+                return False, f"there is no package {package} in your submission", {}
             return not found, f"{path} is {'still there' if found else 'not there, as it should be'}", {}
         if not found:
             return False, f"there is no file {path} in your submission", {}
@@ -46,12 +49,23 @@ class FileCheck(Check):
 
 
 class UrdfCheck(Check):
-    """The robot description on the parameter server."""
+    """The robot description on the parameter server, URDF or SDF."""
+
+    patience = 5.0  # s after the commands
+
+    def __init__(self, wanted: Any, context: Context):
+        super().__init__(wanted, context)
+        self._param = wanted.get("param", "/robot_description")
+
+    def there(self) -> bool:
+        import rosgraph
+
+        return rosgraph.Master("/lab_check").hasParam(self._param)
 
     def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         import rosgraph
 
-        name = self.wanted.get("param", "/robot_description")
+        name = self._param
         try:
             text = rosgraph.Master("/lab_check").getParam(name)
         except rosgraph.MasterException:
@@ -74,8 +88,11 @@ def _in_words(wanted: dict[str, Any]) -> str:
     return " and ".join(words) or "the parameter that is asked for"
 
 
-def complain(robot: ET.Element, wanted: dict[str, Any]) -> list[str]:
-    """What of ``robot``, the description's root, is not as ``wanted``, a sentence each."""
+def complain(root: ET.Element, wanted: dict[str, Any]) -> list[str]:
+    """What of the description with the root element ``root`` is not as ``wanted``, a sentence each."""
+    robot = next(root.iter("model"), root) if root.tag == "sdf" else root
+    if robot.find("link") is None:
+        return [f"the description, a <{root.tag}>, has no link"]
     joints = {joint.get("name"): joint for joint in robot.findall("joint")}
     moving = [joint for joint in joints.values() if joint.get("type") != "fixed"]
     links = {link.get("name") for link in robot.findall("link")}
@@ -97,51 +114,28 @@ def complain(robot: ET.Element, wanted: dict[str, Any]) -> list[str]:
     if "transmissions" in wanted and transmissions < wanted["transmissions"]:
         found.append(f"{transmissions} transmissions are there, {wanted['transmissions']} are needed")
     if wanted.get("limits"):
+        found += [] if moving else ["no joint can move, so that none has limits"]
         found += [
             f"joint '{joint.get('name')}' has no limit with effort and velocity"
             for joint in moving
             if joint.get("type") in ("revolute", "prismatic") and not _limited(joint)
         ]
     if wanted.get("collisions"):
+        found += [] if robot.find("link/collision") is not None else ["no link has a collision"]
         found += [
             f"link '{link.get('name')}' has a visual, but no collision"
             for link in robot.findall("link")
             if link.find("visual") is not None and link.find("collision") is None
         ]
     if wanted.get("inertias") == "sane":
+        found += [] if robot.find("link/inertial") is not None else ["no link has an inertia"]
         found += [text for link in robot.findall("link") if (text := insane(link))]
     return found
 
 
 def _limited(joint: ET.Element) -> bool:
-    limit = joint.find("limit")
+    limit = joint.find("limit") if joint.find("limit") is not None else joint.find("axis/limit")
     try:
-        return limit is not None and float(limit.get("effort", "")) > 0 and float(limit.get("velocity", "")) > 0
+        return number(limit, "effort") > 0 and number(limit, "velocity") > 0
     except ValueError:
         return False
-
-
-def _number(element: ET.Element | None, attribute: str) -> float:
-    """:raises ValueError: the element, the attribute or a number in it is missing"""
-    return float("" if element is None else element.get(attribute, ""))
-
-
-def insane(link: ET.Element) -> str:
-    """Why the inertia of a link cannot be, '' when it can, or when there is none."""
-    inertial = link.find("inertial")
-    if inertial is None:
-        return ""
-    name = link.get("name")
-    try:
-        mass = _number(inertial.find("mass"), "value")
-        xx, yy, zz = (_number(inertial.find("inertia"), key) for key in ("ixx", "iyy", "izz"))
-    except ValueError:
-        return f"the inertia of link '{name}' is not complete"
-    if mass <= 0 or min(xx, yy, zz) <= 0:
-        return f"link '{name}' has a mass or a moment of inertia that is not positive"
-    if 2 * max(xx, yy, zz) > (xx + yy + zz) * (1 + 1e-6):
-        return f"the moments of inertia of link '{name}' ({xx:g}, {yy:g}, {zz:g}) belong to no body: none may exceed the sum of the others"
-    radius = math.sqrt(max(xx, yy, zz) / mass)
-    if radius > 10.0:
-        return f"link '{name}' of {mass:g} kg has the inertia of a body {radius:.0f} m across; wrong units?"
-    return ""

@@ -201,6 +201,7 @@ class Examiner:
             pathlib.Path(job.home),
             pathlib.Path(job.home, "catkin_ws", "src"),
             {name: pathlib.Path(job.home, folder) for name, folder in job.packages.items()},
+            required=job.spec["packages"],
         )
         verdicts = []
         for expectation in task["expect"]:

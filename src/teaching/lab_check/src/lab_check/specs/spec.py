@@ -12,6 +12,7 @@ import jsonschema
 import yaml
 
 from ..errors import LabError
+from .spec_numbers import problems_of_numbers
 
 SCHEMA = json.loads((pathlib.Path(__file__).parent / "spec_schema.json").read_text(encoding="utf-8"))
 EXTRAS = ("points", "say")  # of an expectation, beside its kind
@@ -140,9 +141,13 @@ def line_of(lines: dict[tuple, int], where: tuple) -> int:
     return lines.get(where, 1)
 
 
+def _place(where: tuple) -> str:
+    return ".".join(str(part + 1) if isinstance(part, int) else part for part in where) or "the file"
+
+
 def _words(error: jsonschema.ValidationError, where: tuple) -> list[tuple[tuple, str]]:
     """What jsonschema found, in a teacher's words, with the rest of the path to the place."""
-    place = ".".join(str(part + 1) if isinstance(part, int) else part for part in where) or "the file"
+    place = _place(where)
     value = json.dumps(error.instance, default=str)
     value = value if len(value) < 60 else value[:57] + "..."
     if error.validator == "additionalProperties":
@@ -156,7 +161,7 @@ def _words(error: jsonschema.ValidationError, where: tuple) -> list[tuple[tuple,
         return answers
     sentences = {
         "required": f"{place}: {error.message.split(' is a ')[0]} is missing",
-        "type": f"{place}: {value} is no {_kind(str(error.validator_value))}",
+        "type": f"{place}: {value} is no {_kind(error.validator_value)}",
         "minimum": f"{place}: {value} is less than {error.validator_value}",
         "exclusiveMinimum": f"{place}: {value} must be more than {error.validator_value}",
         "maximum": f"{place}: {value} is more than {error.validator_value}",
@@ -172,7 +177,9 @@ def _words(error: jsonschema.ValidationError, where: tuple) -> list[tuple[tuple,
     return [((), sentences.get(error.validator, f"{place}: {error.message}"))]
 
 
-def _kind(name: str) -> str:
+def _kind(name: str | list[str]) -> str:
+    if isinstance(name, list):
+        return " and no ".join(map(_kind, name))
     return {"object": "table (key: value)", "array": "list", "string": "text", "boolean": "true or false"}.get(name, str(name))
 
 
@@ -206,7 +213,9 @@ def _fill(data: dict[str, Any]) -> None:
 
 def _further(path: pathlib.Path, data: dict[str, Any], lines: dict[tuple, int]) -> list[str]:
     """What a schema cannot say."""
-    problems = []
+    problems = [
+        f"{path}:{line_of(lines, where)}: {_place(where)}: {text}{example(SCHEMA, where)}" for where, text in problems_of_numbers(data)
+    ]
     names = {}
     for number, task in enumerate(data["tasks"]):
         here = ("tasks", number)
