@@ -24,7 +24,7 @@ class PythonCheck(Check):
 
 def make(kind: str, wanted: Any, context: Context) -> Check:
     """The check for an expectation of ``kind`` with the value ``wanted``, which the spec gives it, in a task's ``context``."""
-    from . import files, graph, motion
+    from . import files, graph, listening, motion, programs
 
     kinds = {
         "file": files.FileCheck,
@@ -35,17 +35,17 @@ def make(kind: str, wanted: Any, context: Context) -> Check:
         "param": graph.ParamCheck,
         "tf": graph.TfCheck,
         "controllers": graph.ControllersCheck,
-        "no_errors": graph.NoErrorsCheck,
-        "exit": graph.ExitCheck,
-        "answer": graph.AnswerCheck,
+        "no_errors": programs.NoErrorsCheck,
+        "exit": programs.ExitCheck,
+        "answer": programs.AnswerCheck,
         "joint": motion.JointCheck,
         "still": motion.StillCheck,
         "moved": motion.MovedCheck,
         "path": motion.PathCheck,
         "distance": motion.DistanceCheck,
-        "odometry": motion.OdometryCheck,
-        "energy": motion.EnergyCheck,
-        "image": motion.ImageCheck,
+        "odometry": listening.OdometryCheck,
+        "energy": listening.EnergyCheck,
+        "image": listening.ImageCheck,
         "no_collision": motion.NoCollisionCheck,
         "real_time_factor": motion.RealTimeFactorCheck,
         "python": PythonCheck,

@@ -1,24 +1,31 @@
-"""Nodes, topics, services, parameters, transforms, controllers, what was printed, how programs ended."""
+"""Nodes, topics, services, parameters, transforms, controllers."""
 
 from __future__ import annotations
 
 import difflib
 import fnmatch
 import math
+import socket
 from typing import TYPE_CHECKING, Any
+from urllib.parse import urlsplit
 
 import rosgraph
 import rospy
 
 from ..examination.commands import CommandError, find_topic
 from ..examination.simulated_world import Sample
-from ..explain import crashed, error_lines, refusal, timeless
-from .base import Check, Context, names, search
+from .base import Check, Context, names
 
 if TYPE_CHECKING:
     from tf2_msgs.msg import TFMessage
 
-    from ..isolation.supervise import Program
+_PATIENCE, _TF_PATIENCE = 5.0, 10.0  # s after the commands
+_TF_WATCH = 0.3  # s after the commands for which transforms are watched at least
+_RATE_WATCH, _RATE_MOST = 2.0, 60.0  # s for which a rate is counted at least and at most, where the spec does not say
+_RATE_COUNT = 4  # messages of the slowest rate that is asked for
+_FEWEST, _LONG_PERIOD = 3, 4.0  # messages whose pauses tell a rate, if these are so many quanta long
+_ANSWER = 0.5  # s of wall time
+_MOST_ASKED = 8  # nodes
 
 
 def master() -> rosgraph.Master:
@@ -30,31 +37,76 @@ def _missing(what: str, name: str, there: list[str]) -> str:
     return f"there is no {what} {name}" + (f"; did you mean {near[0]}?" if near else f" (there are: {names(there)})")
 
 
-class NodeCheck(Check):
+def runs(node: str) -> bool:
+    """Somebody is at the address that ``node`` registered: the master keeps the names of those that were killed. Who is slow runs."""
+    try:
+        address = urlsplit(master().lookupNode(node))
+        socket.create_connection((address.hostname, address.port), _ANSWER).close()
+    except TimeoutError:
+        return True
+    except (OSError, ValueError, TypeError, rosgraph.MasterException):
+        return False
+    return True
+
+
+class _Awaited(Check):
+    """Has a while to come up, in simulated and in wall time."""
+
+    in_wall_time = True
+
+    def __init__(self, wanted: Any, context: Context):
+        super().__init__(wanted, context)
+        self.patience = wanted.get("within", _PATIENCE) if isinstance(wanted, dict) else _PATIENCE
+
+    def there(self) -> bool:
+        return self.verdict()[0]
+
+
+class NodeCheck(_Awaited):
     def verdict(self) -> tuple[bool, str, dict[str, Any]]:
+        wanted = self.wanted["name"] if isinstance(self.wanted, dict) else self.wanted
         there = sorted({node for part in master().getSystemState() for _, nodes in part for node in nodes} - {rospy.get_name()})
-        if any(fnmatch.fnmatchcase(node, self.wanted) for node in there):
-            return True, f"the node {self.wanted} runs", {}
-        return False, _missing("node", self.wanted, there), {}
+        found = [node for node in there if fnmatch.fnmatchcase(node, wanted)]
+        if not found:
+            return False, _missing("node", wanted, there), {}
+        if not any(runs(node) for node in found[:_MOST_ASKED]):
+            return False, f"the node {names(found)} has ended: it is registered at the master, but does not answer any more", {}
+        return True, f"the node {wanted} runs", {}
 
 
-class TopicCheck(Check):
+class TopicCheck(_Awaited):
     """A topic's publisher or subscriber, its type, its rate in simulated time, whether it is latched."""
 
     def __init__(self, wanted: Any, context: Context):
         super().__init__(wanted, context)
         self._arrivals: list[float] = []
-        self._latched = None
-        self._subscriber = None
-        if "rate" in wanted or "latched" in wanted:
-            self.horizon = wanted.get("within", 2.0 if "rate" in wanted else 0.2)
+        self._begin: float | None = None  # simulated s, when counting began
+        self._subscriber: rospy.Subscriber | None = None
+        self._window = 0.0
+        if "rate" in wanted:
+            slowest = _RATE_COUNT / wanted["rate"][0] if wanted["rate"][0] > 0 else 0.0
+            self._window = wanted.get("within", min(max(_RATE_WATCH, slowest), _RATE_MOST))
+            self.horizon = self._window
+            self.patience = _PATIENCE + self._window
+        elif "latched" in wanted:
+            self.horizon = min(self.patience, 0.2)
 
     def commanded(self) -> None:
-        if not self.horizon:
+        self._listen()
+
+    def sample(self, sample: Sample) -> None:
+        del sample
+        self._listen()
+
+    def _listen(self) -> None:
+        """From when somebody publishes it."""
+        if self._subscriber is not None or not {"rate", "latched"} & set(self.wanted):
             return
         try:
             name = find_topic(self.wanted["name"])
         except CommandError:
+            return
+        if not set(dict(master().getSystemState()[0]).get(name, ())) - {rospy.get_name()}:
             return
         self._subscriber = rospy.Subscriber(name, rospy.AnyMsg, self._receive, queue_size=None, tcp_nodelay=True)
         self.context.bench.connect()
@@ -62,39 +114,71 @@ class TopicCheck(Check):
         del self._arrivals[:]
 
     def _receive(self, message: Any) -> None:
+        del message
         self._arrivals.append(self.context.bench.now.time)
-        self._latched = message._connection_header.get("latching") == "1"
 
-    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
+    def there(self) -> bool:
+        if "rate" in self.wanted:
+            return self._begin is not None and self.context.bench.now.time >= self._begin + self._window - 1e-9
+        return super().there()
+
+    def end(self) -> None:
         if self._subscriber is not None:
             self._subscriber.unregister()
+
+    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         try:
             name = find_topic(self.wanted["name"])
         except CommandError as error:
             return False, str(error), {}
         published, subscribed, _ = master().getSystemState()
         side = subscribed if self.wanted.get("subscribed") else published
-        there = sorted(topic for topic, nodes in side if set(nodes) - {rospy.get_name()})
+        there = {topic: sorted(set(nodes) - {rospy.get_name()}) for topic, nodes in side if set(nodes) - {rospy.get_name()}}
+        does = "listens to" if self.wanted.get("subscribed") else "publishes"
         if name not in there:
-            does = "listens to:" if self.wanted.get("subscribed") else "publishes:"
-            return False, _missing(f"topic that anybody {does}", name, there), {}
+            return False, _missing(f"topic that anybody {does}:", name, sorted(there)), {}
+        if not any(runs(node) for node in there[name][:_MOST_ASKED]):
+            return False, f"the node {names(there[name])}, which {does} {name}, has ended: it does not answer any more", {}
         kind = dict(master().getTopicTypes()).get(name, "?")
         if self.wanted.get("type", kind) != kind:
             return False, f"{name} carries {kind}, not {self.wanted['type']}", {}
-        if "latched" in self.wanted and bool(self._latched) != self.wanted["latched"]:
-            return False, f"{name} is {'' if self._latched else 'not '}latched", {}
+        if "latched" in self.wanted:
+            latched = self._latched()
+            if latched is None:
+                return False, f"nobody who publishes {name} could be reached: whether it is latched is not known", {}
+            if latched != self.wanted["latched"]:
+                return False, f"{name} is {'' if latched else 'not '}latched", {}
         if "rate" in self.wanted:
             return self._rate(name)
         return True, f"{name} is there, {kind}", {}
 
+    def _latched(self) -> bool | None:
+        """What publishers say when they are connected to; None while none is."""
+        headers = [c.header for c in self._subscriber.impl.connections] if self._subscriber is not None else []
+        return any(header.get("latching") == "1" for header in headers) if headers else None
+
     def _rate(self, name: str) -> tuple[bool, str, dict[str, Any]]:
-        passed_time = self.context.bench.now.time - self._begin
-        rate = len(self._arrivals) / passed_time if passed_time > 0 else 0.0
+        if self._begin is None:
+            return False, f"nobody published {name} when it was counted", {}
+        rate = rate_of(self._arrivals, self._begin, self.context.bench.now.time, self.context.bench.quantum)
         low, high = self.wanted["rate"]
         return (low <= rate <= high, f"{name} comes at {rate:.4g} Hz of simulated time; {low:g} to {high:g} are asked for", {"rate": rate})
 
 
-class ServiceCheck(Check):
+def rate_of(arrivals: list[float], begin: float, end: float, quantum: float) -> float:
+    """Hz, from the times of ``arrivals`` between ``begin`` and ``end``, which are known to a ``quantum``.
+
+    Of few that come regularly, by the pauses between them: how many fall into a time is uncertain by one.
+    """
+    if len(arrivals) >= _FEWEST:
+        period = (arrivals[-1] - arrivals[0]) / (len(arrivals) - 1)
+        rest = max(arrivals[0] - begin, end - arrivals[-1])
+        if period > _LONG_PERIOD * quantum and rest <= period + 2 * quantum:
+            return 1 / period
+    return len(arrivals) / (end - begin) if end > begin else 0.0
+
+
+class ServiceCheck(_Awaited):
     def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         from rosservice import ROSServiceException, get_service_type
 
@@ -106,12 +190,14 @@ class ServiceCheck(Check):
             kind = get_service_type(name)
         except (ROSServiceException, OSError) as error:
             return False, f"service {name} does not answer: {error}", {}
+        if kind is None:
+            return False, f"service {name} does not answer", {}
         if self.wanted.get("type", kind) != kind:
             return False, f"{name} is of type {kind}, not {self.wanted['type']}", {}
         return True, f"the service {name} is offered", {}
 
 
-class ParamCheck(Check):
+class ParamCheck(_Awaited):
     def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         name = self.wanted["name"]
         try:
@@ -126,10 +212,13 @@ class ParamCheck(Check):
         return True, f"parameter {name} is set", {}
 
 
-class TfCheck(Check):
+class TfCheck(_Awaited):
     """A transform between two frames; joints of the tree are composed from what /tf and /tf_static brought."""
 
-    horizon = 0.3
+    def __init__(self, wanted: Any, context: Context):
+        super().__init__(wanted, context)
+        self.patience = wanted.get("within", _TF_PATIENCE)
+        self.horizon = min(_TF_WATCH, self.patience)
 
     def start(self) -> None:
         import tf2_ros
@@ -148,25 +237,29 @@ class TfCheck(Check):
         for transform in message.transforms:
             set_it(transform, "lab_check")
 
+    def end(self) -> None:
+        for subscriber in self._subscribers:
+            subscriber.unregister()
+
     def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         import tf2_ros
 
-        for subscriber in self._subscribers:
-            subscriber.unregister()
         source, target = self.wanted["from"], self.wanted["to"]
         try:
             found = self._buffer.lookup_transform_core(source, target, rospy.Time(0)).transform.translation
         except tf2_ros.TransformException as error:
             return False, f"there is no transform from {source} to {target}: {str(error).splitlines()[0]}", {}
         place = [found.x, found.y, found.z]
+        if not all(map(math.isfinite, place)):
+            return False, f"the transform from {source} to {target} holds what is no number", {}
         if "xyz" in self.wanted:
-            off = math.dist(place, self.wanted["xyz"])
+            off = math.dist(place[: len(self.wanted["xyz"])], self.wanted["xyz"])
             if not off <= self.wanted.get("tolerance", 0.01):
                 return False, f"{target} is {off:.4g} m from where it should be in {source}", {"xyz": place}
         return True, f"{target} is known in {source}", {"xyz": place}
 
 
-class ControllersCheck(Check):
+class ControllersCheck(_Awaited):
     def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         from controller_manager_msgs.srv import ListControllers
 
@@ -202,7 +295,10 @@ class ControllersCheck(Check):
         if len(running) < self.wanted.get("count", 0):
             return False, f"{len(running)} controllers run, {self.wanted['count']} are asked for (running: {names(running)})", figures
         for pattern, kind in self.wanted.get("types", {}).items():
-            wrong = [f"{name} is {c.type}" for name, c in found.items() if fnmatch.fnmatchcase(name, pattern) and c.type != kind]
+            fitting = [c for name, c in found.items() if fnmatch.fnmatchcase(name, pattern)]
+            if not fitting:
+                return False, f"controller {pattern} is not loaded (there are: {names(sorted(found))})", figures
+            wrong = [f"{c.name} is {c.type}" for c in fitting if c.type != kind]
             if wrong:
                 return False, f"{names(wrong)}, not {kind}", figures
         return True, f"running: {names(running)}", figures
@@ -213,104 +309,3 @@ class ControllersCheck(Check):
         for node in sorted(owners):
             if master().lookupNode(node) != self.context.bench.simulator:
                 self.doubts.add(f"a controller manager that was asked is the node {node}'s, not the simulator's: it tells what it likes")
-
-
-class NoErrorsCheck(Check):
-    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
-        ignored = self.wanted.get("ignore", [])
-        lines = [line for line in error_lines(self.context.log()) if not any(search(pattern, line) for pattern in ignored)]
-        if lines:
-            return False, f"{len(lines)} error lines, the first: {timeless(lines[0])[:200]}", {}
-        return True, "nothing was reported as an error", {}
-
-
-class ExitCheck(Check):
-    """How a program of the task's ``run`` ended, or that it goes on; what it printed."""
-
-    def __init__(self, wanted: Any, context: Context):
-        super().__init__(wanted, context)
-        self.horizon = wanted.get("within", 2.0) if "code" in wanted or wanted.get("refused") else 0.0
-
-    @property
-    def settled(self) -> bool:
-        program = self.context.actor.runs.get(self.wanted["run"])
-        return program is None or not program.running
-
-    @settled.setter
-    def settled(self, value: bool) -> None:
-        del value
-
-    def sample(self, sample: Sample) -> None:
-        del sample
-
-    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
-        program = self.context.actor.runs.get(self.wanted["run"])
-        if program is None:
-            return False, "the program was not started", {}
-        if "code" in self.wanted or self.wanted.get("refused"):
-            self.context.bench.leave(program)
-        said = program.output.text()
-        last = timeless(next((line for line in reversed(said.splitlines()) if line.strip()), "nothing"))[:160]
-        if program.broke:
-            return False, f"the program was ended: {program.broke}", {}
-        if "Couldn't find executable" in said or "[rosrun]" in said:
-            return False, f"the program could not be started: {last}", {}
-        if self.wanted.get("refused"):
-            taken = self._taken(program, said, last)
-            if taken:
-                return False, taken, {}
-        if "code" in self.wanted and program.code != self.wanted["code"]:
-            how = "still runs" if program.running else f"ended with code {program.code}"
-            return False, f"the program {how}; it should end with {self.wanted['code']} (it last printed: {last})", {}
-        if "says" in self.wanted and not search(self.wanted["says"], said):
-            return False, f"the program printed nothing like '{self.wanted['says']}'; it last printed: {last}", {}
-        if not set(self.wanted) & {"code", "refused", "says"} and not program.running and program.code:
-            return False, f"the program ended with code {program.code}: {last}", {}
-        return True, "the program did as it should" + (f": {last}" if self.wanted.get("refused") else ""), {}
-
-    def _taken(self, program: Program, said: str, last: str) -> str:
-        """Why a wrong argument was not refused; '' when it was: by an exit code that is not 0, or by what the program said.
-
-        Many programs print how they are used and end with 0; one that ends with 0 and says nothing has taken the argument for a good one.
-        """
-        if program.running:
-            return "the program took a wrong argument and went on, instead of refusing it"
-        if crashed(program.code, said):
-            return f"the program crashed on a wrong argument instead of refusing it: {last}"
-        if program.code == 0 and not (search(self.wanted["says"], said) if "says" in self.wanted else refusal(said)):
-            return (
-                "the program took a wrong argument: it ended with code 0 and did not say what is wrong with it, nor how it is used "
-                f"(it last printed: {last})"
-            )
-        return ""
-
-
-class AnswerCheck(Check):
-    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
-        key = self.wanted["call"]
-        answer = self.context.actor.answers.get(key)
-        refusal = self.context.actor.refusals.get(key)
-        if refusal is None and isinstance(answer, dict):
-            refusal = next((str(answer) for field in ("success", "ok") if answer.get(field) is False), None)
-        if self.wanted.get("refused"):
-            return (
-                refusal is not None,
-                (
-                    f"refused, as it should be: {refusal}"
-                    if refusal is not None
-                    else f"this had to be refused, but was taken: {str(answer)[:160]}"
-                ),
-                {},
-            )
-        if answer is None:
-            return False, f"no answer came: {refusal or 'nothing was asked'}", {}
-        wrong = [
-            f"{field} is {str(answer.get(field))[:80]}, not {value}"
-            for field, value in self.wanted.get("equals", {}).items()
-            if answer.get(field) != value
-        ]
-        if wrong:
-            return False, names(wrong), {}
-        if refusal is not None and not self.wanted.get("equals"):
-            return False, f"refused: {refusal[:160]}", {}
-        return True, "answered as it should", {}

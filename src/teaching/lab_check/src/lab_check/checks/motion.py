@@ -1,30 +1,27 @@
-"""What the simulated world shows: joints, ways, objects, distances, touches, odometry, energy, pictures."""
+"""What the simulated world shows: joints, ways, objects, distances, touches."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
-import image_pixels
-import numpy as np
-import rospy
-
-from ..examination.camera_visibility import share_of
-from ..examination.commands import CommandError, find_topic
+from ..examination.scoped_names import belongs
 from ..examination.simulated_world import Sample
 from .base import Check, Context, names
+from .presence import Presence
 
 _EVERY = 0.05  # s between two points of a plot
-_MOST_MESSAGES = 200_000  # of a topic that one task keeps
-_SHARE = [0.005, 1.0]  # of a picture, where the spec says none
+_A_MOMENT = 1e-6  # s: until the next look at the world
 
 
 class Timed(Check):
     """Keeps points for the plot."""
 
     def note(self, name: str, time: float, value: float) -> None:
-        """Keep ``value`` at ``time`` (simulated s) as a point of the line ``name``, unless the last one is too near."""
+        """Keep ``value`` at ``time`` (simulated s) as a point of the line ``name``, unless the last one is too near, or it is no number."""
+        if not math.isfinite(value):
+            return
         line = self.series.setdefault(name, [])
         if not line or time - line[-1][0] >= _EVERY - 1e-9:
             line.append([time, value])
@@ -41,13 +38,28 @@ class JointCheck(Timed):
         self._last: float | None = None
         self._reached: float | None = None
         self._begin = math.inf
+        self._owner: tuple[str, int] | None = None  # the model that has it
+        self._gone = ""
 
     def commanded(self) -> None:
         self._begin = self.context.bench.now.time
 
+    def _follow(self, sample: Sample) -> None:
+        """What another body does, or did before it came back, is not held by this one."""
+        owner = sample.owner(self.wanted["name"], self.context.model)
+        if self._owner is not None and owner != self._owner and not self.settled:
+            self._inside = None
+            if owner is None:
+                self._gone = self._gone or f"; it was gone at {sample.time:.2f} s of simulation"
+            else:
+                self.doubts.add(f"the model with the joint {self.wanted['name']} was replaced by {sample.time:.2f} s of simulation")
+        self._owner = owner or self._owner
+
     def sample(self, sample: Sample) -> None:
+        self._follow(sample)
         found = sample.joint(self.wanted["name"], self.context.model)
         if found is None:
+            self._inside = None
             return
         _doubt(self, sample, self.wanted["name"])
         value = found[1 if self.wanted.get("velocity") else 0]
@@ -87,7 +99,7 @@ class JointCheck(Timed):
                 f"joint {name} should reach {self.wanted['value']:g} {unit} within {self.wanted.get('within', 10.0):g} s{held}; "
                 f"it ended at "
                 f"{self._last:.4g}, {abs(self._last - self.wanted['value']):.4g} away (closest {self._best:.4g}, "
-                f"allowed {self.wanted['tolerance']:g})"
+                f"allowed {self.wanted['tolerance']:g}){self._gone}"
             ),
             figures,
         )
@@ -103,6 +115,11 @@ def _doubt(check: Check, sample: Sample, joint: str) -> None:
         )
 
 
+def _extreme(known: float, value: float, of: Callable[[float, float], float]) -> float:
+    """The ``of``, min or max, of both; what is no number once stays that, as the comparisons of min and max would forget it."""
+    return math.nan if math.isnan(known) or math.isnan(value) else of(known, value)
+
+
 class StillCheck(Timed):
     """Joints that must not move."""
 
@@ -111,25 +128,32 @@ class StillCheck(Timed):
         self.horizon = wanted.get("for", 1.0)
         self._first: dict[str, float] = {}
         self._most: dict[str, float] = {}
+        self._joints = Presence(wanted["joints"], lambda sample, joint: sample.owner(joint, context.model))
 
     def start(self) -> None:
+        now = self.context.bench.now
+        self._joints.look(now)
         for name in self.wanted["joints"]:
-            found = self.context.bench.now.joint(name, self.context.model)
+            found = now.joint(name, self.context.model)
             if found is not None:
                 self._first[name] = found[0]
 
     def sample(self, sample: Sample) -> None:
+        self._joints.look(sample)
         for name, first in self._first.items():
             found = sample.joint(name, self.context.model)
             _doubt(self, sample, name)
             if found is not None:
-                self._most[name] = max(self._most.get(name, 0.0), abs(found[0] - first))
+                off = abs(found[0] - first)
+                self._most[name] = _extreme(self._most.get(name, 0.0), off, max)
                 self.note(name, sample.time, found[0])
 
     def verdict(self) -> tuple[bool, str, dict[str, Any]]:
         missing = [name for name in self.wanted["joints"] if name not in self._first]
         if missing:
             return False, f"no model in the simulator has a joint '{missing[0]}'", {}
+        if self._joints.problem:
+            return False, f"the joint {self._joints.problem}", {}
         tolerance = self.wanted.get("tolerance", 0.02)
         moved = {name: most for name, most in self._most.items() if not most <= tolerance}
         return (
@@ -139,11 +163,11 @@ class StillCheck(Timed):
                 if moved
                 else "nothing moved, as it should"
             ),
-            {"most": self._most},
+            {"most": max(self._most.values(), default=0.0)},
         )
 
 
-def _subject(check: Check) -> str:
+def subject(check: Check) -> str:
     """The model that is meant: named, or the one with most joints."""
     name = (check.wanted.get("model") if isinstance(check.wanted, dict) else None) or check.context.model
     if name:
@@ -158,24 +182,47 @@ def yaw(pose: list[float]) -> float:
     return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 
 
-class MovedCheck(Timed):
+class _Following(Timed):
+    """Follows one model or ``model::link``: the one that is named, or is meant when the task begins."""
+
+    def start(self) -> None:
+        self._name = subject(self)
+        self._presence = Presence([self._name])
+        self._presence.look(self.context.bench.now)
+
+    def place(self, sample: Sample) -> list[float] | None:
+        """Its pose; None where it is not there."""
+        if not self._name and subject(self):
+            self._name = subject(self)
+            self._presence = Presence([self._name])
+        self._presence.look(sample)
+        return sample.place(self._name)
+
+    def nobody(self) -> str:
+        there = f"(there are: {names(self.context.bench.now.models)})"
+        return (
+            f"there is no '{self._name}' in the simulator {there}" if self._name else f"no model that can move is in the simulator {there}"
+        )
+
+
+class MovedCheck(_Following):
     """How far a model (or ``model::link``) went and turned from the task's beginning, or that it is at a place."""
 
     def __init__(self, wanted: Any, context: Context):
         super().__init__(wanted, context)
         self.horizon = wanted.get("within", 0.0)
-        self._turned, self._way = 0.0, 0.0
-        self._old: list[float] | None = None
+        self._turned = 0.0
 
     def start(self) -> None:
-        self._name = _subject(self)
-        self._first = self._old = self.context.bench.now.place(self._name)
+        super().start()
+        self._first = self._last = self._old = self.context.bench.now.place(self._name)
 
     def sample(self, sample: Sample) -> None:
-        pose = sample.place(self._name)
-        if pose is None or self._first is None:
+        pose = self._last = self.place(sample)
+        if pose is None:
+            self.settled = False
             return
-        step = yaw(pose) - yaw(self._old or self._first)
+        step = yaw(pose) - yaw(self._old or pose)
         self._turned += math.remainder(step, 2 * math.pi)
         self._old = pose
         self.note(f"{self._name} x", sample.time, pose[0])
@@ -187,11 +234,25 @@ class MovedCheck(Timed):
         to = self.wanted["to"]
         return math.dist(pose[: len(to)], to)
 
+    def _absent(self) -> str:
+        """Why it cannot be told how far it went, or where it is; '' when it can."""
+        if self._presence.missing():
+            return self.nobody()
+        way = "to" not in self.wanted or "by" in self.wanted or "turned" in self.wanted
+        if self._presence.problem and (way or self._last is None):
+            return self._presence.problem
+        if way and self._first is None:
+            return f"'{self._name}' was not there when the task began: how far it went is not known"
+        if self._presence.problem:
+            self.doubts.add(self._presence.problem)
+        return ""
+
     def verdict(self) -> tuple[bool, str, dict[str, Any]]:
-        if self._first is None or self._old is None:
-            return False, f"there is no '{self._name}' in the simulator (there are: {names(self.context.bench.now.models)})", {}
-        way = math.dist(self._first[:3], self._old[:3])
-        figures = {"moved": way, "turned": self._turned, "at": self._old[:3]}
+        absent = self._absent()
+        if absent or self._last is None:
+            return False, absent or self.nobody(), {}
+        way = math.dist((self._first or self._last)[:3], self._last[:3])
+        figures = {"moved": way, "turned": self._turned, "at": self._last[:3]}
         said = []
         for key, value, unit in (("by", way, "m"), ("turned", self._turned, "rad")):
             if key in self.wanted:
@@ -200,12 +261,12 @@ class MovedCheck(Timed):
                     said.append(
                         f"{self._name} {'turned' if key == 'turned' else 'moved'} by {value:.4g} {unit}; {low:g} to {high:g} are asked for"
                     )
-        if "to" in self.wanted and not self._off(self._old) <= self.wanted.get("tolerance", 0.05):
-            said.append(f"{self._name} is {self._off(self._old):.4g} m from {self.wanted['to']}, where it should be")
+        if "to" in self.wanted and not self._off(self._last) <= self.wanted.get("tolerance", 0.05):
+            said.append(f"{self._name} is {self._off(self._last):.4g} m from {self.wanted['to']}, where it should be")
         return not said, "; ".join(said) or f"{self._name} moved by {way:.4g} m and turned by {self._turned:.4g} rad, as asked", figures
 
 
-class PathCheck(Timed):
+class PathCheck(_Following):
     """The points are passed in their order, each within ``tolerance``."""
 
     def __init__(self, wanted: Any, context: Context):
@@ -214,15 +275,16 @@ class PathCheck(Timed):
         self._next, self._closest = 0, math.inf
 
     def sample(self, sample: Sample) -> None:
-        name = _subject(self)
-        pose = sample.place(name)
-        if pose is None or self.settled:
+        if self.settled:
             return
-        self.note(f"{name} x", sample.time, pose[0])
-        self.note(f"{name} y", sample.time, pose[1])
+        pose = self.place(sample)
+        if pose is None:
+            return
+        self.note(f"{self._name} x", sample.time, pose[0])
+        self.note(f"{self._name} y", sample.time, pose[1])
         point = self.wanted["points"][self._next]
         self._closest = min(self._closest, math.dist(pose[: len(point)], point))
-        if self._closest <= self.wanted["tolerance"]:
+        if self._closest <= self.wanted["tolerance"] and not self._presence.problem:
             self._next, self._closest = self._next + 1, math.inf
             self.settled = self._next == len(self.wanted["points"])
 
@@ -230,11 +292,14 @@ class PathCheck(Timed):
         points = self.wanted["points"]
         if self.settled:
             return True, f"all {len(points)} points were passed", {}
+        if self._presence.missing():
+            return False, self.nobody(), {}
         return (
             False,
             (
                 f"{self._next} of {len(points)} points were passed; the next, {points[self._next]}, was missed by "
                 f"{self._closest:.4g} m (allowed {self.wanted['tolerance']:g})"
+                + (f"; {self._presence.problem}" if self._presence.problem else "")
             ),
             {"passed": self._next},
         )
@@ -247,203 +312,67 @@ class DistanceCheck(Timed):
         super().__init__(wanted, context)
         self.horizon = wanted.get("for", 0.0)
         self._least, self._most = math.inf, -math.inf
+        self._presence = Presence([wanted["from"], wanted["to"]])
+
+    def commanded(self) -> None:
+        self._presence.due()
 
     def sample(self, sample: Sample) -> None:
+        self._presence.look(sample)
         a, b = (sample.place(self.wanted[key]) for key in ("from", "to"))
         if a and b:
             distance = math.dist(a[:3], b[:3])
-            self._least, self._most = min(self._least, distance), max(self._most, distance)
+            self._least, self._most = _extreme(self._least, distance, min), _extreme(self._most, distance, max)
             self.note("distance", sample.time, distance)
 
     def verdict(self) -> tuple[bool, str, dict[str, Any]]:
-        if self._most < 0:
-            return False, f"{self.wanted['from']} or {self.wanted['to']} is not in the simulator", {}
+        missing = self._presence.missing()
+        if missing:
+            return False, f"there is no '{missing[0]}' in the simulator (there are: {names(self.context.bench.now.models)})", {}
+        if self._presence.problem:
+            return False, self._presence.problem, {}
         figures = {"least": self._least, "most": self._most}
-        if self._least < self.wanted.get("least", -math.inf):
+        if not self._least >= self.wanted.get("least", -math.inf):
             return False, f"they came within {self._least:.4g} m of each other; {self.wanted['least']:g} m had to be kept", figures
-        if self._most > self.wanted.get("most", math.inf):
+        if not self._most <= self.wanted.get("most", math.inf):
             return False, f"they were {self._most:.4g} m apart; {self.wanted['most']:g} m were allowed", figures
         return True, f"the distance stayed between {self._least:.4g} and {self._most:.4g} m", figures
 
 
-class _Listening(Timed):
-    """Takes the messages of a topic; ``messages`` has (simulated time, message)."""
-
-    def start(self) -> None:
-        import roslib.message
-
-        self.messages: list[tuple[float, Any]] = []
-        self.problem = ""
-        self._subscriber: Any = None  # rospy.Subscriber, once somebody publishes
-        try:
-            import rosgraph
-
-            name = self._topic = find_topic(self.wanted["topic"])
-            kind = dict(rosgraph.Master("/lab_check").getTopicTypes()).get(name)
-        except CommandError as error:
-            self.problem = str(error)
-            return
-        message = roslib.message.get_message_class(kind) if kind and kind != "*" else None
-        if message is None:
-            self.problem = f"nobody publishes {name}" if kind is None else f"{name} carries {kind}, which is not known here"
-            return
-        self._subscriber = rospy.Subscriber(name, message, self._take, queue_size=None, buff_size=1 << 24, tcp_nodelay=True)
-        self.context.bench.connect()
-
-    def _take(self, message: Any) -> None:
-        if len(self.messages) < _MOST_MESSAGES:
-            self.messages.append((self.context.bench.now.time, message))
-
-    def _of_the_simulator(self) -> None:
-        """Where the simulator publishes the topic, what others publish there does not count, and is a doubt."""
-        simulator = self.context.bench.simulator
-        headers = {id(c.header): c.endpoint_id for c in self._subscriber.impl.connections}
-        sources = [headers.get(id(message._connection_header)) for _, message in self.messages]
-        if simulator in sources and any(source != simulator for source in sources):
-            self.doubts.add(f"another node publishes {self._topic}, too, which is the simulator's: what it sent does not count")
-            self.messages = [entry for entry, source in zip(self.messages, sources) if source == simulator]
-
-    def stop(self) -> None:
-        if self._subscriber is not None:
-            self._of_the_simulator()
-        if self._subscriber is not None:
-            self._subscriber.unregister()
-        if not self.problem and not self.messages:
-            self.problem = f"no message came on {self.wanted['topic']}"
-
-
-class OdometryCheck(_Listening):
-    """The way that odometry tells from the task's beginning, against the simulator's truth."""
-
-    def __init__(self, wanted: Any, context: Context):
-        super().__init__(wanted, context)
-        self.horizon = wanted.get("for", 0.0)
-
-    def start(self) -> None:
-        super().start()
-        self._name = _subject(self)
-        self._first = self.context.bench.now.place(self._name)
-
-    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
-        self.stop()
-        last = self.context.bench.now.place(self._name)
-        if self.problem or last is None or self._first is None:
-            return False, self.problem or f"there is no model '{self._name}'", {}
-        told = [self.messages[k][1].pose.pose for k in (0, -1)]
-        own = [[p.position.x, p.position.y, 0, p.orientation.x, p.orientation.y, p.orientation.z, p.orientation.w] for p in told]
-        off = math.dist(_seen(own[0], own[1]), _seen(self._first, last))
-        return (
-            off <= self.wanted["tolerance"],
-            f"odometry is {off:.4g} m from the truth (allowed {self.wanted['tolerance']:g})",
-            {"off": off},
-        )
-
-
-def _seen(first: list[float], last: list[float]) -> tuple[float, float]:
-    """Where ``last`` is in the plane, seen from ``first``."""
-    dx, dy, angle = last[0] - first[0], last[1] - first[1], -yaw(first)
-    return dx * math.cos(angle) - dy * math.sin(angle), dx * math.sin(angle) + dy * math.cos(angle)
-
-
-class EnergyCheck(_Listening):
-    """Work of the joints, from joint states: the sum of |effort x velocity| over simulated time, J."""
-
-    def __init__(self, wanted: Any, context: Context):
-        super().__init__(wanted, context)
-        self.horizon = wanted.get("for", 5.0)
-
-    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
-        self.stop()
-        if self.problem:
-            return False, self.problem, {}
-        work, old = 0.0, None
-        for _, message in self.messages:
-            now = message.header.stamp.to_sec()
-            if old is not None and now > old and message.effort:
-                work += (now - old) * float(sum(abs(e * v) for e, v in zip(message.effort, message.velocity)))
-            old = now
-        return work <= self.wanted["most"], f"the joints did {work:.4g} J of work (allowed {self.wanted['most']:g})", {"work": work}
-
-
-class ImageCheck(_Listening):
-    """A camera's newest picture: its size, and how much of it has a colour, or shows a model as the simulator knows it."""
-
-    def __init__(self, wanted: Any, context: Context):
-        super().__init__(wanted, context)
-        self.horizon = wanted.get("within", 1.0)
-
-    def sample(self, sample: Sample) -> None:
-        del sample
-        del self.messages[:-20]  # of whom they came is looked at later
-
-    def verdict(self) -> tuple[bool, str, dict[str, Any]]:
-        self.stop()
-        if self.problem:
-            return False, self.problem, {}
-        message = self.messages[-1][1]
-        pixels = to_rgb(message)
-        if pixels is None:
-            return False, f"a picture in the encoding '{message.encoding}' cannot be looked at", {}
-        if "size" in self.wanted and [message.width, message.height] != self.wanted["size"]:
-            return False, f"the picture has {message.width}x{message.height} pixels, not {'x'.join(map(str, self.wanted['size']))}", {}
-        if "object" in self.wanted:
-            return self._object(self.wanted["object"])
-        if "colour" not in self.wanted:
-            lively = float(pixels.std())
-            return (
-                lively > 1.0,
-                "the picture shows something" if lively > 1.0 else "the picture is all of one colour",
-                {"deviation": lively},
-            )
-        off = np.abs(pixels.astype(int) - np.array(self.wanted["colour"])).max(axis=2)
-        part = float((off <= self.wanted.get("tolerance", 40)).mean())
-        low, high = self.wanted.get("share", _SHARE)
-        return low <= part <= high, f"{part:.2%} of the picture has that colour; {low:.2%} to {high:.2%} are asked for", {"share": part}
-
-    def _object(self, name: str) -> tuple[bool, str, dict[str, Any]]:
-        if self.context.bench.now.place(name) is None:
-            return False, f"there is no '{name}' in the simulator (there are: {names(self.context.bench.now.models)})", {}
-        found = self.context.bench.seen(self._topic)
-        if isinstance(found, str):
-            return False, found, {}
-        part = share_of(name, found)
-        low, high = self.wanted.get("share", _SHARE)
-        return low <= part <= high, f"{name} fills {part:.2%} of the picture; {low:.2%} to {high:.2%} are asked for", {"share": part}
-
-
-def to_rgb(message: Any) -> np.ndarray | None:
-    """(rows, columns, 3) uint8, None for an encoding without colours or a message that contradicts itself."""
-    try:
-        picture = image_pixels.picture_of(message)
-    except image_pixels.ImageError:
-        return None
-    if picture.unit:
-        return None
-    return picture.pixels if picture.pixels.ndim == 3 else np.repeat(picture.pixels[..., None], 3, axis=2)
-
-
 class NoCollisionCheck(Check):
-    """A model touches nothing but itself and what is allowed."""
+    """A model, or ``model::link``, touches nothing but its own model and what is allowed."""
 
     def __init__(self, wanted: Any, context: Context):
         super().__init__(wanted, context)
-        self.horizon = wanted.get("for", 0.0)
+        self.horizon = wanted.get("for", _A_MOMENT)
         self._touched: list[str] = []
+        self._presence = Presence([wanted["model"]])
+        self._allowed = [wanted["model"].partition("::")[0], *wanted.get("allow", ["ground_plane"])]
 
     def start(self) -> None:
-        self.context.bench.watch_contacts(True)
+        self.context.bench.watch_contacts(self.wanted["model"])
+
+    def commanded(self) -> None:
+        self._presence.due()
 
     def sample(self, sample: Sample) -> None:
-        mine, allowed = self.wanted["model"], [self.wanted["model"], *self.wanted.get("allow", ["ground_plane"])]
+        self._presence.look(sample)
         for pair in sample.contacts:
-            models = [name.split("::")[0] for name in pair]
-            if mine in models and not all(model in allowed for model in models):
+            mine = [belongs(name, self.wanted["model"]) for name in pair]
+            if any(mine) and not all(any(belongs(name, allowed) for allowed in self._allowed) for name in pair):
                 text = f"{pair[0]} touched {pair[1]} at {sample.time:.2f} s"
                 if len(self._touched) < 5:
                     self._touched.append(text)
 
     def verdict(self) -> tuple[bool, str, dict[str, Any]]:
-        return not self._touched, self._touched[0] if self._touched else f"{self.wanted['model']} touched nothing that it should not", {}
+        if self._touched:
+            return False, self._touched[0], {}
+        if self._presence.missing():
+            there = names(self.context.bench.now.models)
+            return False, f"there is no model '{self.wanted['model']}' in the simulator (there are: {there})", {}
+        if self._presence.problem:
+            return False, self._presence.problem, {}
+        return True, f"{self.wanted['model']} touched nothing that it should not", {}
 
 
 class RealTimeFactorCheck(Check):

@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lab_check.examination.scoped_names import belongs
+
 if TYPE_CHECKING:
     from ode_sim_rendering.camera import Camera
     from ode_sim_rendering.scene import SceneDescription
@@ -40,7 +42,7 @@ def shares(camera: Camera, scene: SceneDescription, poses: np.ndarray) -> dict[s
 
 def share_of(name: str, found: dict[str, float]) -> float:
     """The part of the picture that ``name`` has, a model or ``model::link``, of ``found``, which :func:`shares` gave."""
-    return sum(part for visual, part in found.items() if visual.startswith(f"{name}::"))
+    return sum(part for visual, part in found.items() if belongs(visual, name))
 
 
 def main() -> None:

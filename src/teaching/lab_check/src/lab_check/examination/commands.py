@@ -21,6 +21,7 @@ from ..isolation.supervise import Program
 from . import connections
 from .simulated_world import CONNECTED, Bench
 
+_REFUSED = "responded with an error"  # what rospy says where the service itself said no; else its node has ended, or was not there
 _START = 15.0  # s of wall time that a program gets to become a node
 
 
@@ -39,6 +40,7 @@ class Actor:
         self.runs: dict[str, Program] = {}
         self.answers: dict[str, Any] = {}  # name -> dict of the response, or a refusal's text
         self.refusals: dict[str, str] = {}
+        self.lost: dict[str, str] = {}  # name -> why no answer came
         self.by_hand: list[str] = []
         self.called: Counter = Counter()  # last part of a name -> how often
         self._typed: dict[str, str] = {}  # name of a run -> what started it
@@ -115,7 +117,7 @@ class Actor:
             try:
                 self.answers[key] = plain(rospy.ServiceProxy(name, kind)(request))
             except (rospy.ServiceException, rospy.ROSException) as error:
-                self.refusals[key] = str(error)
+                (self.refusals if _REFUSED in str(error) else self.lost)[key] = str(error)
             done.set()
 
         threading.Thread(target=ask, daemon=True).start()

@@ -26,13 +26,14 @@ from gazebo_ros.api.clock import ClockPublisher
 from gazebo_ros.server import Server
 
 from lab_check.examination import submission_code
+from lab_check.examination.scoped_names import belongs
 
 if TYPE_CHECKING:
     from ode_sim.math3 import Pose
     from ode_sim_rendering.camera import Camera
     from ode_sim_rendering.scene import SceneDescription
 
-_MOST_PAIRS = 200
+_MOST_PAIRS = 5000
 _MOST_NOTES = 100
 _LONGEST_QUESTION = 100_000  # bytes
 # Services of the simulator that only tell, let it come up, or are the examiner's own business; all others change what is measured.
@@ -48,6 +49,9 @@ class Probe:
         self._server, self._wire, self._changes = server, wire, changes
         self._connection: Any = None
         self._pairs: set[tuple[str, str]] = set()
+        self._touching: set[str] = set()  # models, or model::link, whose contacts are told; "": all
+        self._models: dict[str, tuple[Any, int]] = {}  # by name, with a number that no other has had
+        self._count = 0
         self._painter: Any = None
         changes.now = lambda: server.now().to_sec()
         self._say({"name": rospy.get_name(), "uri": rospy.get_node_uri()})
@@ -75,17 +79,26 @@ class Probe:
         world = self._server.world
         models = {}
         for name, model in world.models.items():
-            entry: dict[str, Any] = {"static": bool(model.static), "pose": _numbers(model.pose)}
+            entry: dict[str, Any] = {"static": bool(model.static), "pose": _numbers(model.pose), "serial": self._serial(name, model)}
+            entry["links"] = {link.name: _numbers(link.pose) for link in model.links.values()}
             if not model.static:
                 entry["joints"] = {
                     joint.name: [float(joint.position()), float(joint.velocity()), float(joint.effort())]
                     for joint in model.joints.values()
                     if joint.axis_count
                 }
-                entry["links"] = {link.name: _numbers(link.pose) for link in model.links.values()}
             models[name] = entry
+        self._models = {name: self._models[name] for name in models}
         pairs, self._pairs = sorted(self._pairs), set()
         return {"time_ns": int(world.time_ns), "dt": float(world.dt), "models": models, "contacts": pairs[:_MOST_PAIRS]}
+
+    def _serial(self, name: str, model: Any) -> int:
+        """Whoever takes a model out and puts another of its name in its place has not that model any more."""
+        known = self._models.get(name)
+        if known is None or known[0] is not model:
+            self._count += 1
+            known = self._models[name] = (model, self._count)
+        return known[1]
 
     def _step(self, count: int) -> bool:
         """Lets steps pass; False, and a simulation that rests from now on, where somebody had let it run."""
@@ -96,15 +109,19 @@ class Probe:
             return False
         return True
 
-    def _contacts(self, on: bool) -> None:
-        """Note touches from now on, or no longer."""
-        self._server.call(lambda: self._watch(on))
+    def _contacts(self, of: str | bool) -> None:
+        """Note touches of this model or link from now on, too; True: all of them; False: none any longer."""
+        self._server.call(lambda: self._watch(of))
 
-    def _watch(self, on: bool) -> None:
+    def _watch(self, of: str | bool) -> None:
         self._pairs = set()
-        if on and self._connection is None:
+        if of is False:
+            self._touching.clear()
+        else:
+            self._touching.add("" if of is True else of)
+        if self._touching and self._connection is None:
             self._connection = self._server.after_step(self._note)
-        elif not on and self._connection is not None:
+        elif not self._touching and self._connection is not None:
             self._connection.disconnect()
             self._connection = None
 
@@ -114,7 +131,9 @@ class Probe:
         for first, second in set(zip(found["collision1"].tolist(), found["collision2"].tolist())):
             touching = [world.collision(number) for number in (first, second)]
             if all(touching):
-                self._pairs.add(tuple(sorted(c.link.scoped_name for c in touching)))
+                pair = tuple(sorted(c.link.scoped_name for c in touching))
+                if any(belongs(name, watched) for name in pair for watched in self._touching):
+                    self._pairs.add(pair)
 
     def _seen(self, topic: str) -> dict[str, float]:
         """What the camera of an image topic sees, see :mod:`lab_check.examination.camera_visibility`."""

@@ -61,6 +61,7 @@ UNREADABLE = (
 _MORE_MEMORY = 1e9  # bytes over the submission's own limit that its messages can make this process take
 _READY_REST = 0.35  # s of rest that show a start-up to be over: spawners look for services every few tenths
 _READY_PATIENCE = 10.0  # s of work without rest after which a node of the launch is waited for no more
+_LOOK_STEP = 0.05  # s of wall time between two looks for what has still to come, when its simulated time is over
 _READY_STEP = 0.1  # s of simulated time between two looks at what has come
 
 
@@ -317,6 +318,7 @@ class Session:
             actor=actor,
             model=task.get("model", ""),
             simulator_seconds=self.starter.seconds,
+            required=job.spec["packages"],
         )
         monitors = [checks.make(kind_of(e), e[kind_of(e)], context) for e in task["expect"]]
         filming = film.Film(bench, task.get("model", "")) if task["film"] and job.films else None
@@ -335,14 +337,21 @@ class Session:
         try:
             for command in task["do"]:
                 actor.give(command)
+            bench.look()
             for monitor in monitors:
                 monitor.commanded()
+            given = Moment(bench)
             self._watch(monitors)
         except CommandError as error:
             trouble = str(error)
         finally:
             bench.on_sample.remove(look)
-        verdicts = [self._verdict(monitor, e, trouble) for monitor, e in zip(monitors, task["expect"])]
+        if trouble:
+            verdicts = [Verdict(kind_of(e), False, trouble) for e in task["expect"]]
+        else:
+            verdicts = self._verdicts(monitors, task["expect"], given)
+        for monitor in monitors:
+            monitor.end()
         self._look_who_interferes(actor)
         self.interference.twice |= {line for monitor in monitors for line in monitor.doubts}
         if task["interference"] == "costs" and self.interference.found:
@@ -366,11 +375,37 @@ class Session:
                 return
             self.bench.tick()
 
+    def _verdicts(self, monitors: Sequence[Check], expectations: Sequence[dict[str, Any]], given: Moment) -> list[Verdict]:
+        """Of all: at once of those that have what they look at, of the others as soon as it is there, or they have waited long enough.
+
+        :param given: when the commands had been given
+        """
+        waiting = [monitor for monitor in monitors if monitor.patience and not _is_there(monitor)]
+        found = {monitor: self._verdict(monitor, e) for monitor, e in zip(monitors, expectations) if monitor not in waiting}
+
+        def look(sample: Sample) -> None:
+            for monitor in waiting:
+                monitor.sample(sample)
+
+        self.bench.on_sample.append(look)
+        try:
+            while waiting:
+                if any(given.simulated(monitor) for monitor in waiting):
+                    self.bench.tick()
+                else:
+                    time.sleep(_LOOK_STEP)
+                    self.bench.settle()
+                for monitor, expectation in zip(monitors, expectations):
+                    if monitor in waiting and (_is_there(monitor) or not (given.simulated(monitor) or given.wall(monitor))):
+                        found[monitor] = self._verdict(monitor, expectation)
+                        waiting.remove(monitor)
+        finally:
+            self.bench.on_sample.remove(look)
+        return [found[monitor] for monitor in monitors]
+
     @staticmethod
-    def _verdict(monitor: Check, expectation: dict[str, Any], trouble: str) -> Verdict:
+    def _verdict(monitor: Check, expectation: dict[str, Any]) -> Verdict:
         kind = kind_of(expectation)
-        if trouble:
-            return Verdict(kind, False, trouble)
         try:
             passed, reason, figures = monitor.verdict()
         except Gone:
@@ -386,6 +421,29 @@ class Session:
         result.log = excerpt(self._log(mark) or self._log())
         result.commands = result.commands or _typed(self.tasks[0]["launch"])
         return result
+
+
+class Moment:
+    """Now, in simulated and in wall time: how long after it a check may go on waiting."""
+
+    def __init__(self, bench: Bench):
+        self._bench = bench
+        self._simulated, self._wall = bench.now.time, time.monotonic()
+
+    def simulated(self, monitor: Check) -> bool:
+        return self._bench.now.time < self._simulated + monitor.patience - 1e-9
+
+    def wall(self, monitor: Check) -> bool:
+        return monitor.in_wall_time and time.monotonic() < self._wall + monitor.patience
+
+
+def _is_there(monitor: Check) -> bool:
+    try:
+        return monitor.there()
+    except Gone:
+        raise
+    except Exception:  # the verdict says what
+        return False
 
 
 def _typed(launch: str) -> list[str]:

@@ -55,6 +55,18 @@ class Sample:
             return None
         return entry.get("links", {}).get(link) if link else entry["pose"]
 
+    def identity(self, name: str) -> int | None:
+        """Which model of its name ``name`` belongs to, ``model`` or ``model::link``: another number after it was replaced. None where
+        it is not there."""
+        return None if self.place(name) is None else self.models[name.partition("::")[0]]["serial"]
+
+    def owner(self, joint: str, model: str = "") -> tuple[str, int] | None:
+        """Name and :meth:`identity` of the model whose joint :meth:`joint` tells."""
+        for key, entry in self.models.items():
+            if (not model or key == model) and joint in entry.get("joints", {}):
+                return key, entry["serial"]
+        return None
+
 
 class Bench:
     """
@@ -137,6 +149,10 @@ class Bench:
         self.alive()
         if self._news():
             self.settle()
+        return self.look()
+
+    def look(self) -> Sample:
+        """What the world is like now, shown to all who watch."""
         self.now = self._read()
         for f in self.on_sample:
             f(self.now)
@@ -165,9 +181,9 @@ class Bench:
         if program.running:  # on a busy machine it may be at its end yet
             self.nodes.settle(_UNCONNECTED)
 
-    def watch_contacts(self, on: bool) -> None:
-        """Have contacts told in each sample from now on (``on``), or not any more."""
-        self._ask("contacts", on)
+    def watch_contacts(self, of: str | bool) -> None:
+        """Have contacts of the model ``of`` (or ``model::link``; True: of all) told in each sample from now on; False: none any more."""
+        self._ask("contacts", of)
 
     def seen(self, topic: str) -> dict[str, float] | str:
         """``model::link::visual`` -> its share of the picture that the camera of this topic would take now; or a sentence."""

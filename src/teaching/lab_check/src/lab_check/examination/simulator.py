@@ -101,7 +101,7 @@ def checked_state(data: Any) -> dict[str, Any]:
     try:
         good = data["dt"] > 0 and math.isfinite(data["dt"]) and data["time_ns"] >= 0 and isinstance(data["contacts"], list)
         for entry in data["models"].values():
-            good = good and len(entry["pose"]) == 7 and isinstance(entry["static"], bool)
+            good = good and len(entry["pose"]) == 7 and isinstance(entry["static"], bool) and isinstance(entry["serial"], int)
         if good:
             return data
     except (TypeError, KeyError, AttributeError):
