@@ -17,6 +17,8 @@ from gazebo_plugins.ros_side import Topics, find_joint, joint_named, required
 class _Sides(ModelPlugin):
     """Wheels of two sides, driven from a command."""
 
+    topics: Topics
+
     def _start(self, server, model, sdf, left: list[Any], right: list[Any], torque: float, topic: str) -> None:
         """:param torque: of each wheel, N m. :param topic: of commands"""
         self.server, self.model = server, model

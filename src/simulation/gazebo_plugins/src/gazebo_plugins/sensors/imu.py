@@ -48,7 +48,7 @@ class ImuPlugin(ModelPlugin):
         self.topics = Topics(sdf, model.name, "C")
         self.link = find_link(model, server.world, sdf)
         self.merged, given = merged_at(sdf.element, "bodyName"), given_offset(sdf.element)
-        self.offset = math3.quat_from_rpy(*(given[3:] if given else sdf.get("rpyOffset", (0.0, 0.0, 0.0))))
+        self.offset = math3.quat_from_rpy(*(given[1] if given else sdf.get("rpyOffset", (0.0, 0.0, 0.0))))
         sigma = sdf.get("gaussianNoise", 0.0)
         self.noise = Noise(server.world.rng(f"{model.name}/imu/{self.link.name}"), sigma)
         self.acceleration = Differentiator(self.link, self.merged.p)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from ode_sim import math3
-from ode_sim.description.model import FARTHEST, Pose, quoted
+from ode_sim.description.model import FARTHEST, Pose, Vec3, quoted
 from ode_sim.description.xmlsource import Element, child, clone, is_true, leading_numbers, text_of
 
 if TYPE_CHECKING:
@@ -76,12 +76,15 @@ def merged_at(plugin: ET.Element, tag: str) -> Pose:
     return Pose() if offset is None else _pose(offset.get(tag, ""))
 
 
-def given_offset(plugin: ET.Element) -> tuple[float, ...] | None:
-    """x, y, z, roll, pitch, yaw (m, rad) of ``<xyzOffset>`` and ``<rpyOffset>`` of a ``plugin`` in the URDF, before a link that it names
+def given_offset(plugin: ET.Element) -> tuple[Vec3, Vec3] | None:
+    """x, y, z and roll, pitch, yaw (m, rad) of ``<xyzOffset>`` and ``<rpyOffset>`` of a ``plugin`` in the URDF, before a link that it names
     was merged; None where none was."""
     offset = plugin.find("xyzOffset")
     numbers = () if offset is None else leading_numbers(offset.get(_GIVEN, ""), 6)
-    return numbers if len(numbers) == 6 and all(map(math.isfinite, numbers)) else None
+    if len(numbers) < 6 or not all(map(math.isfinite, numbers)):
+        return None
+    x, y, z, *rpy = numbers
+    return (x, y, z), (rpy[0], rpy[1], rpy[2])
 
 
 @dataclass
