@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """A scan through a chain of two filters; one of them is changed while it runs."""
 
+import math
 import queue
 import time
 import unittest
@@ -10,7 +11,8 @@ import rostest
 import tf2_ros
 from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import TransformStamped
-from sensor_msgs.msg import LaserScan
+from sensor_msgs.msg import LaserScan, PointCloud2
+from sensor_msgs.point_cloud2 import read_points
 
 
 class Scans(unittest.TestCase):
@@ -63,7 +65,7 @@ class Scans(unittest.TestCase):
         scans = rospy.Publisher("late_scan", LaserScan, queue_size=60)
         tf = tf2_ros.TransformBroadcaster()
         end = time.monotonic() + 30
-        while not (scans.get_num_connections() and listener.get_num_connections() and tf.pub_tf.get_num_connections() >= 3):
+        while not (scans.get_num_connections() and listener.get_num_connections() and tf.pub_tf.get_num_connections() >= 5):
             self.assertLess(time.monotonic(), end, "the nodes are not connected")
             time.sleep(0.01)
         start = rospy.Time.now()
@@ -85,6 +87,33 @@ class Scans(unittest.TestCase):
         place.header.stamp = start + rospy.Duration(2.0)
         tf.sendTransform(place)
         self.assertEqual(heard.get(timeout=20), stamps[-1])
+
+    def answer(self, topic, out, kind):
+        """What comes on ``out`` for a scan in the frame laser on ``topic``."""
+        heard = queue.Queue()
+        listener = rospy.Subscriber(out, kind, heard.put)
+        self.addCleanup(listener.unregister)
+        scans = rospy.Publisher(topic, LaserScan, queue_size=1)
+        scan = LaserScan(angle_min=0.0, angle_increment=math.pi / 2, range_min=0.1, range_max=10.0, ranges=[0.5, 2.0], intensities=[1, 2])
+        scan.header.frame_id = "laser"
+        for _ in range(300):
+            scans.publish(scan)
+            try:
+                return heard.get(timeout=0.1)
+            except queue.Empty:
+                pass
+        self.fail(f"nothing on {out}")
+
+    def test_a_cloud_in_another_frame(self):
+        cloud = self.answer("cloud_scan", "cloud_filtered", PointCloud2)
+        self.assertEqual([field.name for field in cloud.fields], ["x", "y", "z", "intensity", "index", "distances"])
+        self.assertEqual(cloud.header.frame_id, "base_link")
+        (point,) = read_points(cloud)  # the other ray's range is 0 now; the sensor is at (1, 0, 0.2)
+        for found, wanted in zip(point, (1.0, 2.0, 0.2, 2.0, 1, 2.0)):
+            self.assertAlmostEqual(found, wanted, places=4)
+
+    def test_the_generic_node(self):
+        self.assertEqual(self.answer("scan_in", "output", LaserScan).ranges, (0.0, 2.0))
 
 
 if __name__ == "__main__":

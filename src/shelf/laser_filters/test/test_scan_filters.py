@@ -81,6 +81,16 @@ def test_neighbours():
     assert [1.0, 2.0, 2.0, 3.0, (3.0 + 3.0) / 2] == ranges("InterpolationFilter", {}, [1.0, math.inf, 20.0, 3.0, 0.0])
 
 
+def test_blobs():
+    """A foot 12 cm wide between two gaps is its middle; a wall that runs away and a run that is too short are none."""
+    foot, wall, short = [1.0, 0.95, 0.9, 0.95, 1.0], [2.0, 3.0, 4.0, 5.0, 6.0], [1.0] * 4
+    values = [*foot, NAN, *wall, NAN, *short, -1.0, *foot]
+    wanted = [-abs(value) for value in values]
+    wanted[2], wanted[-3] = 0.9, 0.9
+    assert wanted == ranges("ScanBlobFilter", {"max_radius": 0.1, "min_points": 4}, values, step=0.02)
+    assert [-1.0, -1.0, 1.0, -1.0] == ranges("ScanBlobFilter", {"max_radius": 0.1, "min_points": 3}, [1.0] * 4)
+
+
 def test_shadows_of_an_edge():
     """A wall 2 m away behind a post at 1 m; one ray saw half of either."""
     values = [2.0] * 5 + [1.5] + [1.0] * 5
@@ -133,4 +143,4 @@ def test_what_is_wrong_is_said(entries, said):
 def test_a_scan_that_is_too_small_is_refused():
     said = []
     assert not run(chain([{"name": "s", "type": "LaserScanSpeckleFilter"}]), scan([1.0, 1.0]), said.append)
-    assert "too small" in said[0] and len(KINDS) == 15
+    assert "too small" in said[0] and len(KINDS) == 16

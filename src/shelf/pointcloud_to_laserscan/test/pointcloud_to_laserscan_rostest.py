@@ -11,7 +11,7 @@ import rostest
 import tf2_ros
 from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import LaserScan, PointCloud2
-from sensor_msgs.point_cloud2 import create_cloud_xyz32
+from sensor_msgs.point_cloud2 import create_cloud_xyz32, read_points
 from std_msgs.msg import Header
 
 
@@ -66,6 +66,30 @@ class Scans(unittest.TestCase):
         known(1.0)
         self.assertEqual(scans.get(timeout=20), stamps[4])
         self.assertTrue(scans.empty())
+
+    def test_a_cloud_of_a_scan(self):
+        """What laser_geometry's projectLaser makes: rays from range_min to below range_max, with intensity and index."""
+        clouds = queue.Queue()
+        rospy.Subscriber("front/cloud", PointCloud2, clouds.put)
+        scans = rospy.Publisher("front/scan", LaserScan, queue_size=1)
+        scan = LaserScan(angle_min=-math.pi / 2, angle_increment=math.pi / 2, range_min=0.5, range_max=10.0)
+        scan.header.frame_id = "camera"
+        scan.ranges, scan.intensities = [2.0, 0.4, 3.0, 10.0, math.inf, math.nan], [5.0, 6.0, 7.0, 8.0, 9.0, 10.0]
+        for _ in range(200):
+            scans.publish(scan)
+            try:
+                cloud = clouds.get(timeout=0.1)
+                break
+            except queue.Empty:
+                pass
+        else:
+            self.fail("no cloud")
+        self.assertEqual([(field.name, field.offset) for field in cloud.fields][3:], [("intensity", 12), ("index", 16)])
+        self.assertEqual((cloud.header.frame_id, cloud.width, cloud.height, cloud.point_step), ("base", 2, 1, 20))
+        # the camera lies on its side 0.3 m above the base: its y is up
+        for found, wanted in zip(read_points(cloud), [(0.0, 0.0, 0.3 - 2.0, 5.0, 0), (0.0, 0.0, 0.3 + 3.0, 7.0, 2)]):
+            for a, b in zip(found, wanted):
+                self.assertAlmostEqual(a, b, places=3)
 
 
 if __name__ == "__main__":

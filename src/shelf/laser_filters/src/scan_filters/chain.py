@@ -22,6 +22,7 @@ KINDS = {
     "LaserScanSectorFilter": values.SectorFilter,
     "LaserScanSpeckleFilter": values.SpeckleFilter,
     "InterpolationFilter": values.InterpolationFilter,
+    "ScanBlobFilter": values.BlobFilter,
     "ScanShadowsFilter": values.ShadowsFilter,
     "StaticLaserScanPolygonFilter": places.StaticPolygonFilter,
 }

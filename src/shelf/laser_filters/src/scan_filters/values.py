@@ -183,6 +183,28 @@ class SpeckleFilter(Filter):
         return near < window
 
 
+class BlobFilter(Filter):
+    """Of each run of more than ``min_points`` points that lie together the one in the middle is left: feet of people and chairs.
+
+    What is not left keeps its distance as a negative range. A run ends where a range is negative or NaN, as after a shadows filter.
+    """
+
+    settings = (Setting("max_radius", float, live=False), Setting("min_points", int, live=False))
+
+    def apply(self, scan: Scan) -> None:
+        given = scan.ranges.astype(float)
+        scan.ranges = -np.abs(scan.ranges)
+        seen = np.concatenate(([False], given >= 0, [False]))
+        edges = np.flatnonzero(seen[1:] != seen[:-1]).reshape(-1, 2)
+        for first, end in edges[edges[:, 1] - edges[:, 0] > self.values["min_points"]]:
+            run = given[first:end]
+            with np.errstate(invalid="ignore"):
+                radius = np.abs(run - run.mean()).max()  # upstream's second axis is the first one, times angle_increment
+            if radius * max(1.0, abs(scan.angle_increment)) < self.values["max_radius"]:
+                middle = first + (end - first) // 2
+                scan.ranges[middle] = given[middle]
+
+
 class ShadowsFilter(Filter):
     """Points between two things, where a ray grazed the edge of the nearer one: the line to a neighbour points at the sensor."""
 

@@ -86,3 +86,15 @@ def turned(points: np.ndarray, translation, quaternion) -> np.ndarray:
         ]
     )
     return points @ rotation.T + np.asarray(translation)
+
+
+def hits(ranges: np.ndarray, angle_min: float, angle_increment: float, range_min: float, range_max: float) -> tuple[np.ndarray, np.ndarray]:
+    """The points (N, 3), m, that the rays of a scan met, and the numbers (N,) of the rays; z is 0.
+
+    :param ranges: (M,) m. :param angle_min: of the first ray, rad. :param angle_increment: from one to the next, rad.
+    :param range_min: the least range, m, that counts. :param range_max: the range, m, from which on nothing was met.
+    """
+    with np.errstate(invalid="ignore"):
+        rays = np.flatnonzero((ranges >= range_min) & (ranges < range_max))
+    angle, away = angle_min + rays * angle_increment, ranges[rays].astype(float)
+    return np.column_stack((away * np.cos(angle), away * np.sin(angle), np.zeros(len(rays)))), rays
