@@ -54,6 +54,9 @@ _noetic_absent("${_noetic_built} (iralabdisco/ira_laser_tools)." ira_laser_tools
 _noetic_absent("${_noetic_built} (tu-darmstadt-ros-pkg/hector_localization)."
   hector_localization hector_pose_estimation hector_pose_estimation_core message_to_tf)
 _noetic_absent("${_noetic_built} (CCNYRoboticsLab/imu_tools, branch noetic; its filters are supplied)." imu_tools rviz_imu_plugin)
+_noetic_absent("${_noetic_built} (bitbucket.org/traclabs/trac_ik, version 1.6.6), with Debian's \
+libnlopt-cxx-dev and swig. Without it MoveIt takes a solver of its own in its place."
+  trac_ik trac_ik_examples trac_ik_kinematics_plugin trac_ik_lib trac_ik_python)
 _noetic_absent("${_noetic_built} (ros-planning/warehouse_ros, branch kinetic-devel)." warehouse_ros)
 _noetic_absent("${_noetic_built} (eric-wieser/ros_numpy)." ros_numpy)
 _noetic_absent("${_noetic_built} (ros/common_tutorials, branch noetic-devel)." nodelet_tutorial_math pluginlib_tutorials)
