@@ -15,11 +15,13 @@ from sensor_msgs.msg import Joy, JoyFeedback, JoyFeedbackArray
 
 
 class Joystick(unittest.TestCase):
-    def node(self, *arguments):
-        """The node with a pipe in the place of a device, its path, and what it publishes."""
+    def node(self, *arguments, there=False):
+        """The node with a pipe in the place of a device, which may be there at once, its path, and what it publishes."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         device = os.path.join(folder.name, "js0")
+        if there:
+            os.mkfifo(device)
         seen = queue.Queue()
         listener = rospy.Subscriber("joy", Joy, seen.put)
         self.addCleanup(listener.unregister)
@@ -27,25 +29,24 @@ class Joystick(unittest.TestCase):
         self.addCleanup(node.close, force=True)
         return node, device, seen
 
-    def told(self, arguments, *lines):
-        """The deadzone that the node takes, in the line of the joystick that is there, after its warnings ``lines``."""
-        node, device, _ = self.node(*arguments)
-        os.mkfifo(device)
-        for line in lines:
-            node.expect_exact(line)
-        node.expect(r"deadzone_: ([\d.]+)\.\s")
-        value = float(node.match[1])
-        node.sendintr()
-        node.expect(pexpect.EOF)
-        return value
-
     def test_numbers_out_of_bounds_are_told_and_bounded(self):
         """As joy_node 1.15.1: a deadzone from 1 on is one of 32767, the largest is 0.9, what is negative is 0."""
-        self.assertEqual(self.told(["_deadzone:=2000"], "parameter ~deadzone is 2000"), round(2000 / 32767, 6))
-        self.assertEqual(self.told(["_deadzone:=1"], "parameter ~deadzone is 1"), round(1 / 32767, 6))
-        self.assertEqual(self.told(["_deadzone:=0.95"], "~deadzone is 0.95, more than 0.9"), 0.9)
         negative = ["deadzone", "autorepeat_rate", "coalesce_interval"]
-        self.assertEqual(self.told([f"_{name}:=-1" for name in negative], *(f"~{name} is -1, less than 0" for name in negative)), 0.0)
+        cases = (
+            (["_deadzone:=2000"], ["parameter ~deadzone is 2000"], 2000 / 32767),
+            (["_deadzone:=1"], ["parameter ~deadzone is 1"], 1 / 32767),
+            (["_deadzone:=0.95"], ["~deadzone is 0.95, more than 0.9"], 0.9),
+            ([f"_{name}:=-1" for name in negative], [f"~{name} is -1, less than 0" for name in negative], 0.0),
+        )
+        nodes = [self.node(f"__name:=bounded_{i}", *arguments, there=True) for i, (arguments, _, _) in enumerate(cases)]  # at the same time
+        for (node, _, _), (_, lines, deadzone) in zip(nodes, cases):
+            for line in lines:
+                node.expect_exact(line)
+            node.expect(r"deadzone_: ([\d.]+)\.\s")
+            self.assertAlmostEqual(float(node.match[1]), deadzone, places=6)
+            node.sendintr()
+        for node, _, _ in nodes:
+            node.expect(pexpect.EOF)
 
     def test_what_a_message_and_the_diagnostics_say(self):
         statuses = queue.Queue()

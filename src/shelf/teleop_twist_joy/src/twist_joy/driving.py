@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 from node_signals.parameters import is_number
 
@@ -47,11 +48,12 @@ class Driver:
         mapped = isinstance(axes, dict)
         normal = parameters.get("scale_" + kind, {} if mapped else normal)
         turbo = parameters.get(f"scale_{kind}_turbo", {} if mapped else normal if turbo is None else turbo)
-        for name, values, into in (
+        targets: list[tuple[str, Any, dict[str, Any]]] = [
             ("axis_", axes, self.axes),
             ("scale_", normal, self.scales["normal"]),
             ("scale_turbo_", turbo, self.scales["turbo"]),
-        ):
+        ]
+        for name, values, into in targets:
             if isinstance(values, dict) != mapped:
                 raise ValueError(f"axis_{kind} and scale_{kind} must both be numbers, or both maps like {{{field}: 1}}")
             for key, value in (values if mapped else {field: values}).items():

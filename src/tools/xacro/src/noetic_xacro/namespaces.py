@@ -12,10 +12,10 @@ from typing import Any
 xacro: Any = None  # the module ``xacro``, once it is there
 
 
-def _scope_class(namespace: type) -> type:
+def _scope_class(namespace: Any) -> Any:
     """A table of names, ``own`` ones before those of the ``caller``; what is defined in it is ``own``."""
 
-    class Scope(namespace):  # type: ignore[misc, valid-type]
+    class Scope(namespace):
         def __init__(self, own: Any, caller: Any) -> None:
             super().__init__(own.parent)
             self.own, self.caller = own, caller

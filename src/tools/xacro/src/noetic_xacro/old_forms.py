@@ -178,7 +178,7 @@ def _in_custom(node: Any) -> bool:
     return False
 
 
-def _is_call(node: Element, macros: Any) -> bool:
+def _is_call(node: Any, macros: Any) -> bool:
     """Is this element without prefix a call of a macro?"""
     name = node.tagName
     if getattr(node, AS_READ, None) != name or name in RESERVED:  # <xacro:element> makes elements, never calls
