@@ -132,6 +132,18 @@ class Hector(PluginWorld):
         self.reconfigured("/ping/sonar", scale_error=1.0)
         self.assertAlmostEqual(self.measure("/ping/sonar", Range, 0.3, 0).range, 4.25, delta=1e-3)
 
+    def test_rate_of_a_sonar(self):
+        """Of a sensor at 30 Hz ten a second, or as many as the plugin says."""
+        for rate, wanted in ((None, 10), (30, 30), (15, 15)):
+            name = f"beats{rate}"
+            library = plugin("hector_gazebo_ros_sonar", robotNamespace=f"/{name}", **({"updateRate": rate} if rate else {}))
+            self.spawn(name, sdf(link("l", gravity=False, extra=ray("s", library, samples=1, far=8, rate=30))), 0, 0, 1)
+            self.addCleanup(self._delete_model, name)
+            with Ear(f"/{name}/sonar", Range) as ear:
+                self.until_stepped(lambda: len(ear.messages) > 15, "16 messages")  # noqa: B023
+                gaps = np.diff([message.header.stamp.to_sec() for message in ear.messages])
+            self.assertAlmostEqual(np.median(gaps), 1 / wanted, delta=2e-3)  # a message that was lost is one long gap
+
     def test_drift_of_the_velocity_adds_up(self):
         """Of 1 m/s along each axis it stays 1 m/s for the first seconds: the place goes on by what a receiver adds up."""
         self.carry("adds", "gps", updateRate=10, velocityDrift=1, velocityDriftFrequency=1e-6, referenceLatitude=10, referenceHeading=0)

@@ -13,7 +13,7 @@ from dynamic_parameters import Server as ParameterServer
 from gazebo_ros.plugin import ModelPlugin, SensorPlugin
 from geometry_msgs.msg import Quaternion, Vector3, Vector3Stamped
 from hector_gazebo_plugins.srv import SetBias, SetBiasResponse, SetReferenceGeoPose, SetReferenceGeoPoseResponse
-from node_signals.rates import PeriodAdded
+from node_signals.rates import LatenessKept, PeriodAdded
 from ode_sim import math3
 from ode_sim.description.urdf_extensions import merged_at
 from sensor_msgs.msg import Imu, MagneticField, NavSatFix, NavSatStatus
@@ -295,7 +295,8 @@ class HectorMagnetic(_BodyPlugin):
 
 
 class HectorSonar(SensorPlugin):
-    """The nearest ray as sensor_msgs/Range; the field of view is the smaller side of the ray fan."""
+    """The nearest ray as sensor_msgs/Range, ``<updateRate>`` times a second (10) and no oftener than the sensor measures; the field of
+    view is the smaller side of the ray fan."""
 
     def load(self, server, sensor, sdf) -> None:
         self.fan = RayFan(server, sensor)
@@ -309,9 +310,12 @@ class HectorSonar(SensorPlugin):
         topic = sdf.text_or("topicName", "sonar")
         self.publisher = self.topics.publisher(topic, RangeMsg)
         self.parameters = error_parameters(server, self.topics.resolve(topic), self.error)
+        self.gate = LatenessKept(sdf.get("updateRate", 10.0))
         sensor.connect(self.measure, subscribed(self.publisher))
 
     def measure(self, sensor) -> None:
+        if not self.gate.due(sensor.measurement_ns):
+            return
         nearest = min(max(float(np.min(self.fan.cast()[0])), self.fan.min), self.fan.max)
         if nearest < self.fan.max:
             nearest = min(max(float(self.error.measured(nearest, sensor.measurement_ns)[0]), self.fan.min), self.fan.max)
@@ -320,6 +324,7 @@ class HectorSonar(SensorPlugin):
 
     def reset(self) -> None:
         self.error.reset()
+        self.gate.reset()
 
     def shutdown(self) -> None:
         self.parameters.shutdown()
