@@ -191,6 +191,19 @@ class MadeJointsTest(HearingCase):
             self.near((abs(borne),), (2 * G,), 1)
         self.near((*self.place("any::a"), *self.place("any::b")), (0.0, 0.0, 2.0, 1.0, 0.0, 2.0), 3)
 
+    def test_a_pin_and_a_hinge_outlive_a_reset(self):
+        joins = (join("pin", "fixed", "world", "any::a"), join("hinge", "revolute", "world", "any::b", pose="0 0 0.5"))
+        self.spawn("any", body("a"), body("b", "1 0 0"), joiner(*joins))
+        for reset in ("reset_world", "reset_simulation"):
+            with self.subTest(reset):
+                self.sim.push("any::b", (5.0, 0.0, 0.0), 0.1)
+                self.sim.step(200)
+                self.sim.empty(reset)
+                self.sim.step(200)
+                self.assertTrue(self.order("look pin")[0] and self.order("look hinge")[0])
+                self.near((self.place("any::a")[2],), (2.0,), 3)
+                self.assertAlmostEqual(math.dist(self.place("any::b"), (1, 0, 2.5)), 0.5, delta=2e-3)
+
     def test_position_by_hand_and_a_joint_that_is_removed(self):
         self.spawn("any", body("w"), joiner(join("hinge", "revolute", "world", "any::w", "model", axis="0 0 1", pose="-0.5 0 0")))
         self.near(self.order("move hinge 1.2")[1:2], (1.2,), 6)

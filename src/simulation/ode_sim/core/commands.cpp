@@ -286,8 +286,13 @@ void World::unweld(int id) {
   }
 }
 
-void World::unweld_all() {
-  while (!scene_.welds.empty()) unweld(scene_.welds.back().id);
+void World::unweld_strained() {
+  constexpr double kInPlace = 1e-3;  // m, and rad
+  for (size_t i = scene_.welds.size(); i-- > 0;) {
+    const Weld& t = scene_.welds[i];
+    const Pose held = t.parent ? t.parent->X_WL * t.X_PC : t.X_PC, off = inverse(held) * t.child->X_WL;
+    if (norm(off.p) > kInPlace || norm({off.q.x, off.q.y, off.q.z}) > kInPlace / 2) unweld(t.id);
+  }
 }
 
 Weld* World::find_weld(int id) {

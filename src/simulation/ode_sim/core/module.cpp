@@ -55,7 +55,7 @@ Weld& weld_of(World& w, int id) {
 void bind_welds(WorldClass& world) {
   world.def("attach", &World::weld, py::arg("parent").none(true), py::arg("child").none(false))
       .def("detach", &World::unweld)
-      .def("detach_all", &World::unweld_all)
+      .def("detach_strained", &World::unweld_strained)
       .def("welds", &World::welds)
       .def("attached", [](World& w, int id) { return w.find_weld(id) != nullptr; })
       .def("weld_pose", [](World& w, int id) { return out(weld_of(w, id).X_PC); })

@@ -65,7 +65,7 @@ class World {
 
   int weld(std::shared_ptr<Link> parent, std::shared_ptr<Link> child);
   void unweld(int id);
-  void unweld_all();
+  void unweld_strained();  // whose links have been put elsewhere
   Weld* find_weld(int id);
   std::vector<int> welds() const;
 

@@ -317,8 +317,8 @@ class World:
             self.messages += self.core.take_messages()
 
     def reset(self) -> None:
-        """Time 0, every model with its joints as it was spawned, everything at rest, random numbers from the start."""
-        self.core.detach_all()
+        """Time 0, every model with its joints as it was spawned, everything at rest, random numbers from the start. What is attached as
+        it stood then stays so; the rest lets go."""
         for model in self.models.values():
             if model.flown_apart:  # joints far off cannot be set
                 model.pose = model.initial_pose
@@ -346,8 +346,7 @@ class World:
 
     def reset_poses(self) -> None:
         """Models back to where they were spawned, at rest. Time goes on and joints stay at their angles, but for those by which the first
-        link of a model hangs on the world: where it is, the model is."""
-        self.core.detach_all()
+        link of a model hangs on the world: where it is, the model is. Attachments whose links come to stand otherwise let go."""
         for model in self.models.values():
             if not model.flown_apart:  # joints far off cannot be set
                 for joint in model.joints.values():
@@ -355,6 +354,7 @@ class World:
                         _put_to_zero(joint)
             model.pose = model.initial_pose
             model.core.zero_velocities()
+        self.core.detach_strained()
         for actor in self.actors.values():
             actor.restart(self.core.time_ns)
 
