@@ -122,34 +122,40 @@ ConstraintSet::Frame ConstraintSet::frame(const PlanningScene& scene, const std:
   return frame;
 }
 
+namespace
+{
+// As upstream has it: angles of continuous joints count within a turn, and what lies beyond a limit as a whole means the limit.
+ConstraintSet::Joint jointOf(const RobotModel& model, const JointConstraint& c)
+{
+  int variable = model.findVariable(c.joint);
+  if (variable < 0)
+  {
+    const JointModel& joint = model.joint(c.joint);
+    throw InvalidInput("joint constraint on '" + c.joint + "': the joint is " + joint.typeName() +
+                       (joint.variable_count ? "; name one of its variables: " + listed(joint.variables) : " and cannot move"));
+  }
+  if (!std::isfinite(c.position) || !(c.above >= 0) || !(c.below >= 0))
+    throw InvalidInput("joint constraint on '" + c.joint + "': the position must be finite and the tolerances 0 or more");
+  const JointModel& joint = model.joints[model.variable_joint[variable]];
+  const bool turns = joint.continuous || (joint.type == JointType::Planar && variable == joint.first_variable + 2);
+  Joint out{variable, turns, turns ? wrapAngle(c.position) : c.position, c.above, c.below};
+  const VariableBounds& b = model.bounds[variable];
+  if (!turns && b.has_position)
+  {
+    if (out.position - out.below > b.max_position)
+      out.position = b.max_position, out.below = 0;
+    else if (out.position + out.above < b.min_position)
+      out.position = b.min_position, out.above = 0;
+  }
+  return out;
+}
+
+}  // namespace
+
 ConstraintSet::ConstraintSet(const PlanningScene& scene, const Constraints& constraints) : model_(scene.model())
 {
   for (const JointConstraint& c : constraints.joint)
-  {
-    int variable = model_->findVariable(c.joint);
-    if (variable < 0)
-    {
-      const JointModel& joint = model_->joint(c.joint);
-      throw InvalidInput(
-          "joint constraint on '" + c.joint + "': the joint is " + joint.typeName() +
-          (joint.variable_count ? "; name one of its variables: " + listed(joint.variables) : " and cannot move"));
-    }
-    if (!std::isfinite(c.position) || !(c.above >= 0) || !(c.below >= 0))
-      throw InvalidInput("joint constraint on '" + c.joint + "': the position must be finite and the tolerances 0 or more");
-    const JointModel& joint = model_->joints[model_->variable_joint[variable]];
-    const bool turns = joint.continuous || (joint.type == JointType::Planar && variable == joint.first_variable + 2);
-    Joint out{variable, turns, turns ? wrapAngle(c.position) : c.position, c.above, c.below};
-    const VariableBounds& b = model_->bounds[variable];
-    if (!turns && b.has_position)
-    {
-      // As upstream: what lies beyond a limit as a whole means the limit.
-      if (out.position - out.below > b.max_position)
-        out.position = b.max_position, out.below = 0;
-      else if (out.position + out.above < b.min_position)
-        out.position = b.min_position, out.above = 0;
-    }
-    joints.push_back(out);
-  }
+    joints.push_back(jointOf(*model_, c));
   for (const PositionConstraint& c : constraints.position)
   {
     const std::string of = "the position constraint of robot '" + model_->name + "'";

@@ -459,29 +459,6 @@ def test_continuous_joints_take_the_short_way():
     assert np.abs(np.diff(trajectory.positions[:, -1])).max() < 0.4
 
 
-@pytest.mark.parametrize(
-    "joint, goal", [("upperarm_roll_joint", 7.0), ("wrist_roll_joint", -4.0), ("forearm_roll_joint", 10 * np.pi + 0.1)]
-)
-def test_a_goal_of_one_continuous_joint_may_be_beyond_a_turn(joint, goal):
-    model = motion.load_model(*robots.arm("fetch"))
-    wanted = motion.Constraints(joint=[motion.JointConstraint(joint, goal, 1e-3, 1e-3)])
-    result = motion.plan(motion.PlanningScene(model), motion.MotionRequest("arm", goals=[wanted], seed=1, planning_time=10.0))
-    assert result, result.message
-    end = result.path[-1][model.group("arm").variables.index(joint)]
-    assert abs((end - goal + np.pi) % (2 * np.pi) - np.pi) <= 1.1e-3
-
-
-@pytest.mark.parametrize("goal, low", [(2.3, 2.2), (2.35, 2.25), (-2.3, 2.2)])
-def test_a_goal_that_is_partly_beyond_a_limit_is_reached_within_it(goal, low):
-    """The joint goes to 2.251 rad each way."""
-    model = motion.load_model(*robots.arm("fetch"))
-    wanted = motion.Constraints(joint=[motion.JointConstraint("elbow_flex_joint", goal, 0.1, 0.1)])
-    result = motion.plan(motion.PlanningScene(model), motion.MotionRequest("arm", goals=[wanted], seed=1, planning_time=10.0))
-    assert result, result.message
-    end = result.path[-1][model.group("arm").variables.index("elbow_flex_joint")] * np.sign(goal)
-    assert low - 1e-6 <= end <= 2.251 + 1e-6
-
-
 def test_planar_base_plans_inside_its_workspace():
     ball = '<collision><geometry><sphere radius="0.2"/></geometry></collision>'
     model = motion.load_model(

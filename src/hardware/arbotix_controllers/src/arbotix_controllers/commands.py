@@ -47,7 +47,10 @@ class Joints:
 
 
 def run(name: str, begin: Callable[[], object]) -> None:
-    """A node: ``begin`` makes what it does, then it spins. One line where a parameter is wrong."""
+    """A node: ``begin`` makes what it does, then it spins. One line where a parameter is wrong.
+
+    :param name: of the node, unless its launch file says otherwise
+    """
     node_signals.init_node(name)
     try:
         kept = begin()

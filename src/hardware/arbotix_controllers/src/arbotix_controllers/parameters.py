@@ -13,7 +13,12 @@ _SHORTEST = 1e-6  # m
 
 
 def swinging(jaws: tuple[Jaw, ...], low: float, high: float) -> Swinging:
-    """:param low, high: limits of the opening, m. :raises ParameterError: a length is none"""
+    """Fingers as ~pad_width and ~finger_length have them.
+
+    :param jaws: one or two
+    :param low, high: limits of the opening, m
+    :raises ParameterError: a length is none
+    """
     return Swinging(jaws, number("~pad_width", 0.01), finger_length(), low, high)
 
 
@@ -26,7 +31,10 @@ def one_jaw(joint: str) -> tuple[Jaw, ...]:
 
 
 def two_jaws(left: str, right: str) -> tuple[Jaw, ...]:
-    """The right one stands opposite: it turns the other way for the same opening."""
+    """The right one stands opposite: it turns the other way for the same opening.
+
+    :param left, right: names of the joints
+    """
     return (
         Jaw(left, number("~center_left", 0.0), get("~invert_left", False, bool)),
         Jaw(right, number("~center_right", 0.0), not get("~invert_right", False, bool)),
