@@ -1,6 +1,9 @@
 // The PID and the small things in C++, without a ROS master.
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -93,24 +96,74 @@ TEST(Signals, AreWhatTheySay)
   EXPECT_DOUBLE_EQ(1.5, filters::exponentialSmoothing(2.0, 1.0, 0.5));
 }
 
-TEST(LimitedProxy, ReachesItsTargetWithinItsEffort)
+/// A mass of 1 kg that the proxy brings to 1 m: places (m) and efforts (N) after 1, 301, 601 ... steps of 1 ms.
+std::vector<std::pair<double, double>> brought(control_toolbox::LimitedProxy proxy)
 {
-  control_toolbox::LimitedProxy proxy;
-  proxy.mass_ = 1.0;
-  proxy.Kp_ = 100.0;
-  proxy.Kd_ = 20.0;
-  proxy.effort_limit_ = 5.0;
-  proxy.vel_limit_ = 1.0;
-  proxy.lambda_proxy_ = 5.0;
-  proxy.acc_converge_ = 3.0;
+  std::vector<std::pair<double, double>> out;
   double position = 0.0, velocity = 0.0;
   proxy.reset(position, velocity);
-  for (int i = 0; i < 5000; ++i)
+  for (int i = 0; i < 3000; ++i)
   {
     const double effort = proxy.update(1.0, 0.0, 0.0, position, velocity, 0.001);
-    ASSERT_LE(std::abs(effort), 5.0);
     velocity += effort * 0.001;
     position += velocity * 0.001;
+    if (i % 300 == 0)
+      out.emplace_back(position, effort);
   }
-  EXPECT_NEAR(1.0, position, 1e-3);
+  return out;
+}
+
+control_toolbox::LimitedProxy proxyOf(double effort, double fastest, double lambda)
+{
+  control_toolbox::LimitedProxy proxy;
+  proxy.mass_ = 1, proxy.Kd_ = 20, proxy.Kp_ = 100, proxy.Ki_ = 10, proxy.Ficl_ = 5, proxy.acc_converge_ = 10;
+  proxy.effort_limit_ = effort, proxy.vel_limit_ = fastest, proxy.lambda_proxy_ = lambda;
+  return proxy;
+}
+
+// Of upstream's class, for the same numbers.
+TEST(LimitedProxy, MovesAsUpstreams)
+{
+  const auto went = brought(proxyOf(10, 1, 5));
+  for (const auto& [step, position, effort] :
+       { std::make_tuple(0, 0.000, 5.038), std::make_tuple(300, 0.146, 1.109), std::make_tuple(600, 0.411, 0.249),
+         std::make_tuple(900, 0.700, -1.468), std::make_tuple(1200, 0.893, -1.337), std::make_tuple(2700, 1.000, -0.004) })
+  {
+    EXPECT_NEAR(position, went.at(step / 300).first, 6e-4) << step;
+    EXPECT_NEAR(effort, went.at(step / 300).second, 6e-4) << step;
+  }
+}
+
+TEST(LimitedProxy, ALimitOfZeroIsNone)
+{
+  const auto arrives = [](double effort, double fastest, double lambda) {
+    control_toolbox::LimitedProxy proxy = proxyOf(effort, fastest, lambda);
+    proxy.Ki_ = 0;
+    return brought(proxy).back().first;
+  };
+  EXPECT_NEAR(1.0, arrives(0, 1, 5), 1e-3);
+  EXPECT_NEAR(1.0, arrives(10, 0, 5), 1e-3);
+  EXPECT_NEAR(1.0, arrives(10, 1, 0), 1e-3);
+  EXPECT_NEAR(1.0, arrives(0, 0, 5), 1e-3);
+  EXPECT_NEAR(1.0, arrives(-10, -1, -5), 1e-3);  // signs do not count
+}
+
+TEST(LimitedProxy, KeepsItsEffortAndWaitsWhereAJointIsBlocked)
+{
+  control_toolbox::LimitedProxy proxy = proxyOf(5, 1, 5);
+  proxy.reset(0.0, 0.0);
+  for (int i = 0; i < 5000; ++i)
+    ASSERT_LE(std::abs(proxy.update(1.0, 0.0, 0.0, 0.0, 0.0, 0.001)), 5.0 + 1e-12);
+  // Released, it comes back without a jump: with all of its effort, and no more.
+  EXPECT_NEAR(5.0, proxy.update(1.0, 0.0, 0.0, 0.0, 0.0, 0.001), 1e-9);
+}
+
+TEST(LimitedProxy, TakesTimesThatAreNone)
+{
+  for (const double dt : { 0.0, -1.0, std::nan("") })
+  {
+    control_toolbox::LimitedProxy proxy = proxyOf(10, 1, 5);
+    proxy.reset(0.5, 0.0);
+    EXPECT_TRUE(std::isfinite(proxy.update(1.0, 0.0, 0.0, 0.5, 0.0, dt))) << dt;
+  }
 }

@@ -1,10 +1,10 @@
-"""Test signals, filters and the limited proxy."""
+"""Test signals and filters."""
 
 import math
 import statistics
 
 import pytest
-from control_toolbox import Dither, LimitedProxy, SineSweep, Sinusoid, clamp, exponential_smoothing
+from control_toolbox import Dither, SineSweep, Sinusoid, clamp, exponential_smoothing
 
 
 def test_sinusoid_and_its_derivatives():
@@ -41,30 +41,3 @@ def test_dither_is_gaussian_and_repeatable():
 def test_filters():
     assert [clamp(value, -1.0, 2.0) for value in (-3.0, 0.5, 3.0)] == [-1.0, 0.5, 2.0]
     assert exponential_smoothing(1.0, 0.0, 0.25) == 0.25
-
-
-def simulate(proxy, target, seconds, blocked=False):
-    """A unit mass pushed by the proxy. :return: lists of positions, velocities, efforts."""
-    position = velocity = 0.0
-    history = []
-    for _ in range(int(seconds * 1000)):
-        effort = proxy.update(target, 0.0, 0.0, position, velocity, 0.001)
-        if not blocked:
-            velocity += effort * 0.001
-            position += velocity * 0.001
-        history.append((position, velocity, effort))
-    return zip(*history)
-
-
-def test_proxy_reaches_its_target_within_the_limits():
-    proxy = LimitedProxy(kp=400.0, kd=40.0, effort_limit=5.0, acc_converge=1.0, lam=5.0, vel_limit=0.5, acc_limit=2.0)
-    positions, velocities, efforts = simulate(proxy, 1.0, 6.0)
-    assert positions[-1] == pytest.approx(1.0, abs=1e-3) and max(positions) < 1.01
-    assert max(velocities) < 0.55 and max(map(abs, efforts)) <= 5.0
-
-
-def test_a_blocked_joint_is_not_left_far_behind():
-    proxy = LimitedProxy(kp=400.0, ki=50.0, kd=40.0, ficl=2.0, effort_limit=5.0, vel_limit=0.5)
-    _, _, efforts = simulate(proxy, 1.0, 5.0, blocked=True)
-    assert efforts[-1] == pytest.approx(5.0)
-    assert abs(proxy.position) < 0.1, "released, the joint must come back gently"

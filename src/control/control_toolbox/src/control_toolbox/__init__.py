@@ -1,6 +1,5 @@
 """PID controller, test signals and small filters for controllers."""
 
-from .limited_proxy import LimitedProxy
 from .pid import Gains, Pid
 from .pid_gains_setter import PidGainsSetter
 from .pid_parameters import PidParameterError, RosPid, load_pid
@@ -9,7 +8,6 @@ from .signals import Dither, SineSweep, Sinusoid, clamp, exponential_smoothing
 __all__ = [
     "Dither",
     "Gains",
-    "LimitedProxy",
     "Pid",
     "PidGainsSetter",
     "PidParameterError",
