@@ -49,6 +49,16 @@ def test_pose_of_another_frame():
     assert measured.used.tolist() == [True] * 6 + [False] * 9 and measured.time == 3.0
 
 
+def test_pose_of_another_frame_of_the_robot():
+    """A tip 0.5 m ahead of the base stands at (1, 0), turned to the left: the base stands at (1, -0.5)."""
+    source = PoseInput("odom0", ALL, "odom", "base", frames(base=turned(at=(-0.5, 0, 0))))
+    tip = turned(yaw=np.pi / 2, at=(1, 0, 0))
+    measured = source.measure(Pose("odom", None, 0.0, tip, np.eye(6) * 0.01, "tip"))
+    np.testing.assert_allclose(measured.values[:6], [1, -0.5, 0, 0, 0, np.pi / 2], atol=1e-12)
+    with pytest.raises(FrameMissing):
+        PoseInput("odom0", ALL, "odom", "base", frames()).measure(Pose("odom", None, 0.0, tip, np.eye(6), "tip"))
+
+
 def test_known_axes_turn_with_the_frame():
     source = PoseInput("pose0", [True] + [False] * 5, "odom", "base", frames(map=turned(yaw=np.pi / 2)))
     assert np.flatnonzero(source.measure(pose(0.0, turned(at=(1, 0, 0)), "map")).used).tolist() == [1]

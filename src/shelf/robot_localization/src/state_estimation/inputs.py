@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import threading
+from typing import Protocol
 
 import numpy as np
 import rospy
@@ -18,15 +19,33 @@ KINDS = ("odom", "pose", "twist", "imu")
 _WARN_PERIOD = 5.0  # s between two warnings of one sensor
 
 
-class Sensor:
-    """One topic. ``take(measurement)`` is called in a thread of rospy with each measurement."""
+class Owner(Protocol):
+    """Whose sensor it is: called in a thread of rospy."""
 
-    def __init__(
-        self, name: str, parameters: dict, frames, lookup, state_rpy: Callable[[], np.ndarray], take: Callable[[Measurement], None]
-    ):
-        """:raises ValueError: a parameter is wrong"""
+    def take(self, measurement: Measurement) -> None:
+        """A measurement for the filter."""
+
+    def state_rpy(self) -> np.ndarray:
+        """(3,): roll, pitch, yaw of the estimate, rad."""
+
+    def remark(self, about: str, sentence: str) -> None:
+        """Something for the diagnostics: a ``sentence`` under the key ``about``."""
+
+    def jumped_back(self) -> bool:
+        """A message is older than the one before it; whether that starts the filter again."""
+
+
+class Sensor:
+    """One topic. Of messages that are not in the order of their stamps only those count that are not older than the ones before them."""
+
+    def __init__(self, name: str, parameters: dict, frames, lookup, owner: Owner, silent: bool = False):
+        """:param silent: of transforms that are not known
+        :raises ValueError: a parameter is wrong"""
         self.name, kind = name, name.rstrip("0123456789")
-        self._take, self._state_rpy = take, state_rpy
+        self._owner, self._silent = owner, silent
+        self._lock = threading.Lock()  # each publisher's messages come in a thread of its own
+        self._newest: rospy.Time | None = None
+        self._put = rospy.Time()  # stamp of the last set_pose
         own = rospy.resolve_name("~" + name)
         used = flags(parameters.get(name + "_config", [False] * 15), own + "_config")
 
@@ -39,6 +58,7 @@ class Sensor:
         differential, relative = bool(get("differential", False)), bool(get("relative", False))
         if differential and relative:
             rospy.logwarn("Both %s_differential and %s_relative are true; differential it is.", own, own)
+        self._by_child = kind == "odom" and bool(get("pose_use_child_frame", False))
         self.pose = self.twist = self.acceleration = None
         if kind in ("odom", "pose", "imu") and used[:6].any():
             self.pose = PoseInput(
@@ -87,25 +107,53 @@ class Sensor:
         }
         return types[kind]
 
-    def forget(self) -> None:
+    def forget(self, put: rospy.Time) -> None:
+        """What was measured before does not count any more. :param put: neither do messages up to this stamp"""
+        self._newest, self._put = None, put
         if self.pose:
             self.pose.forget()
 
+    def _in_order(self, stamp: rospy.Time) -> bool:
+        if stamp <= self._put:
+            of = "that of the last set_pose, or older" if self._put else "0: its publisher leaves it out"
+            self._late(f"a message is ignored, as its stamp ({stamp.to_sec():.3f} s) is {of}")
+            return False
+        if self._newest is not None and stamp < self._newest:
+            if not self._owner.jumped_back():
+                self._late(
+                    f"a message is ignored, as its stamp ({stamp.to_sec():.3f} s) is older than that of the message before it "
+                    f"({self._newest.to_sec():.3f} s): do two nodes publish the topic, or is a clock wrong?"
+                )
+            return False
+        self._newest = stamp
+        return True
+
+    def _late(self, sentence: str) -> None:
+        self._owner.remark(f"{self.name}_timestamp", sentence)
+        rospy.logwarn_throttle(_WARN_PERIOD, f"{self.name}: {sentence}")
+
     def _guarded(self, message, read) -> None:
+        with self._lock:
+            if self._in_order(message.header.stamp):
+                self._measure(message, read)
+
+    def _measure(self, message, read) -> None:
         measured: list[Measurement] = []
         try:
             read(message, measured)
         except (FrameMissing, ValueError) as error:
-            rospy.logwarn_throttle(_WARN_PERIOD, f"{self.name}: {error}")
+            if not (self._silent and isinstance(error, FrameMissing)):
+                rospy.logwarn_throttle(_WARN_PERIOD, f"{self.name}: {error}")
         for measurement in measured:
             used = measurement.used
             if np.isfinite(measurement.values[used]).all() and np.isfinite(measurement.covariance[np.ix_(used, used)]).all():
-                self._take(measurement)
+                self._owner.take(measurement)
             else:
                 rospy.logwarn_throttle(_WARN_PERIOD, f"{measurement.name}: a message holds NaN or infinity; it is left out")
 
     def _odometry(self, message: Odometry, measured: list) -> None:
-        self._pose(message.header, message.pose.pose, message.pose.covariance, measured)
+        child = message.child_frame_id if self._by_child else ""
+        self._pose(message.header, message.pose.pose, message.pose.covariance, measured, child)
         self._velocity(message.child_frame_id, message.header.stamp, message.twist.twist, message.twist.covariance, measured)
 
     def _posed(self, message: PoseWithCovarianceStamped, measured: list) -> None:
@@ -114,10 +162,10 @@ class Sensor:
     def _twisted(self, message: TwistWithCovarianceStamped, measured: list) -> None:
         self._velocity(message.header.frame_id, message.header.stamp, message.twist.twist, message.twist.covariance, measured)
 
-    def _pose(self, header, pose, covariance, measured: list) -> None:
+    def _pose(self, header, pose, covariance, measured: list, child: str = "") -> None:
         if self.pose:
             made = self.pose.measure(
-                Pose(header.frame_id, header.stamp, header.stamp.to_sec(), transform(pose), np.reshape(covariance, (6, 6)))
+                Pose(header.frame_id, header.stamp, header.stamp.to_sec(), transform(pose), np.reshape(covariance, (6, 6)), child)
             )
             if made:
                 measured.append(made)
@@ -156,6 +204,6 @@ class Sensor:
                     vector(message.linear_acceleration),
                     np.reshape(message.linear_acceleration_covariance, (3, 3)),
                     orientation,
-                    self._state_rpy(),
+                    self._owner.state_rpy(),
                 )
             )

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import re
 import sys
 import threading
-from dataclasses import dataclass
 from typing import Any
 
 import node_signals
@@ -27,23 +25,14 @@ from robot_localization.srv import (
 from std_srvs.srv import Empty, EmptyResponse
 
 from .filters import INITIAL_COVARIANCE, PROCESS_NOISE, Ekf, Ukf
-from .inputs import KINDS, Sensor
+from .inputs import Sensor
 from .messages import Lookup, every, fill, quaternion, transform
 from .motion import ORIENTATION, POSITION, RATE, SIZE, VELOCITY, rotation
 from .sensors import FrameMissing, Transform, angles, matrix
+from .settings import SENSOR, frames_of, tell_of_parameters
 
 _LONGEST_GAP = 100.0  # s; a clock that jumps further starts the filter again
-_UNSUPPORTED = ("use_control", "smooth_lagged_data")
-
-
-@dataclass
-class Frames:
-    """Names, without a slash in front."""
-
-    map: str
-    odom: str
-    base: str
-    world: str
+_WARN_PERIOD = 5.0  # s
 
 
 class Localization:
@@ -54,10 +43,8 @@ class Localization:
         self._mutex = threading.RLock()
         self._parameters = parameters = rospy.get_param("~", {})
         own = rospy.get_name()
-        for name in _UNSUPPORTED:
-            if parameters.get(name):
-                rospy.logwarn("%s/%s has no effect in this robot_localization.", own, name)
-        self.frames = self._frames()
+        tell_of_parameters(parameters)
+        self.frames = frames_of(parameters)
         self.rate = number("~frequency", 30.0)
         if self.rate <= 0:
             raise ValueError(f"parameter {own}/frequency must be above zero")
@@ -67,8 +54,15 @@ class Localization:
         self._make_filter = self._filter_maker(kind)
         self.filter = self._make_filter()
         self._queue: list = []
-        self._running = not parameters.get("disabled_at_startup", False)
+        self._enabled = not parameters.get("disabled_at_startup", False)
+        self._toggled = True
+        self._put = 0.0  # s, stamp of the last set_pose: what was measured until then does not count
+        self._resets = parameters.get("reset_on_time_jump")  # None where it is not set
+        self._corrects = bool(parameters.get("permit_corrected_publication", False))
+        self._inverted = bool(parameters.get("invert_tf", False))
+        self._silent = bool(rospy.get_param("/silent_tf_failure", parameters.get("silent_tf_failure", False)))
         self._rejected = 0
+        self._remarks: dict[str, str] = {}  # for the next diagnostics
         self._published = None  # s, stamp of the last estimate that went out
         self._look_up = Lookup(rospy.Duration(number("~transform_timeout", 0.0)))
         self._broadcaster = tf2_ros.TransformBroadcaster() if parameters.get("publish_tf", True) else None
@@ -79,10 +73,12 @@ class Localization:
             else None
         )
         self._diagnostics = (
-            rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=1) if parameters.get("print_diagnostics", True) else None
+            rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=10) if parameters.get("print_diagnostics", True) else None
         )
-        names = sorted(name for name in parameters if re.fullmatch(f"({'|'.join(KINDS)})[0-9]+", name))
-        self.sensors = [Sensor(name, parameters, self.frames, self._look_up, self._state_rpy, self._take) for name in names]
+        names = sorted(filter(SENSOR.fullmatch, parameters))
+        self.sensors: list[Sensor] = []  # they call this node as soon as they are made
+        for name in names:
+            self.sensors.append(Sensor(name, parameters, self.frames, self._look_up, self, self._silent))
         if not names:
             rospy.logwarn(
                 "%s has no sensors: set its parameters odom0, pose0, twist0 or imu0 to topics, and odom0_config and so on "
@@ -94,25 +90,6 @@ class Localization:
         rospy.Service("~enable", Empty, self._enable)
         rospy.Service("~toggle", ToggleFilterProcessing, lambda request: ToggleFilterProcessingResponse(self._toggle(request.on)))
         rospy.Service("~get_state", GetState, self._get_state)
-
-    def _frames(self) -> Frames:
-        parameters = self._parameters
-
-        def name(key: str, default: str) -> str:
-            prefix = str(parameters.get("tf_prefix", "")).strip("/")
-            frame = str(parameters.get(key, default)).lstrip("/")
-            return f"{prefix}/{frame}" if prefix else frame
-
-        odom = name("odom_frame", "odom")
-        frames = Frames(name("map_frame", "map"), odom, name("base_link_frame", "base_link"), name("world_frame", odom))
-        if len({frames.map, frames.odom, frames.base}) < 3:
-            raise ValueError(
-                "map_frame, odom_frame and base_link_frame must be three different frames, but are "
-                f"{frames.map}, {frames.odom} and {frames.base}"
-            )
-        if frames.world not in (frames.map, frames.odom):
-            raise ValueError(f"world_frame must be map_frame ({frames.map}) or odom_frame ({frames.odom}), but is {frames.world}")
-        return frames
 
     def _filter_maker(self, kind: str):
         parameters, own = self._parameters, rospy.get_name()
@@ -137,23 +114,38 @@ class Localization:
 
         return make
 
-    def _state_rpy(self) -> np.ndarray:
+    def state_rpy(self) -> np.ndarray:
         with self._mutex:
             return self.filter.state[ORIENTATION].copy()
 
-    def _take(self, measurement) -> None:
+    def take(self, measurement) -> None:
         with self._mutex:
-            if self._running:
+            if self._enabled and measurement.time > self._put:
                 self._queue.append(measurement)
 
+    def remark(self, about: str, sentence: str) -> None:
+        """Tells a ``sentence`` under the key ``about`` in the next diagnostics."""
+        with self._mutex:
+            self._remarks[about] = sentence
+
+    def jumped_back(self) -> bool:
+        if not self._resets or rospy.rostime.is_wallclock():
+            return False
+        with self._mutex:
+            self._start_again("A message is older than the one before it, and reset_on_time_jump is set; the filter starts again.")
+        return True
+
     def _enable(self, _request) -> EmptyResponse:
-        self._toggle(True)
+        with self._mutex:
+            if self._enabled:
+                rospy.logwarn("%s is enabled already; disabled_at_startup lets it wait for this call.", rospy.get_name())
+            self._enabled = True
         return EmptyResponse()
 
     def _toggle(self, on: bool) -> bool:
+        """Whether measurements count. Without them the estimate stands still, and goes on being published."""
         with self._mutex:
-            changed, self._running = self._running != on, bool(on)
-            self._queue.clear()
+            changed, self._toggled = self._toggled != on, bool(on)
             return changed
 
     def _on_set_pose(self, request) -> SetPoseResponse:
@@ -175,11 +167,11 @@ class Localization:
             self.filter.state[POSITION], self.filter.state[ORIENTATION] = pose.translation, angles(pose.rotation)
             covariance = np.reshape(message.pose.covariance, (6, 6))
             self.filter.covariance[:6, :6] = np.where(np.isfinite(covariance), covariance, 0.0) + np.eye(6) * 1e-9
-            stamp = message.header.stamp if message.header.stamp else rospy.Time.now()
-            self.filter.time = stamp.to_sec()
+            self._put = message.header.stamp.to_sec()
+            self.filter.time = rospy.get_time() or self._put
             self._queue.clear()
             for sensor in self.sensors:
-                sensor.forget()
+                sensor.forget(message.header.stamp)
 
     def _get_state(self, request) -> GetStateResponse:
         with self._mutex:
@@ -189,35 +181,51 @@ class Localization:
     def step(self, now: float) -> None:
         """All that was measured until now goes in, and the estimate goes out."""
         with self._mutex:
-            if not self._running:
+            if not self._enabled:
                 return
             self._start_again_after_a_jump(now)
-            for measurement in sorted(self._queue, key=lambda entry: entry.time):
-                if self.filter.time is not None and abs(measurement.time - self.filter.time) > _LONGEST_GAP:
-                    continue
-                self._rejected += not self.filter.process(measurement)
-            self._queue.clear()
-            if self.filter.time is None:
-                return
-            if self._to_now or now - self.filter.time >= self._timeout:
-                self.filter.predict(now - self.filter.time)
-            self._publish()
+            if self._toggled:
+                self._take_in(now)
+            else:
+                self._queue.clear()
+                if self.filter.time is not None:
+                    self.filter.time = now  # when measurements count again, no time has passed for the filter
+            if self.filter.time is not None:
+                self._publish()
+
+    def _take_in(self, now: float) -> None:
+        """What was measured until ``now``; the rest waits for its time."""
+        due = [measurement for measurement in self._queue if measurement.time <= now]
+        self._queue = [measurement for measurement in self._queue if now < measurement.time <= now + _LONGEST_GAP]
+        for measurement in sorted(due, key=lambda entry: entry.time):
+            if self.filter.time is not None and self.filter.time - measurement.time > _LONGEST_GAP:
+                self.remark(f"{measurement.name}_timestamp", f"a message is ignored, as it is {now - measurement.time:.0f} s old")
+                continue
+            self._rejected += not self.filter.process(measurement)
+        if self.filter.time is not None and (self._to_now or now - self.filter.time >= self._timeout):
+            self.filter.predict(now - self.filter.time)
 
     def _start_again_after_a_jump(self, now: float) -> None:
-        if self.filter.time is not None and (now < self.filter.time - 1.0 or now > self.filter.time + _LONGEST_GAP):
-            rospy.logwarn("The clock jumped from %.3f s to %.3f s; the filter starts again.", self.filter.time, now)
-            self.filter, self._published = self._make_filter(), None
-            self._queue.clear()
-            self._look_up.clear()
-            for sensor in self.sensors:
-                sensor.forget()
+        if self.filter.time is None:
+            return
+        back = now < self.filter.time - 1.0 and self._resets is not False
+        if back or now > self.filter.time + _LONGEST_GAP:
+            self._start_again(f"The clock jumped from {self.filter.time:.3f} s to {now:.3f} s; the filter starts again.")
+
+    def _start_again(self, why: str) -> None:
+        rospy.logwarn(why)
+        self.filter, self._published, self._put = self._make_filter(), None, 0.0
+        self._queue.clear()
+        self._look_up.clear()
+        for sensor in self.sensors:
+            sensor.forget(rospy.Time())
 
     def _publish(self) -> None:
         state, covariance, time = self.filter.state, self.filter.covariance, self.filter.time
-        if self._published is not None and time <= self._published:
+        if self._published is not None and time <= self._published and not self._corrects:
             return  # nothing new; a transform of the same stamp twice is warned of by tf
         self._published = time
-        message = Odometry(child_frame_id=self.frames.base)
+        message = Odometry(child_frame_id=self.frames.output)
         message.header.stamp, message.header.frame_id = rospy.Time(nsecs=round(time * 1e9)), self.frames.world
         fill(message.pose.pose.position, state[POSITION])
         fill(message.pose.pose.orientation, quaternion(rotation(state[ORIENTATION])), "xyzw")
@@ -227,7 +235,7 @@ class Localization:
         self._odometry.publish(message)
         if self._acceleration:
             accelerated = AccelWithCovarianceStamped()
-            accelerated.header.stamp, accelerated.header.frame_id = message.header.stamp, self.frames.base
+            accelerated.header.stamp, accelerated.header.frame_id = message.header.stamp, self.frames.output
             fill(accelerated.accel.accel.linear, state[12:])
             wide = np.zeros((6, 6))
             wide[:3, :3] = covariance[12:, 12:]
@@ -237,16 +245,20 @@ class Localization:
             self._broadcast(self._broadcaster, message, Transform(rotation(state[ORIENTATION]), state[POSITION].copy()))
 
     def _broadcast(self, broadcaster: tf2_ros.TransformBroadcaster, message: Odometry, pose: Transform) -> None:
-        """world -> base_link; where the world is the map and somebody else tells odom -> base_link, map -> odom."""
-        child = self.frames.base
-        if self.frames.world == self.frames.map:
+        """world -> base_link, or the other way round; where the world is the map and somebody else tells odom -> base_link,
+        map -> odom."""
+        parent, child = message.header.frame_id, self.frames.output
+        if self._inverted:
+            parent, child, pose = child, parent, pose.inverse()
+        elif self.frames.world == self.frames.map:
             try:
                 pose, child = pose @ self._look_up(self.frames.base, self.frames.odom, message.header.stamp), self.frames.odom
             except FrameMissing as error:
-                rospy.logwarn_throttle(5.0, str(error))
+                if not self._silent:
+                    rospy.logwarn_throttle(_WARN_PERIOD, str(error))
                 return
         sent = TransformStamped(child_frame_id=child)
-        sent.header.stamp, sent.header.frame_id = message.header.stamp + self._offset, message.header.frame_id
+        sent.header.stamp, sent.header.frame_id = message.header.stamp + self._offset, parent
         fill(sent.transform.translation, pose.translation)
         fill(sent.transform.rotation, quaternion(pose.rotation), "xyzw")
         broadcaster.sendTransform(sent)
@@ -256,15 +268,21 @@ class Localization:
         if not self._diagnostics:
             return
         with self._mutex:
-            begun = self.filter.time is not None
+            remarks, self._remarks = self._remarks, {}
+            said = "The robot_localization state estimation node appears to be functioning properly."
+            if remarks:
+                said = "Potentially erroneous data or settings detected for a robot_localization state estimation node."
+            elif self.filter.time is None:
+                said = "No sensor has been heard yet"
             status = DiagnosticStatus(
                 name=f"{rospy.get_name().strip('/')}: Filter diagnostic updater",
-                level=DiagnosticStatus.OK if begun else DiagnosticStatus.WARN,
-                message="The robot_localization state estimation node appears to be functioning properly."
-                if begun
-                else "No sensor has been heard yet",
+                level=DiagnosticStatus.WARN if remarks or self.filter.time is None else DiagnosticStatus.OK,
+                message=said,
                 hardware_id="none",
-                values=[KeyValue("rejected measurements", str(self._rejected))],
+                values=[
+                    KeyValue("rejected measurements", str(self._rejected)),
+                    *(KeyValue(about, sentence) for about, sentence in sorted(remarks.items())),
+                ],
             )
         message = DiagnosticArray(status=[status])
         message.header.stamp = rospy.Time.now()

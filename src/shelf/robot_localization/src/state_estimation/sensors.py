@@ -81,6 +81,7 @@ class Pose:
     time: float
     transform: Transform
     covariance: np.ndarray  # (6, 6)
+    child: str = ""  # the frame that has this pose, "" is the robot's base
 
 
 class PoseInput:
@@ -137,7 +138,8 @@ class PoseInput:
         to_world = self._lookup(self._world, pose.frame or self._world, pose.stamp)
         used = np.concatenate([_turned(self.used[:3], to_world.rotation), _turned(self.used[3:], to_world.rotation)])
         both = _blocks(to_world.rotation)
-        return used, to_world @ pose.transform, both @ pose.covariance @ both.T
+        of_base = pose.transform @ self._lookup(pose.child, self._base, pose.stamp) if pose.child else pose.transform
+        return used, to_world @ of_base, both @ pose.covariance @ both.T
 
     def _velocity(self, used, transform: Transform, covariance, time: float) -> Measurement | None:
         last, self._last = self._last, (transform, covariance, time)
