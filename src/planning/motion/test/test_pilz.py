@@ -19,6 +19,29 @@ def test_ptp_moves_all_joints_together(scene):
     assert t.duration == pytest.approx(2 * np.sqrt(np.abs(way).max()), rel=1e-6)
 
 
+def test_ptp_brakes_as_the_strictest_joint_may(scene):
+    """On paper: sqrt(2 way up down / (up + down)) is reached after top / up, and braked from for top / down."""
+    limits = motion.CartesianLimits(joint_deceleration={"shoulder_pan_joint": -0.5, "elbow_joint": -0.25})
+    t = motion.pilz_plan(scene, request(scene, planner="PTP"), limits=limits).trajectory
+    way = np.abs(t.positions[-1] - t.positions[0]).max()
+    top = np.sqrt(2 * way * 1.0 * 0.25 / 1.25)
+    assert t.duration == pytest.approx(top / 1.0 + top / 0.25, rel=1e-6)
+    slowing = t.accelerations[t.velocities * t.accelerations < 0]
+    assert np.abs(slowing).max() == pytest.approx(0.25, rel=1e-6)
+    wrong = motion.CartesianLimits(joint_deceleration={"elbow_joint": 0.25})
+    assert (
+        "max_deceleration of joint 'elbow_joint' has to be negative"
+        in motion.pilz_plan(scene, request(scene, planner="PTP"), limits=wrong).message
+    )
+
+
+def test_lin_is_refused_where_a_joint_would_have_to_brake_too_hard(scene):
+    asked = moved(scene, (0.1, 0.15, -0.1), "LIN")
+    limits = motion.CartesianLimits(joint_deceleration={"elbow_joint": -0.01})
+    result = motion.pilz_plan(scene, asked, limits=limits)
+    assert not result and "above its deceleration limit 0.01" in result.message
+
+
 def test_lin_is_straight_with_the_speed_asked_for(scene):
     result = motion.pilz_plan(scene, moved(scene, (0.1, 0.15, -0.1), "LIN"))
     assert result, result.message

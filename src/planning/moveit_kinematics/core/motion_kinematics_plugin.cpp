@@ -35,7 +35,10 @@ public:
       return false;
     }
     names_ = group->getActiveJointModelNames();
+    double orientation_vs_position = 1.0;
+    lookupParam("orientation_vs_position", orientation_vs_position, 1.0);
     lookupParam("position_only_ik", position_only_, false);
+    position_only_ |= orientation_vs_position == 0.0;
     lookupParam("epsilon", tolerance_, 1e-5);
     return true;
   }

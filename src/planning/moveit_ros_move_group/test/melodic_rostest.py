@@ -36,7 +36,7 @@ class Melodic(unittest.TestCase):
         )
         self.assertEqual(move(HOME).result()[1].error_code.val, MoveItErrorCodes.SUCCESS)
 
-    def test_with_position_only_ik_orientations_are_free(self):
+    def test_where_only_positions_count_orientations_are_free(self):
         """The hand far out, pointing back at the robot: out of reach, but for its position."""
         there = PoseStamped(pose=Pose(Point(0.75, 0.0, 0.35), Quaternion(0.0, -0.707, 0.0, 0.707)))
         there.header.frame_id = "world"

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -23,12 +23,14 @@ _UNSET = 1.0  # rad/s, rad/s^2 where the robot says nothing
 
 @dataclass(frozen=True)
 class CartesianLimits:
-    """Of cartesian_limits.yaml: m/s, m/s^2, m/s^2 (negative), rad/s."""
+    """Of cartesian_limits.yaml: m/s, m/s^2, m/s^2 (negative), rad/s; and of joint_limits.yaml the ``max_deceleration`` of joints that have
+    one (rad/s^2 or m/s^2, negative)."""
 
     max_trans_vel: float = 1.0
     max_trans_acc: float = 2.25
     max_trans_dec: float = -5.0
     max_rot_vel: float = 1.57
+    joint_deceleration: Mapping[str, float] = field(default_factory=dict)
 
 
 class _Refused(Exception):
@@ -166,26 +168,38 @@ def _joint_limits(scene: _core.PlanningScene, group: str, unset: float) -> tuple
     )
 
 
-def check_limits(scene: _core.PlanningScene, trajectory: Trajectory, what: str) -> None:
+def _braking(scene: _core.PlanningScene, group: str, limits: CartesianLimits, acceleration: np.ndarray) -> np.ndarray:
+    """What each joint of ``group`` may brake with, above 0: as it speeds up, where nobody says more."""
+    given = [limits.joint_deceleration.get(name) for name in scene.model.group(group).variables]
+    for name, value in zip(scene.model.group(group).variables, given):
+        if value is not None and not value < 0:
+            raise _Refused("failed", f"the max_deceleration of joint '{name}' has to be negative, it is {value:g}")
+    return np.array([speeding if value is None else -value for value, speeding in zip(given, acceleration)])
+
+
+def check_limits(scene: _core.PlanningScene, trajectory: Trajectory, what: str, limits: CartesianLimits) -> None:
     """Refuse a ``trajectory`` that is too fast for the joints between or at its points; what has no limit may be as fast as it likes.
 
-    :param scene: whose robot has the limits. :param what: it is, for the message.
+    :param scene: whose robot has the limits, but for decelerations, which are those of ``limits``. :param what: it is, for the message.
     """
     velocity, acceleration = _joint_limits(scene, trajectory.group, np.inf)
+    braking = _braking(scene, trajectory.group, limits, acceleration)
     assert trajectory.times is not None and trajectory.velocities is not None and trajectory.accelerations is not None
     steps = np.diff(trajectory.positions, axis=0) / np.diff(trajectory.times)[:, None]
-    for rows, limits, name in (
+    slowing = trajectory.velocities * trajectory.accelerations < 0
+    for rows, most, name in (
         (steps, velocity, "velocity"),
         (trajectory.velocities, velocity, "velocity"),
-        (trajectory.accelerations, acceleration, "acceleration"),
+        (np.where(slowing, 0.0, trajectory.accelerations), acceleration, "acceleration"),
+        (np.where(slowing, trajectory.accelerations, 0.0), braking, "deceleration"),
     ):
         worst = np.abs(rows).max(axis=0, initial=0.0)
-        if (worst > limits * 1.001).any():
-            joint = int(np.argmax(worst / limits))
+        if (worst > most * 1.001).any():
+            joint = int(np.argmax(worst / most))
             raise _Refused(
                 "failed",
                 f"{what} would move joint '{trajectory.variables[joint]}' with {worst[joint]:.3g}, above its "
-                f"{name} limit {limits[joint]:.3g}; a smaller {name} scaling helps",
+                f"{name} limit {most[joint]:.3g}; a smaller {'velocity' if name == 'velocity' else 'acceleration'} scaling helps",
             )
 
 
@@ -239,7 +253,8 @@ def _ptp(scene: _core.PlanningScene, start: _core.RobotState, request: MotionReq
     way = float(np.abs(last - first).max(initial=0.0))
     if way < 1e-9:
         return trajectory_of(scene, request.group, start, [0.0], [first])
-    profile = _Trapeze(way, velocity.min() * v_scale, acceleration.min() * a_scale, acceleration.min() * a_scale)
+    braking = _braking(scene, request.group, limits, acceleration)
+    profile = _Trapeze(way, velocity.min() * v_scale, acceleration.min() * a_scale, braking.min() * a_scale)
     times = profile.times()
     direction = (last - first) / way
     rows = np.array([profile.at(t) for t in times])
@@ -282,7 +297,7 @@ def _along(
         )
         positions.append(values)
     trajectory = trajectory_of(scene, request.group, start, list(times), positions)
-    check_limits(scene, trajectory, f"the {request.planner} motion")
+    check_limits(scene, trajectory, f"the {request.planner} motion", limits)
     return trajectory
 
 

@@ -38,7 +38,13 @@ class SequenceResult:
 
 
 def _blend(
-    scene: _core.PlanningScene, first: Trajectory, second: Trajectory, link: str, radius: float, position_only: bool = False
+    scene: _core.PlanningScene,
+    first: Trajectory,
+    second: Trajectory,
+    link: str,
+    radius: float,
+    limits: CartesianLimits,
+    position_only: bool = False,
 ) -> Trajectory:
     """One trajectory that leaves the first where it enters the ball about its end, and joins the second where that leaves it."""
     places = [np.array([t.state(i).pose(link).position for i in range(len(t))]) for t in (first, second)]
@@ -67,7 +73,7 @@ def _blend(
     times += list(times[-1] + second.times[leave + 1 :] - t_leave)
     positions += list(second.positions[leave + 1 :])
     blended = trajectory_of(scene, first.group, first.start, times, positions)
-    check_limits(scene, blended, "the blend between two motions")
+    check_limits(scene, blended, "the blend between two motions", limits)
     return blended
 
 
@@ -91,7 +97,7 @@ def pilz_sequence(
     result = SequenceResult("solved")
     try:
         radii = _radii(scene.model, items, result.warnings)
-        _plan_all(scene, items, radii, cancel, plan, result)
+        _plan_all(scene, items, radii, cancel, plan, result, limits)
     except _Refused as refused:
         result.status, result.message, result.trajectories = refused.status, str(refused), []
     except _core.MotionError as error:
@@ -128,6 +134,7 @@ def _plan_all(
     cancel: _core.CancelToken | None,
     plan: Planner,
     result: SequenceResult,
+    limits: CartesianLimits,
 ) -> None:
     state, out, before = scene.state, result.trajectories, None
     for index, (request, _) in enumerate(items):
@@ -143,7 +150,7 @@ def _plan_all(
             out.append(trajectory)
         elif radius > 0:
             _check_overlap(before, trajectory, radius, radii[index], index)
-            out[-1] = _blended(scene, out[-1], trajectory, radius, where, result, request.position_only)
+            out[-1] = _blended(scene, out[-1], trajectory, radius, where, result, limits, request.position_only)
         else:
             out[-1] = out[-1].append(trajectory)
         before = trajectory
@@ -167,10 +174,11 @@ def _blended(
     radius: float,
     where: str,
     result: SequenceResult,
+    limits: CartesianLimits,
     position_only: bool,
 ) -> Trajectory:
     try:
-        trajectory = _blend(scene, first, second, scene.model.group(first.group).tip_link, radius, position_only)
+        trajectory = _blend(scene, first, second, scene.model.group(first.group).tip_link, radius, limits, position_only)
     except _Refused as refused:
         raise _Refused(refused.status, f"{where}: {refused}") from None
     bad = path_valid(scene, first.start, trajectory.group, trajectory.positions)

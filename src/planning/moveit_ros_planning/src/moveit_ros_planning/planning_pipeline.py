@@ -83,9 +83,8 @@ class Pipeline:
             if adapter in adapters and unused:
                 rospy.logwarn("parameters of %s in %s are not used here: %s", adapter, rospy.resolve_name(namespace), ", ".join(unused))
         self._server = None
-        if self.is_pilz:
-            self._limits = _cartesian_limits(description)
-        else:
+        self._limits = _cartesian_limits(description)
+        if not self.is_pilz:
             self._server = Server(namespace + "ompl", _PARAMETERS, self._reconfigure)
         rospy.loginfo("Using planning interface '%s'", self.title)
         for adapter in self._adapters.adapters:
@@ -187,7 +186,7 @@ class Pipeline:
             if not (joints.name or joints.position or joints.velocity or joints.effort):  # then it starts where the one before ends
                 request = replace(request, start=None)
             requests.append((request, float(radius)))
-        result = motion.pilz_sequence(scene, requests, cancel, plan=self._generate)
+        result = motion.pilz_sequence(scene, requests, cancel, self._limits, plan=self._generate)
         self._warn(result.warnings)
         if not result:
             log = rospy.loginfo if result.code == MoveItErrorCodes.PREEMPTED else rospy.logerr
@@ -403,7 +402,13 @@ def _cartesian_limits(description: RobotDescription) -> motion.CartesianLimits:
     given = description.planning("cartesian_limits", {})
     given = given if isinstance(given, dict) else {}
     names = ("max_trans_vel", "max_trans_acc", "max_trans_dec", "max_rot_vel")
-    return motion.CartesianLimits(**{key: float(given[key]) for key in names if isinstance(given.get(key), (int, float))})
+    braking = {
+        joint: float(limits["max_deceleration"])
+        for joint, limits in description.joint_limits.items()
+        if limits.get("has_deceleration_limits") and "max_deceleration" in limits
+    }
+    numbers = {key: float(given[key]) for key in names if isinstance(given.get(key), (int, float))}
+    return motion.CartesianLimits(**numbers, joint_deceleration=braking)
 
 
 def _refusal(plugin: str, parameter: str) -> str:

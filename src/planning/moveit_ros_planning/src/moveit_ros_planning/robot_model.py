@@ -43,6 +43,7 @@ class RobotDescription:
     kinematics: dict[str, Kinematics]
     urdf: str
     srdf: str
+    joint_limits: dict[str, dict[str, Any]] = field(default_factory=dict)
 
     def planning(self, key: str, default: Any) -> Any:
         """Parameter ``key`` below ``<name>_planning``, or ``default``."""
@@ -97,7 +98,7 @@ def load(
     for warning in model.warnings:
         kind, _, rest = warning.partition("error: ")
         (rospy.logwarn if kind or not rest else rospy.logerr)("%s", warning if kind or not rest else rest)
-    description = RobotDescription(where, model, _kinematics(where, model, own_namespace), urdf, srdf or "")
+    description = RobotDescription(where, model, _kinematics(where, model, own_namespace), urdf, srdf or "", limits)
     if compiled_solvers:
         solvers.use_compiled(description)
     return description
@@ -166,7 +167,7 @@ def _group_kinematics(where: str, entry: dict[str, Any]) -> Kinematics:
         joint_tolerance=read("goal_joint_tolerance", 1e-4),
         position_tolerance=read("goal_position_tolerance", 1e-4),
         orientation_tolerance=read("goal_orientation_tolerance", 1e-3),
-        position_only=bool(entry.get("position_only_ik", False)),
+        position_only=bool(entry.get("position_only_ik", False)) or read("orientation_vs_position", 1.0) == 0.0,
         epsilon=read("epsilon", 1e-5),
         links=[str(link) for link in links] if isinstance(links, list) else [],
         resolution=read("kinematics_solver_search_resolution", 0.1),
