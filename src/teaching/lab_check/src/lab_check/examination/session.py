@@ -346,10 +346,7 @@ class Session:
             trouble = str(error)
         finally:
             bench.on_sample.remove(look)
-        if trouble:
-            verdicts = [Verdict(kind_of(e), False, trouble) for e in task["expect"]]
-        else:
-            verdicts = self._verdicts(monitors, task["expect"], given)
+        verdicts = self._verdicts(monitors, task["expect"], given) if not trouble else _nothing(task["expect"], trouble)
         for monitor in monitors:
             monitor.end()
         self._look_who_interferes(actor)
@@ -421,6 +418,10 @@ class Session:
         result.log = excerpt(self._log(mark) or self._log())
         result.commands = result.commands or _typed(self.tasks[0]["launch"])
         return result
+
+
+def _nothing(expectations: Sequence[dict[str, Any]], trouble: str) -> list[Verdict]:
+    return [Verdict(kind_of(expectation), False, trouble) for expectation in expectations]
 
 
 class Moment:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, TypeGuard
 
 _MESSAGES = ("message", "request", "goal", "arguments")  # what they hold goes to the submission, or to the spec's own functions
 _RANGES = ("rate", "by", "turned", "share")
@@ -12,7 +12,10 @@ _BOUNDS = (*_RANGES, "least", "most", "tolerance")  # which may be without end
 
 
 def problems_of_numbers(data: Any, where: tuple = ()) -> Iterator[tuple[tuple, str]]:
-    """The place, a path of keys, and a sentence for each number of ``data`` by which nothing could be judged."""
+    """The place, a path of keys, and a sentence for each number of ``data`` by which nothing could be judged.
+
+    :param where: the path of keys to ``data``
+    """
     if isinstance(data, float) and not math.isfinite(data):
         if math.isnan(data):
             yield where, "is no number (.nan), which no value equals, and none is less or more than"
@@ -32,5 +35,5 @@ def problems_of_numbers(data: Any, where: tuple = ()) -> Iterator[tuple[tuple, s
             yield from problems_of_numbers(value, (*where, index))
 
 
-def _is_number(value: Any) -> bool:
+def _is_number(value: Any) -> TypeGuard[float]:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
