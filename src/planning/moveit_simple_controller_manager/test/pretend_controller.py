@@ -48,7 +48,7 @@ class Robot:
             {
                 "joints": goal.trajectory.joint_names,
                 "goal_time": goal.goal_time_tolerance.to_sec(),
-                "tolerances": [entry.position for entry in goal.goal_tolerance],
+                "tolerances": {entry.name: entry.position for entry in goal.goal_tolerance},
             },
         )
         mode = rospy.get_param("~mode", "follow")

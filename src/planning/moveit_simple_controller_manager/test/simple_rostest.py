@@ -20,6 +20,7 @@ from client import HOME, JOINTS, PATIENCE, Goal, wait_until  # noqa: E402
 
 Codes = MoveItErrorCodes
 NEAR = [0.5] + HOME[1:]
+TOLERANCES = {f"joint_{number}": number / 100 for number in range(1, 7)}  # actions.yaml lists them from the last joint to the first
 
 
 def trajectory(seconds, names=JOINTS, start=HOME, end=NEAR):
@@ -72,7 +73,7 @@ class SimpleManager(unittest.TestCase):
         self.start()
         self.expect(trajectory(0.5), GoalStatus.SUCCEEDED, Codes.SUCCESS)
         sent = rospy.get_param("/pretend_controller/goal")
-        self.assertEqual((sent["joints"], sent["goal_time"], sent["tolerances"]), (sorted(JOINTS), 0.5, [0.01] * 6))
+        self.assertEqual((sent["joints"], sent["goal_time"], sent["tolerances"]), (sorted(JOINTS), 0.5, TOLERANCES))
 
     def test_joints_come_in_alphabetical_order(self):
         self.start()

@@ -15,11 +15,12 @@ from control_msgs.msg import (
     FollowJointTrajectoryResult,
     GripperCommandAction,
     GripperCommandGoal,
-    JointTolerance,
 )
 from moveit_core import action_links
 from moveit_core.controller_manager import Completion, ControllerHandle, ExecutionStatus
 from moveit_msgs.msg import RobotTrajectory
+
+from . import entries
 
 #: a server whose connection is lost for this long (wall s) during a motion is taken for dead
 _GONE = 1.0
@@ -148,6 +149,12 @@ class FollowJointTrajectoryHandle(ActionHandle):
     action = FollowJointTrajectoryAction
     kind = "FollowJointTrajectory"
 
+    def __init__(self, name: str, topic: str, entry: dict[str, Any]):
+        self._path = entries.tolerances(entry, "path_tolerance")
+        self._end = entries.tolerances(entry, "goal_tolerance")
+        self._late = rospy.Duration.from_sec(entries.number(entry, "goal_time_tolerance"))
+        super().__init__(name, topic, entry)
+
     def _make_goal(self, trajectory: RobotTrajectory):
         if trajectory.multi_dof_joint_trajectory.points:
             rospy.logwarn("%s cannot execute multi-dof trajectories.", self.name)
@@ -155,9 +162,7 @@ class FollowJointTrajectoryHandle(ActionHandle):
             self.reason = f"the trajectory for '{self.name}' has no points"
             return None
         goal = FollowJointTrajectoryGoal(trajectory=trajectory.joint_trajectory)
-        goal.path_tolerance = _tolerances(self._entry.get("path_tolerance"), trajectory.joint_trajectory.joint_names)
-        goal.goal_tolerance = _tolerances(self._entry.get("goal_tolerance"), trajectory.joint_trajectory.joint_names)
-        goal.goal_time_tolerance = rospy.Duration.from_sec(float(self._entry.get("goal_time_tolerance", 0.0)))
+        goal.path_tolerance, goal.goal_tolerance, goal.goal_time_tolerance = self._path, self._end, self._late
         rospy.logdebug("sending trajectory to %s", self.name)
         return goal
 
@@ -174,6 +179,10 @@ class GripperCommandHandle(ActionHandle):
 
     action = GripperCommandAction
     kind = "GripperCommand"
+
+    def __init__(self, name: str, topic: str, entry: dict[str, Any]):
+        self._max_effort = entries.number(entry, "max_effort")
+        super().__init__(name, topic, entry)
 
     def _make_goal(self, trajectory: RobotTrajectory):
         points, names = trajectory.joint_trajectory.points, trajectory.joint_trajectory.joint_names
@@ -193,41 +202,17 @@ class GripperCommandHandle(ActionHandle):
                 self.reason = f"{self.name}: the last point has no position of joint '{names[index]}'"
                 return None
             goal.command.position += last.positions[index]
-        goal.command.max_effort = (
-            last.effort[commanded[0]] if len(last.effort) > commanded[0] else float(self._entry.get("max_effort", 0.0))
-        )
+        goal.command.max_effort = last.effort[commanded[-1]] if len(last.effort) > commanded[-1] else self._max_effort
         return goal
 
     def _commanded(self, names) -> list:
         joints = self._entry["joints"]
-        if self._entry.get("parallel") and len(joints) == 2:
-            return [names.index(name) for name in joints if name in names]
+        if entries.flag(self._entry, "parallel"):
+            return [index for index, name in enumerate(names) if name in joints]
         command = self._entry.get("command_joint", joints[0] if joints else "")
         return [names.index(command)] if command in names else []
 
     def _status(self, state: int) -> ExecutionStatus:
-        if state == GoalStatus.ABORTED and self._entry.get("allow_failure"):
+        if state == GoalStatus.ABORTED and entries.flag(self._entry, "allow_failure"):
             return ExecutionStatus.SUCCEEDED  # it stalled on what it holds
         return super()._status(state)
-
-
-def _tolerances(given, names) -> list:
-    """Tolerances from controller_list: a list of {name, position, ...}, or a table of numbers or lists."""
-    if isinstance(given, list):
-        return [
-            JointTolerance(str(entry.get("name", "")), *(float(entry.get(key, 0.0)) for key in ("position", "velocity", "acceleration")))
-            for entry in given
-            if isinstance(entry, dict)
-        ]
-    if not isinstance(given, dict):
-        return []
-    rows = []
-    for index, name in enumerate(names):
-        values = []
-        for key in ("position", "velocity", "acceleration"):
-            value = given.get(key, 0.0)
-            values.append(
-                float(value[index]) if isinstance(value, list) and index < len(value) else 0.0 if isinstance(value, list) else float(value)
-            )
-        rows.append(JointTolerance(name, *values))
-    return rows

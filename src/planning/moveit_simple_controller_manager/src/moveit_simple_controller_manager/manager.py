@@ -8,6 +8,7 @@ import rospy
 from moveit_core.controller_manager import ControllerHandle, ControllerManager
 from moveit_core.errors import one_line
 
+from . import entries
 from .actions import FollowJointTrajectoryHandle, GripperCommandHandle
 
 HANDLES = {"FollowJointTrajectory": FollowJointTrajectoryHandle, "GripperCommand": GripperCommandHandle}
@@ -19,8 +20,8 @@ def read_controller_list(namespace: str, required=("name", "joints")) -> list[di
     :param required: keys that each must have.
     """
     parameter = rospy.resolve_name(namespace + "controller_list")
-    entries = rospy.get_param(namespace + "controller_list", None)
-    if entries is None:
+    listed = rospy.get_param(namespace + "controller_list", None)
+    if listed is None:
         rospy.logerr(
             "No controller_list specified: parameter %s is not set; the controllers' YAML file is loaded "
             "there by "
@@ -28,11 +29,11 @@ def read_controller_list(namespace: str, required=("name", "joints")) -> list[di
             parameter,
         )
         return []
-    if not isinstance(entries, list):
-        rospy.logerr("Parameter controller_list should be specified as an array: %s is %s", parameter, one_line(repr(entries), 60))
+    if not isinstance(listed, list):
+        rospy.logerr("Parameter controller_list should be specified as an array: %s is %s", parameter, one_line(repr(listed), 60))
         return []
     usable = []
-    for number, entry in enumerate(entries):
+    for number, entry in enumerate(listed):
         missing = [key for key in required if not isinstance(entry, dict) or key not in entry]
         if missing:
             rospy.logerr(
@@ -76,7 +77,7 @@ class ListedControllers(ControllerManager):
         return self._handles.get(controller)
 
     def is_default(self, controller: str) -> bool:
-        return bool(self._entries[controller].get("default", False))
+        return entries.flag(self._entries[controller], "default")
 
 
 class SimpleControllerManager(ListedControllers):
@@ -88,6 +89,9 @@ class SimpleControllerManager(ListedControllers):
             kind = str(entry["type"])
             if kind not in HANDLES:
                 rospy.logerr("Unknown controller type: %s of controller '%s'; there are: %s", kind, entry["name"], ", ".join(HANDLES))
+                continue
+            if kind == "GripperCommand" and entries.flag(entry, "parallel") and len(entry["joints"]) != 2:
+                rospy.logerr("Parallel Gripper requires exactly two joints: controller '%s' has %d", entry["name"], len(entry["joints"]))
                 continue
             topic = action_topic(entry["name"], str(entry["action_ns"]))
             self.add(entry, HANDLES[kind](entry["name"], topic, entry))
