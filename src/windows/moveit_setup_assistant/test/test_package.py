@@ -106,7 +106,11 @@ def test_every_launch_file_loads_and_names_what_it_loads(package, monkeypatch):
 
 def test_the_files_say_what_was_asked_for(package):
     config = package / "config"
-    assert read(config / "simple_moveit_controllers.yaml") == {"controller_list": []}
+    common = {"action_ns": "follow_joint_trajectory", "type": "FollowJointTrajectory", "default": True}
+    assert read(config / "simple_moveit_controllers.yaml")["controller_list"] == [
+        {"name": "arm_controller", **common, "joints": ["turn", "spin"]},
+        {"name": "wing_controller", **common, "joints": ["swinging"]},
+    ]  # as MoveItConfigData::outputSimpleControllersYAML of MoveIt 1.1.14
     controllers = read(config / "ros_controllers.yaml")
     assert controllers["wing_controller"] == {
         "type": "effort_controllers/JointTrajectoryController",
@@ -128,6 +132,45 @@ def test_what_is_read_back_is_what_was_written(described, package):
     assert again.kinematics == once.kinematics and again.default_planners == once.default_planners
     assert again.controllers == once.controllers and again.source == once.source
     assert {file.state.value for file in package_writer.plan(again, package)} == {"unchanged"}
+
+
+MIXED = """controllers:
+  - {name: still, type: position_controllers/JointGroupPositionController, joints: [spin]}
+  - {name: hand, type: GripperCommand, joints: [swinging]}
+  - {name: turner, type: my_controllers/JointTrajectoryController, joints: [turn]}
+  - {name: driver, type: FollowJointTrajectory, joints: [swinging]}
+  - {name: wing, type: velocity_controllers/JointTrajectoryController, joints: [swinging]}
+author:"""
+
+
+def test_controllers_of_all_kinds_are_listed_and_read_back_once(described, tmp_path):
+    once, folder = made(described, CONFIG.replace("author:", MIXED)), tmp_path / "mixed_config"
+    package_writer.write(once, folder)
+    listed = read(folder / "config" / "simple_moveit_controllers.yaml")["controller_list"]
+    assert [(c["name"], c["type"], c["action_ns"]) for c in listed] == [
+        ("hand", "GripperCommand", "gripper_action"),
+        ("turner", "FollowJointTrajectory", "follow_joint_trajectory"),
+        ("driver", "FollowJointTrajectory", "follow_joint_trajectory"),
+        ("wing", "FollowJointTrajectory", "follow_joint_trajectory"),
+    ]
+    assert list(read(folder / "config" / "ros_controllers.yaml")) == ["still", "turner", "wing"]
+    again = Configuration.load(folder)
+    assert again.controllers == once.controllers
+    assert {file.state.value for file in package_writer.plan(again, folder)} == {"unchanged"}
+
+
+def test_a_package_of_older_assistants_has_each_controller_once(package):
+    config = package / "config"
+    (config / "simple_moveit_controllers.yaml").unlink()  # Melodic's has controller_list in ros_controllers.yaml
+    entry = {"name": "arm_controller", "action_ns": "follow_joint_trajectory", "type": "FollowJointTrajectory", "joints": ["turn", "spin"]}
+    started = {"type": "effort_controllers/JointTrajectoryController"}
+    values = {"controller_list": [entry], "arm_controller": {**started, "joints": ["turn", "spin"]}, "w": {**started, "joints": "swinging"}}
+    (config / "ros_controllers.yaml").write_text(yaml.safe_dump(values))
+    again = Configuration.load(package)
+    assert [(c.name, c.type, c.joints) for c in again.controllers] == [
+        ("arm_controller", started["type"], ["turn", "spin"]),
+        ("w", started["type"], ["swinging"]),
+    ]
 
 
 def test_what_was_changed_by_hand_stays_until_somebody_asks(package):

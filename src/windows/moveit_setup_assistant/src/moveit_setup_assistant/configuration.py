@@ -83,6 +83,11 @@ class Controller:
         """Whether move_group only calls it, and nobody here starts it."""
         return self.type in ACTION_TYPES
 
+    @property
+    def action(self) -> str:
+        """The type of the action through which move_group sends it motions; "" for one of ros_control that has none."""
+        return "FollowJointTrajectory" if self.type.endswith("/JointTrajectoryController") else self.type if self.is_action else ""
+
 
 @dataclass
 class Configuration:
@@ -143,19 +148,7 @@ class Configuration:
             if isinstance(planning.get(group.name), dict) and planning[group.name].get("default_planner_config")
         }
         self.sensors = [s for s in _read(config / "sensors_3d.yaml", optional=True).get("sensors") or [] if isinstance(s, dict) and s]
-        actions = _read(config / "simple_moveit_controllers.yaml", optional=True).get("controller_list") or []
-        running = _read(config / "ros_controllers.yaml", optional=True)
-        listed = [*actions, *(running.get("controller_list") or [])]
-        self.controllers = [
-            Controller(str(c["name"]), str(c["type"]), list(c.get("joints") or []))
-            for c in listed
-            if isinstance(c, dict) and c.get("name") and c.get("type")
-        ]
-        self.controllers += [
-            Controller(name, str(c["type"]), list(c.get("joints") or []))
-            for name, c in running.items()
-            if isinstance(c, dict) and "joints" in c and "type" in c
-        ]
+        self.controllers = _controllers(config)
         gazebo = config / f"gazebo_{self.robot.name}.urdf"
         self.gazebo_urdf = gazebo.read_text(encoding="utf-8") if gazebo.is_file() else ""
 
@@ -243,6 +236,36 @@ def written_at(package: Path) -> int:
         return int((values.get("CONFIG") or {}).get("generated_timestamp") or 0)
     except (TypeError, ValueError, AttributeError):
         return 0
+
+
+def _controllers(config: Path) -> list[Controller]:
+    """Those of the folder ``config``, in an order that both files keep; one of ros_control is in both files, and one controller."""
+    actions = _entries(_read(config / "simple_moveit_controllers.yaml", optional=True).get("controller_list"))
+    running = _read(config / "ros_controllers.yaml", optional=True)
+    started = _entries([{**c, "name": name} for name, c in running.items() if isinstance(c, dict) and "joints" in c])
+    known = {c.name for c in started if c.action == "FollowJointTrajectory"}
+    listed = [*actions, *_entries(running.get("controller_list"))]
+    rest = list({c.name: c for c in reversed(listed)}.values())[::-1]
+    merged: list[Controller] = []
+    for controller in started:
+        if any(c.name == controller.name for c in rest) and controller.name in known:
+            while rest[0].name != controller.name:
+                entry = rest.pop(0)
+                merged += [] if entry.name in known else [entry]
+            rest.pop(0)
+        merged.append(controller)
+    return merged + [c for c in rest if c.name not in known]
+
+
+def _entries(listed: Any) -> list[Controller]:
+    """The controllers of a list of tables; ``joints`` may be the name of a single one."""
+    made = []
+    for entry in listed if isinstance(listed, list) else []:
+        if isinstance(entry, dict) and entry.get("name") and entry.get("type"):
+            joints = entry.get("joints") or []
+            names = joints if isinstance(joints, list) else [joints]
+            made.append(Controller(str(entry["name"]), str(entry["type"]), [str(name) for name in names]))
+    return made
 
 
 def _read(path: Path, optional: bool = False) -> dict[str, Any]:

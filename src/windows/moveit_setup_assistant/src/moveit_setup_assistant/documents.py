@@ -212,13 +212,13 @@ def fake_controllers(config: Configuration) -> str:
 
 
 def simple_controllers(config: Configuration) -> str:
-    """The actions that move_group calls and nobody here serves."""
+    """The actions that move_group calls: of ros_control's trajectory controllers, and those that nobody here serves."""
     return text(
         {
             "controller_list": [
-                {"name": c.name, "action_ns": ACTION_TYPES[c.type], "type": c.type, "default": True, "joints": list(c.joints)}
+                {"name": c.name, "action_ns": ACTION_TYPES[c.action], "type": c.action, "default": True, "joints": list(c.joints)}
                 for c in config.controllers
-                if c.is_action
+                if c.action
             ]
         }
     )
