@@ -10,19 +10,36 @@ import rosgraph
 import rospy
 from controller_manager_msgs.srv import ListControllers, SwitchController, SwitchControllerRequest
 from moveit_core.controller_manager import ControllerHandle, ControllerManager
+from moveit_core.errors import one_line
 from moveit_simple_controller_manager.actions import FollowJointTrajectoryHandle, GripperCommandHandle
 
 #: a list of controllers is believed for this long (wall s)
 _AGE = 1.0
 
 
-def _handle_kind(controller_type: str):
-    """(class, name of the action) for a controller type; None for those that take no trajectories."""
-    if controller_type.endswith("/JointTrajectoryController"):
+def _handle_kind(name: str, controller_type: str, topics: set[str]):
+    """(class, name of the action) for a controller; None for those that take no trajectories.
+
+    :param name: with its namespace. :param controller_type: that of list_controllers. :param topics: of trajectories' results
+    """
+    if controller_type.endswith("/JointTrajectoryController") or f"{name}/follow_joint_trajectory/result" in topics:
         return FollowJointTrajectoryHandle, "follow_joint_trajectory"
     if controller_type.endswith("/GripperActionController"):
         return GripperCommandHandle, "gripper_cmd"
     return None
+
+
+def _resources(controller) -> set[str]:
+    """What a controller of list_controllers claims, or would when it runs."""
+    return {resource for claimed in controller.claimed_resources for resource in claimed.resources}
+
+
+def _topics() -> list:
+    """(name, type) of all topics; none when the master cannot be asked."""
+    try:
+        return rospy.get_published_topics()
+    except (OSError, rospy.ROSException, rosgraph.MasterException):
+        return []
 
 
 class ControlManager(ControllerManager):
@@ -32,7 +49,8 @@ class ControlManager(ControllerManager):
         super().__init__(model, namespace)
         given = rospy.get_param(namespace + "ros_control_namespace", "/") if control_namespace is None else control_namespace
         self._ns = "/" + given.strip("/") + ("/" if given.strip("/") else "")
-        self._known: dict[str, Any] = {}
+        self._known: dict[str, Any] = {}  # those that take trajectories
+        self._running: dict[str, Any] = {}  # those of any kind
         self._read = 0.0
         self._handles: dict[str, ControllerHandle] = {}
         rospy.loginfo("Started moveit_ros_control_interface::MoveItControllerManager for namespace %s", self._ns)
@@ -50,17 +68,17 @@ class ControlManager(ControllerManager):
             reply = rospy.ServiceProxy(self._list_service, ListControllers)()
         except (rospy.ROSException, rospy.ServiceException) as error:
             rospy.logwarn_throttle(10, f"Failed to read controllers from {self._list_service}: {error}")
-            self._known = {}
+            self._known, self._running = {}, {}
             return
-        known = {}
-        for controller in reply.controller:
-            if _handle_kind(controller.type) is not None:
-                known[self._full(controller.name)] = controller
-        self._known = known
-        for name, controller in known.items():
-            if controller.state == "running" and name not in self._handles:
-                make, action = _handle_kind(controller.type)
-                self._handles[name] = make(name, f"{name}/{action}", {"joints": self.joints(name)})
+        listed = {self._full(controller.name): controller for controller in reply.controller}
+        topics = {name for name, kind in _topics() if kind == "control_msgs/FollowJointTrajectoryActionResult"}
+        kinds = {name: _handle_kind(name, controller.type, topics) for name, controller in listed.items()}
+        self._known = {name: controller for name, controller in listed.items() if kinds[name]}
+        self._running = {name: controller for name, controller in listed.items() if controller.state == "running"}
+        for name in self._known:
+            if name in self._running and name not in self._handles:
+                make, action = kinds[name]
+                self._handles[name] = make(name, f"{name}/{action}", {"name": name, "joints": self.joints(name)})
 
     def _full(self, name: str) -> str:
         return self._ns + name.lstrip("/")
@@ -71,27 +89,36 @@ class ControlManager(ControllerManager):
 
     def active_controllers(self) -> list[str]:
         self._discover()
-        return sorted(name for name, controller in self._known.items() if controller.state == "running")
+        return sorted(name for name in self._known if name in self._running)
 
     def joints(self, controller: str) -> list[str]:
         entry = self._known.get(controller)
-        return sorted({joint for claimed in entry.claimed_resources for joint in claimed.resources}) if entry else []
+        return sorted(_resources(entry)) if entry else []
 
     def handle(self, controller: str) -> ControllerHandle | None:
         self._discover()
         return self._handles.get(controller) if controller in self.active_controllers() else None
 
     def switch(self, activate: Sequence[str], deactivate: Sequence[str]) -> bool:
-        request = SwitchControllerRequest(strictness=SwitchControllerRequest.STRICT)
-        request.start_controllers = [name[len(self._ns) :] for name in activate if not self.is_active(name)]
-        request.stop_controllers = [name[len(self._ns) :] for name in deactivate if self.is_active(name)]
-        if not request.start_controllers and not request.stop_controllers:
+        """As the base has it. Names of other managers are passed over; whatever runs and holds a joint that is needed is stopped."""
+        self._discover(force=True)
+        known, running = self._known, self._running
+        start = [name for name in activate if name in known and name not in running]
+        needed = {resource for name in start for resource in _resources(known[name])}
+        holders = [name for name, controller in running.items() if name not in activate and needed & _resources(controller)]
+        stop = list(dict.fromkeys([*(name for name in deactivate if name in running), *holders]))
+        if not start and not stop:
             return True
+        request = SwitchControllerRequest(strictness=SwitchControllerRequest.STRICT)
+        request.start_controllers = [known[name].name for name in start]
+        request.stop_controllers = [running[name].name for name in stop]
         try:
             good = rospy.ServiceProxy(self._ns + "controller_manager/switch_controller", SwitchController)(request).ok
+            problem = "controller_manager refuses; its log says why"
         except (rospy.ROSException, rospy.ServiceException) as error:
-            rospy.logerr("Could not switch controllers at %s: %s", self._ns, error)
-            good = False
+            good, problem = False, one_line(error)
+        if not good:
+            rospy.logerr("Could not switch controllers at %s, start %s, stop %s: %s", self._ns, start, stop, problem)
         self._discover(force=True)
         return good
 
@@ -149,12 +176,8 @@ class MultiControlManager(ControllerManager):
         return owner.handle(controller) if owner else None
 
     def switch(self, activate: Sequence[str], deactivate: Sequence[str]) -> bool:
-        return all(
-            manager.switch(
-                [name for name in activate if name in manager.controllers()], [name for name in deactivate if name in manager.controllers()]
-            )
-            for manager in self._managers.values()
-        )
+        self._discover()
+        return all(manager.switch(activate, deactivate) for manager in self._managers.values())
 
     def reload(self) -> None:
         self._read = 0.0
