@@ -54,6 +54,21 @@ def test_a_program_that_noetic_calls_otherwise():
     assert of_program("robot_state_publisher", "state_publisher") == "Noetic calls it robot_state_publisher"
 
 
+@pytest.mark.parametrize(
+    "where, name, instead",
+    [
+        ("moveit_kinematics", "create_ikfast_moveit_plugin.py", "kinematics.yaml"),
+        ("moveit_kinematics", "auto_create_ikfast_moveit_plugin.sh", "kinematics.yaml"),
+        ("moveit_ros_planning", "moveit_evaluate_collision_checking_speed", "scripts/bench motion"),
+        ("moveit_ros_planning", "moveit_compare_collision_checking_speed_fcl_bullet", "FCL"),
+        ("moveit_ros_planning", "moveit_visualize_robot_collision_volume", "Collision Enabled"),
+        ("moveit_ros_occupancy_map_monitor", "moveit_ros_occupancy_map_server", "sensors_3d.yaml"),
+    ],
+)
+def test_a_program_that_is_not_supplied_names_what_takes_its_place(where, name, instead):
+    assert instead in of_program(where, name)
+
+
 def test_a_script_that_is_not_executable(package):
     program(package / "scripts/move.py", 0o644)
     assert of_program("my_arm", "move.py") == f"Such a file is there and is not executable: chmod +x {package}/scripts/move.py"

@@ -15,6 +15,31 @@ _UNKNOWN = "Is it built in your workspace, and that sourced? `rosdep resolve {na
 
 #: Programs that packages of Noetic no longer have, and what they are called.
 _RENAMED = {("robot_state_publisher", "state_publisher"): "robot_state_publisher"}
+_IKFAST = (
+    "IKFast's generator is not supplied. A plugin package that it made elsewhere builds and is loaded here; else name "
+    "kdl_kinematics_plugin/KDLKinematicsPlugin or a TRAC-IK in kinematics.yaml"
+)
+_BENCH = "It is not supplied; scripts/bench motion of this workspace measures planning, kinematics and collision checks"
+_EXAMPLE = "It is not supplied: it only shows how a class is used"
+#: Programs of upstream that are not supplied, and what takes their place.
+_IN_PLACE_OF = {
+    ("moveit_kinematics", "create_ikfast_moveit_plugin.py"): _IKFAST,
+    ("moveit_kinematics", "auto_create_ikfast_moveit_plugin.sh"): _IKFAST,
+    ("moveit_kinematics", "round_collada_numbers.py"): _IKFAST,
+    ("moveit_planners_ompl", "moveit_generate_state_database"): "It is not supplied: planning with path constraints needs no database here",
+    ("moveit_ros_occupancy_map_monitor", "moveit_ros_occupancy_map_server"): (
+        "It is not supplied: move_group keeps the octomap of the sensors in sensors_3d.yaml, "
+        "and publishes move_group/monitored_planning_scene"
+    ),
+    ("moveit_ros_planning", "demo_scene"): _EXAMPLE,
+    ("moveit_ros_planning", "moveit_compare_collision_checking_speed_fcl_bullet"): "There is one collision detector here, FCL",
+    ("moveit_ros_planning", "moveit_evaluate_collision_checking_speed"): _BENCH,
+    ("moveit_ros_planning", "moveit_evaluate_state_operations_speed"): _BENCH,
+    ("moveit_ros_planning", "moveit_kinematics_speed_and_validity_evaluator"): _BENCH,
+    ("moveit_ros_planning", "moveit_visualize_robot_collision_volume"): (
+        "It is not supplied: RViz's RobotModel shows the shapes that collide with 'Collision Enabled'"
+    ),
+}
 _MOST_NAMED = 12
 #: Files that rosrun is given and that are no programs: what they are, and what takes them.
 _NO_PROGRAMS = {
@@ -83,6 +108,8 @@ def of_program(package: str, name: str) -> str:
     renamed = _RENAMED.get((package, name))
     if renamed:
         return f"Noetic calls it {renamed}"
+    if (package, name) in _IN_PLACE_OF:
+        return _IN_PLACE_OF[package, name]
     try:
         folder = Path(rospkg.RosPack().get_path(package))
     except rospkg.ResourceNotFound:
