@@ -114,6 +114,7 @@ class TransportTest(test_support.TestCase):
         wire = Wire(port, receive_buffer)
         self.addCleanup(wire.close)
         wire.tell("sub", field(1, topic) + field(2, "127.0.0.1") + field(3, 1) + field(4, kind) + field(5, latching))
+        self.address(topic)  # who answers this has read the line before: what is sent from now on is heard
         return wire
 
     def test_a_program_hears_the_simulator_and_its_plugin(self):
@@ -160,6 +161,66 @@ class TransportTest(test_support.TestCase):
         self.sim.empty("pause_physics")
         self.assertIn("no topic /gazebo/compiled/nothing", self.gz("-e", "~/nothing").stderr)
         self.assertIn("no simulator answers at localhost:1 ", self.gz("-l", port=1).stderr)
+
+    def said(self, *words):
+        """What a gz topic that does its work prints."""
+        done = self.gz(*words)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), words)
+        return done.stdout
+
+    def test_gz_topic_publishes(self):
+        def ticks():
+            return round(self.sim.world().sim_time * 1000)
+
+        before = ticks()
+        self.assertEqual(self.said("-p", "/gazebo/compiled/world_control", "-m", "multi_step: 5"), "")
+        test_support.wait_until(lambda: ticks() == before + 5)
+        self.said("--publish", "~/world_control", "gazebo.msgs.WorldControl", "--msg", "step: true, pause: true")  # the type, as many write
+        test_support.wait_until(lambda: ticks() == before + 6)
+        with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
+            model = RAY.replace("\n", " ").replace('"', "'")
+            file.write(f'sdf: "{model}"\npose {{ name: "" id: 0 position {{ x: 3 y: 0 z: 1 }} orientation {{ x: 0 y: 0 z: 0 w: 1 }} }}\n')
+            file.flush()
+            self.said("-p", "~/factory", "-f", file.name)
+        test_support.wait_until(lambda: "post" in self.sim.world().model_names)
+        self.assertEqual(self.sim.model("post").pose.position.x, 3.0)
+        self.said("-p", "~/request", "-m", 'id: 1 request: "entity_delete" data: "post"')
+        test_support.wait_until(lambda: "post" not in self.sim.world().model_names)
+
+    def test_gz_topic_drives_a_plugin(self):
+        self.assertTrue(self.sim.spawn("arm", URDF.format(library="worker", more=""), kind="urdf").success)
+        self.said("-p", "~/go", "-m", "data: 3")
+
+        def turns():
+            self.sim.step(1)
+            return self.sim.joint("elbow").rate[0] > 0.1
+
+        test_support.wait_until(turns)
+
+    def test_gz_topic_asks(self):
+        self.assertTrue(self.sim.spawn("post", RAY).success)
+        self.assertRegex(self.said("-r", "entity_list"), r'models \{\n  name: "post"')
+        self.assertRegex(self.said("-r", "entity_info", "-m", "post\n"), r'^name: "post"\n[^?]*is_static: true')
+        self.assertIn('request: "entity_delete"', self.said("--request", "entity_delete", "-m", "post"))
+        test_support.wait_until(lambda: "post" not in self.sim.world().model_names)
+
+    def test_gz_topic_says_what_it_cannot_say(self):
+        for words, line in (
+            (("-p", "~/world_control"), "its message is needed"),
+            (("-p", "~/world_control", "-m", "paus: true"), 'WorldControl" has no field named "paus"'),
+            (("-p", "~/world_control", "-m", "pause: maybe"), "-m is no gazebo.msgs.WorldControl: 1:"),
+            (("-p", "~/request", "-m", 'id: 1 data: "a"'), "missing required fields:  request"),
+            (("-p", "~/world_control", "-f", "/nowhere.txt"), "/nowhere.txt: No such file"),
+            (("-p", "~/nothing", "-m", "data: 1"), "nobody listens to /gazebo/compiled/nothing; gz topic -l"),
+            (("-p", "~/light/modify", "-m", "name: 'sun'"), "set_light_properties"),
+            (("-p", "~/world_stats", "-m", "paused: true"), "nobody listens to /gazebo/compiled/world_stats"),
+            (("-r", "entity_info", "-m", "ghost"), "there is no 'ghost'"),
+            (("-r", "entity_info", "-w", "other"), "nobody answers requests on /gazebo/other/request"),
+            (("-m", "pause: true"), "-p TOPIC -m MESSAGE publishes one"),
+        ):
+            done = self.gz(*words)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), words)
+            self.assertIn(line, done.stderr)
 
     def test_bytes(self):
         wire, (version, spaces, publishers) = self.wire()

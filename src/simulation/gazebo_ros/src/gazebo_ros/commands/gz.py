@@ -63,6 +63,10 @@ def physics(options: argparse.Namespace) -> None:
 
 def sdf(options: argparse.Namespace) -> None:
     """Check a URDF, SDF or world file, or print it as SDF."""
+    if options.convert:
+        raise Failure(f"files are not rewritten in their place; gz sdf -p {options.convert} > NEW_FILE prints it as SDF 1.6")
+    if options.describe or options.doc:
+        raise Failure("the format is not described here, see http://sdformat.org/spec; gz sdf -k FILE says what is wrong in a file")
     path = options.check or options.print
     try:
         with open(path, encoding="utf-8") as stream:
@@ -107,6 +111,16 @@ def log(_options: argparse.Namespace) -> None:
     )
 
 
+def marker(_options: argparse.Namespace) -> None:
+    """Not here: RViz shows markers."""
+    raise Failure("markers in the simulator's window are not drawn here; RViz shows those of visualization_msgs/Marker, on a topic of ROS")
+
+
+def debug(_options: argparse.Namespace) -> None:
+    """Not here: gzserver --verbose tells."""
+    raise Failure("there is nothing of it here; gzserver --verbose says more, gz stats how fast it runs, and ~/.ros/log has the logs")
+
+
 def helps(options: argparse.Namespace) -> None:
     """What there is, or the options of one command."""
     try:
@@ -132,6 +146,31 @@ def _options_of_things(command: Callable[[Any], argparse.ArgumentParser]) -> Non
     add("-l", "--list", action="store_true", help="as model::link::sensor")
     add("-c", "--camera-name", default="", help="accepted, to say what to do instead")
     add("-f", "--follow", metavar="MODEL", help="accepted, to say what to do instead")
+
+
+def _options_of_topics(command: Callable[..., argparse.ArgumentParser]) -> None:
+    add = command(topic, of_a_world=False).add_argument
+    add("-l", "--list", action="store_true")
+    for short, name in (("e", "echo"), ("i", "info"), ("z", "hz"), ("b", "bw"), ("p", "publish")):
+        add(f"-{short}", f"--{name}", metavar="TOPIC")
+    add("-r", "--request", metavar="WHAT", help="entity_list, entity_info, entity_delete, or what a plugin answers; of -m")
+    add("-m", "--msg", metavar="TEXT", help="the message of -p in protobuf's text format, as 'pause: true'; of -r what it is about")
+    add("-f", "--file", help="which holds that text")
+    add("-v", "--view", nargs="?", const=True, metavar="TOPIC", help="no window for them here")
+    add("-u", "--unformatted", action="store_true", help="each message in one line")
+    add("-w", "--world-name", default="", help="what ~ stands for, behind /gazebo/; without it: the world that runs")
+    add("-d", "--duration", type=float, help="s of showing or measuring; without it: until Ctrl-C")
+
+
+def _options_of_sdf(command: Callable[..., argparse.ArgumentParser]) -> None:
+    checker = command(sdf, of_a_world=False)
+    add = checker.add_mutually_exclusive_group(required=True).add_argument
+    add("-k", "--check", metavar="FILE")
+    add("-p", "--print", metavar="FILE", help="a URDF becomes a model in SDF")
+    add("-c", "--convert", metavar="FILE", help="accepted, to say what to do instead")
+    add("-d", "--describe", action="store_true", help="accepted, to say what to do instead")
+    add("-o", "--doc", action="store_true", help="accepted, to say what to do instead")
+    checker.add_argument("-v", "--version", help="accepted: 1.6 is printed")
 
 
 def parser() -> argparse.ArgumentParser:
@@ -172,28 +211,26 @@ def parser() -> argparse.ArgumentParser:
     add("-f", "--force", type=float, help="N or Nm")
     for name in _TARGETS:
         add(name, type=float, help=argparse.SUPPRESS)
-    add = command(topic, of_a_world=False).add_argument
-    add("-l", "--list", action="store_true")
-    for short, name in (("e", "echo"), ("i", "info"), ("z", "hz"), ("b", "bw")):
-        add(f"-{short}", f"--{name}", metavar="TOPIC")
-    add("-v", "--view", nargs="?", const=True, metavar="TOPIC", help="no window for them here")
-    add("-u", "--unformatted", action="store_true", help="each message in one line")
-    add("-w", "--world-name", default="", help="what ~ stands for, behind /gazebo/; without it: the world that runs")
-    add("-d", "--duration", type=float, help="s of showing or measuring; without it: until Ctrl-C")
-    add = command(log, of_a_world=False).add_argument
-    add("-d", "--record", metavar="0|1", help="accepted, to say what to do instead")
+    _options_of_topics(command)
+    for absent in (log, marker, debug):
+        command(absent, of_a_world=False)
     command(helps, "help", of_a_world=False).add_argument("about", nargs="?", default="", metavar="COMMAND")
-    add = command(sdf, of_a_world=False).add_mutually_exclusive_group(required=True).add_argument
-    add("-k", "--check", metavar="FILE")
-    add("-p", "--print", metavar="FILE", help="a URDF becomes a model in SDF")
+    _options_of_sdf(command)
     return top
 
 
 def main(arguments: list[str]) -> int:
     """Exit code: 0 done, 1 refused, 2 wrong options."""
-    options = parser().parse_args(rospy.myargv(["gz", *arguments])[1:])
+    options, left = parser().parse_known_args(rospy.myargv(["gz", *arguments])[1:])
     try:
-        if options.run not in (sdf, log, helps, topic):
+        if options.run in (log, marker, debug):
+            options.run(options)
+        # Words that belong to no option are passed over, as Gazebo does: many write the message's type behind -p TOPIC.
+        unknown = [word for word in left if options.run is not topic or word.startswith("-")]
+        if unknown:
+            print(f"gz {options.command}: what is {unknown[0]}? gz help {options.command} lists the options", file=sys.stderr)
+            return 2
+        if options.run not in (sdf, helps, topic):
             if not rosgraph.is_master_online():
                 raise Failure(f"no ROS master at {rosgraph.get_master_uri()}; start the simulator first")
             node_signals.init_node("gz", anonymous=True, disable_rostime=True)

@@ -1,4 +1,4 @@
-"""``gz topic``: what goes over Gazebo's own transport, in lines like those of the original."""
+"""``gz topic``: what goes over Gazebo's own transport, in lines like those of the original. What it says itself: gz_publish."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import threading
 import time
 from collections.abc import Callable
 
+from gazebo_ros.commands import gz_publish
 from gazebo_ros.commands.command_line import Failure
 
 try:
@@ -17,12 +18,15 @@ except ImportError:  # built without compiled plugins, or on a system that lacks
 
 
 def topic(options: argparse.Namespace) -> None:
-    """List, show or measure the topics of Gazebo's own transport; those of ROS: rostopic."""
+    """List, show, measure or publish the topics of Gazebo's own transport; those of ROS: rostopic."""
     if options.view:
         raise Failure("there is no window for topics of Gazebo here; -e shows messages as text, and rqt_plot and RViz show those of ROS")
-    name = options.echo or options.info or options.hz or options.bw
-    if not (options.list or name):
-        raise Failure("say what: -l lists, -e TOPIC shows messages, -i TOPIC who sends them, -z TOPIC how often, -b TOPIC how much")
+    name = options.info or options.echo or options.hz or options.bw or options.publish
+    if not (options.list or name or options.request):
+        raise Failure(
+            "say what: -l lists, -e TOPIC shows messages, -i TOPIC who sends them, -z TOPIC how often, -b TOPIC how much; "
+            "-p TOPIC -m MESSAGE publishes one, -r WHAT asks"
+        )
     if _core is None:
         raise Failure("Gazebo's transport is not built; it needs libprotobuf-dev and protobuf-compiler (scripts/setup installs them)")
     problem = _core.join(1)
@@ -32,13 +36,17 @@ def topic(options: argparse.Namespace) -> None:
         print("\n".join(_core.topic_names()))
         return
     node = _core.Node(options.world_name)
-    full = node.full_name(name)
+    full = node.full_name(name or "~/request")
     if options.info:
         _info(full)
     elif options.echo:
         _echo(node, full, options)
-    else:
+    elif options.hz or options.bw:
         _run(node, full, Rate() if options.hz else Bandwidth(), options.duration)
+    elif options.publish:
+        gz_publish.publish(_core, full, options)
+    else:
+        gz_publish.request(_core, full, node.full_name("~/response"), options)
 
 
 def _known(name: str):
