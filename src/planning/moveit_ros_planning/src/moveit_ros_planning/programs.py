@@ -175,6 +175,7 @@ def _show_states(description: robot_model.RobotDescription, publisher: rospy.Pub
 def random_state(scene: motion.PlanningScene, wanted: str = "") -> motion.RobotState | None:
     """A state within the limits.
 
+    :param scene: the robot, and what it may collide with.
     :param wanted: "valid", in collision with nothing; "invalid", in collision; "", either.
     :returns: None where a hundred states were not as wanted.
     """
