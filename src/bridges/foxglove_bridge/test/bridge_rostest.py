@@ -4,9 +4,13 @@
 import io
 import json
 import os
+import signal
+import socket
 import struct
+import subprocess
 import unittest
 
+import rosgraph
 import rospkg
 import rospy
 import rostest
@@ -17,6 +21,17 @@ from websockets.sync.client import connect
 
 ADDRESS = "ws://127.0.0.1:28765"
 PATIENCE = 20.0  # s
+
+
+def hung_services(test, count=4):
+    """Services of a node that is stopped: its socket takes connections, and nothing answers."""
+    listening = socket.create_server(("127.0.0.1", 0), backlog=50)
+    test.addCleanup(listening.close)
+    master, uri = rosgraph.Master("/hung"), f"rosrpc://127.0.0.1:{listening.getsockname()[1]}"
+    for number in range(count):
+        master.registerService(f"/hung/{number}", uri, "http://127.0.0.1:9")
+        test.addCleanup(master.unregisterService, f"/hung/{number}", uri)
+    return listening
 
 
 def bytes_of(message):
@@ -176,6 +191,31 @@ class Bridge(unittest.TestCase):
             client.socket.send(call + request)
             failure = client.wait(lambda: client.op("serviceCallFailure", callId=77), "the failure")[0]
             self.assertIn(said, failure["message"])
+
+    def test_services_that_hang_hold_up_nothing(self):
+        listening = hung_services(self)
+        client = Client(self)
+        listening.accept()[0].close()  # the bridge has begun to ask
+        begin = rospy.get_time()
+        publisher = rospy.Publisher("/beside_hung", String, queue_size=1)
+        service = rospy.Service("/switch_beside_hung", SetBool, lambda _: SetBoolResponse())
+        self.addCleanup(service.shutdown)
+        client.wait(lambda: "/beside_hung" in client.channels and "/switch_beside_hung" in client.services, "what is new")
+        self.assertLess(rospy.get_time() - begin, 4.0)  # one look at the graph, 0.5 s; rosservice waits 5 s for each that hangs
+        publisher.unregister()
+
+    def test_services_that_hang_do_not_keep_it_from_ending(self):
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            port = probe.getsockname()[1]
+        listening = hung_services(self)
+        listening.settimeout(PATIENCE)
+        bridge = subprocess.Popen(["rosrun", "foxglove_bridge", "foxglove_bridge", f"_port:={port}", "__name:=ending"])
+        self.addCleanup(bridge.kill)
+        for _ in range(8):  # more than one round
+            listening.accept()
+        bridge.send_signal(signal.SIGTERM)
+        bridge.wait(5)
 
     def test_parameters(self):
         client = Client(self)

@@ -25,6 +25,7 @@ def test_nothing_said_is_this_machine_alone():
         ({"topic_whitelist": [1]}, "~topic_whitelist should be a list of texts"),
         ({"param_whitelist": ["(", "a"]}, "is no regular expression"),
         ({"max_update_ms": 0}, "out of range"),
+        ({"service_type_retrieval_timeout_ms": 0}, "out of range"),
     ],
 )
 def test_what_cannot_be_used_is_one_line(values, said):

@@ -65,7 +65,7 @@ class Bridge(ServerListener):
             session_id=str(now_ns()),
             asset_handler=(lambda uri: assets.fetch(uri, settings.asset_uri_allowlist)) if "assets" in has else None,
         )
-        self._services = Services(self.server) if "services" in has else None
+        self._services = Services(self.server, settings.service_type_retrieval_timeout_ms / 1000) if "services" in has else None
         if simulated:
             self._clock = rospy.Subscriber("/clock", Clock, lambda m: self.server.broadcast_time(m.clock.to_nsec()), queue_size=1)
 
@@ -84,6 +84,12 @@ class Bridge(ServerListener):
                 state = None
             pause = FIRST_LOOK if state != before else min(pause * SLOWER, self.settings.max_update_ms / 1000)
             before = state
+
+    def stop(self) -> None:
+        """Tell clients that it ends."""
+        if self._services is not None:
+            self._services.stop()
+        self.server.stop()
 
     def _look(self, state: list[Any], types: dict[str, str]) -> None:
         published, subscribed, services = ({name: nodes for name, nodes in part} for part in state)
@@ -193,7 +199,7 @@ def _settings() -> Settings:
 def follow(bridge: Bridge, stop: threading.Event) -> None:
     """Let ``bridge`` work until ``stop``."""
     bridge.follow_graph(stop)
-    bridge.server.stop()
+    bridge.stop()
 
 
 def own_or_running() -> tuple[int, Bridge | None]:

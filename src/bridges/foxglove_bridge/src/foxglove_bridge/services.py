@@ -3,26 +3,38 @@
 from __future__ import annotations
 
 import io
+import queue
+import socket
+import threading
 from typing import Any
 
+import rosgraph
 import roslib.message
 import rospy
-import rosservice
 from foxglove.websocket import MessageSchema, Service, ServiceRequest, ServiceSchema
 
 from foxglove_bridge.settings import BridgeError
 from foxglove_bridge.topics import schema
+
+ASKERS = 8  # threads that ask servers for their types
 
 
 class CallError(BridgeError):
     """A service that failed; the client is told this line."""
 
 
-def type_of(name: str) -> str | None:
-    """The type of the service ``name``, asked from its server; None where that does not answer."""
+def type_of(name: str, timeout: float) -> str | None:
+    """The type of the service ``name``, asked from its server; None where that does not answer within ``timeout`` s.
+
+    rosservice waits 5 s, too long for a server that hangs.
+    """
     try:
-        return rosservice.get_service_type(name)
-    except Exception:  # a server that is going, of another language, behind a wall
+        host, port = rospy.core.parse_rosrpc_uri(rosgraph.Master(rospy.get_name()).lookupService(name))
+        with socket.create_connection((host, port), timeout) as connection:
+            header = {"probe": "1", "md5sum": "*", "callerid": rospy.get_name(), "service": name}
+            rosgraph.network.write_ros_handshake_header(connection, header)
+            return rosgraph.network.read_ros_handshake_header(connection, io.BytesIO(), 2048).get("type")
+    except Exception:  # a server that is going, hangs, is of another language, behind a wall
         return None
 
 
@@ -57,25 +69,52 @@ def _call(name: str, kind: Any, call: ServiceRequest) -> bytes:
 
 
 class Services:
-    """Those that the graph has."""
+    """Those that the graph has. Servers are asked for their types in threads of their own: one that hangs holds up nothing else.
 
-    def __init__(self, server: Any) -> None:
-        self._server = server
+    :param timeout: s that a server has to tell its type
+    """
+
+    def __init__(self, server: Any, timeout: float) -> None:
+        self._server, self._timeout = server, timeout
+        self._lock = threading.Lock()
+        self._wanted: set[str] = set()
         self._there: dict[str, bool] = {}  # whether it is offered
+        self._asked: set[str] = set()  # in the queue, or being asked now
         self._told: set[str] = set()
+        self._queue: queue.SimpleQueue[str] = queue.SimpleQueue()
+        for _ in range(ASKERS):
+            threading.Thread(target=self._ask, daemon=True).start()
 
     def are(self, names: set[str]) -> None:
-        """The graph has the services ``names`` now: offer those that are new, take away the others."""
-        gone = [name for name in self._there if name not in names]
-        self._server.remove_services([name for name in gone if self._there.pop(name)])
-        for name in sorted(names - set(self._there)):
-            type_name = type_of(name)
-            if type_name is None:
-                continue  # asked again when the graph is looked at next
-            service = offered(name, type_name)
-            self._there[name] = service is not None
-            if service is not None:
-                self._server.add_services([service])
-            elif type_name not in self._told:
-                self._told.add(type_name)
-                rospy.logwarn("services of type %s are not offered: no package here defines it", type_name)
+        """The graph has the services ``names`` now: take away those that are gone; the others are offered when their types are known."""
+        with self._lock:
+            self._wanted = names
+            gone = [name for name in self._there if name not in names]
+            self._server.remove_services([name for name in gone if self._there.pop(name)])
+            new = sorted(names - set(self._there) - self._asked)
+            self._asked.update(new)
+        for name in new:
+            self._queue.put(name)
+
+    def stop(self) -> None:
+        """Offer nothing more."""
+        with self._lock:
+            self._wanted = set()
+
+    def _ask(self) -> None:
+        while True:
+            name = self._queue.get()
+            type_name = type_of(name, self._timeout)
+            service = offered(name, type_name) if type_name is not None else None
+            with self._lock:
+                self._asked.discard(name)
+                if type_name is not None and name in self._wanted:  # else it is asked again when the graph is looked at next
+                    self._offer(name, type_name, service)
+
+    def _offer(self, name: str, type_name: str, service: Service | None) -> None:
+        self._there[name] = service is not None
+        if service is not None:
+            self._server.add_services([service])
+        elif type_name not in self._told:
+            self._told.add(type_name)
+            rospy.logwarn("services of type %s are not offered: no package here defines it", type_name)

@@ -32,7 +32,7 @@ class Settings:
     asset_uri_allowlist: tuple[str, ...] = (MESHES,)
     capabilities: tuple[str, ...] = CAPABILITIES
     max_update_ms: int = 5000  # ms of wall time, at most, until a new topic is seen
-    service_type_retrieval_timeout_ms: int = 250
+    service_type_retrieval_timeout_ms: int = 250  # ms that a server has to tell the type of its service
 
     @classmethod
     def read(cls, get: Callable[[str, Any], Any], warn: Callable[[str], None]) -> Settings:
@@ -61,7 +61,7 @@ def _checked(name: str, value: Any, default: Any) -> Any:
         return tuple(words)
     if type(value) is not type(default):
         raise SettingError(f"~{name} should be {'a whole number' if isinstance(default, int) else 'a text'}, not {value!r}")
-    if name == "port" and not 0 <= value < 65536 or name == "max_update_ms" and value <= 0:
+    if name == "port" and not 0 <= value < 65536 or name.endswith("_ms") and value <= 0:
         raise SettingError(f"~{name} is {value}: out of range")
     return value
 
