@@ -16,9 +16,9 @@ namespace trajectory_execution_manager
 namespace
 {
 constexpr double CONNECT = 2.0;  // s of wall time for a server that comes late
+constexpr double LONGEST = 1e9;  // s: what a duration holds
 constexpr double GONE = 1.0;     // s of wall time after which a server that is not there is taken for dead
 using moveit_controller_manager::ExecutionStatus;
-using Value = XmlRpc::XmlRpcValue;
 
 template <typename Action>
 class ActionHandle : public moveit_controller_manager::MoveItControllerHandle
@@ -158,13 +158,6 @@ private:
   std::unique_ptr<Client> client_;  // goes first: its thread calls back
 };
 
-double numberOf(Value& value)
-{
-  return value.getType() == Value::TypeDouble ? static_cast<double>(value)
-         : value.getType() == Value::TypeInt  ? static_cast<int>(value)
-                                              : 0.0;
-}
-
 class FollowJointTrajectoryHandle : public ActionHandle<control_msgs::FollowJointTrajectoryAction>
 {
 public:
@@ -181,9 +174,9 @@ protected:
       return false;
     }
     goal.trajectory = trajectory.joint_trajectory;
-    goal.path_tolerance = tolerances("path_tolerance");
-    goal.goal_tolerance = tolerances("goal_tolerance");
-    goal.goal_time_tolerance = ros::Duration(std::max(0.0, entry_.number("goal_time_tolerance", 0.0)));
+    goal.path_tolerance = path_;
+    goal.goal_tolerance = end_;
+    goal.goal_time_tolerance = late_;
     return true;
   }
 
@@ -195,26 +188,9 @@ protected:
   }
 
 private:
-  // A list of {name, position, velocity, acceleration}.
-  std::vector<control_msgs::JointTolerance> tolerances(const char* key) const
-  {
-    std::vector<control_msgs::JointTolerance> rows;
-    Value all = entry_.all;
-    if (!all.hasMember(key) || all[key].getType() != Value::TypeArray)
-      return rows;
-    for (int i = 0; i < all[key].size(); ++i)
-    {
-      Value& row = all[key][i];
-      if (row.getType() != Value::TypeStruct || !row.hasMember("name"))
-        continue;
-      rows.emplace_back();
-      rows.back().name = static_cast<std::string>(row["name"]);
-      rows.back().position = row.hasMember("position") ? numberOf(row["position"]) : 0.0;
-      rows.back().velocity = row.hasMember("velocity") ? numberOf(row["velocity"]) : 0.0;
-      rows.back().acceleration = row.hasMember("acceleration") ? numberOf(row["acceleration"]) : 0.0;
-    }
-    return rows;
-  }
+  const std::vector<control_msgs::JointTolerance> path_ = entry_.tolerances("path_tolerance");
+  const std::vector<control_msgs::JointTolerance> end_ = entry_.tolerances("goal_tolerance");
+  const ros::Duration late_{ std::clamp(entry_.number("goal_time_tolerance", 0.0), -LONGEST, LONGEST) };
 };
 
 // The last point of a trajectory is where the gripper goes.
@@ -226,34 +202,49 @@ public:
 protected:
   bool makeGoal(const moveit_msgs::RobotTrajectory& trajectory, control_msgs::GripperCommandGoal& goal) override
   {
-    const auto& names = trajectory.joint_trajectory.joint_names;
+    if (!trajectory.multi_dof_joint_trajectory.points.empty())
+    {
+      ROS_ERROR_NAMED(log_names::CONTROLLER_MANAGER, "%s cannot execute multi-dof trajectories", name_.c_str());
+      return false;
+    }
     if (trajectory.joint_trajectory.points.empty())
     {
       ROS_ERROR_NAMED(log_names::CONTROLLER_MANAGER, "%s requires at least one joint trajectory point, but none is given",
                       name_.c_str());
       return false;
     }
-    std::vector<std::string> commanded = entry_.joints;
-    if (!entry_.flag("parallel") || commanded.size() != 2)
+    const std::vector<std::size_t> commanded = commandedOf(trajectory.joint_trajectory.joint_names);
+    const auto& last = trajectory.joint_trajectory.points.back();
+    if (commanded.empty() || commanded.back() >= last.positions.size())
+    {
+      ROS_ERROR_NAMED(log_names::CONTROLLER_MANAGER, "%s found no %s of its own in the trajectory", name_.c_str(),
+                      commanded.empty() ? "joint" : "position");
+      return false;
+    }
+    for (std::size_t index : commanded)
+      goal.command.position += last.positions[index];
+    goal.command.max_effort = commanded.back() < last.effort.size() ? last.effort[commanded.back()] : max_effort_;
+    return true;
+  }
+
+private:
+  // Those that the gripper goes to the sum of, in the order of the trajectory.
+  std::vector<std::size_t> commandedOf(const std::vector<std::string>& names) const
+  {
+    std::vector<std::string> mine = entry_.joints;
+    if (!entry_.flag("parallel"))
     {
       const std::string command = entry_.text("command_joint");
-      commanded.assign(1, command.empty() && !entry_.joints.empty() ? entry_.joints[0] : command);
+      mine.assign(1, command.empty() && !entry_.joints.empty() ? entry_.joints[0] : command);
     }
-    const auto& last = trajectory.joint_trajectory.points.back();
-    bool any = false;
-    for (const std::string& joint : commanded)
-    {
-      const std::size_t index = std::find(names.begin(), names.end(), joint) - names.begin();
-      if (index >= names.size() || index >= last.positions.size())
-        continue;
-      goal.command.position += last.positions[index];
-      goal.command.max_effort = !any && index < last.effort.size() ? last.effort[index] : entry_.number("max_effort", 0.0);
-      any = true;
-    }
-    if (!any)
-      ROS_ERROR_NAMED(log_names::CONTROLLER_MANAGER, "%s found no joint of its own in the trajectory", name_.c_str());
-    return any;
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (std::find(mine.begin(), mine.end(), names[i]) != mine.end())
+        found.push_back(i);
+    return found;
   }
+
+  const double max_effort_ = entry_.number("max_effort", 0.0);
 };
 }  // namespace
 
@@ -267,6 +258,9 @@ Handles makeActionHandles(const std::vector<ControllerEntry>& entries)
                                                         : entry.name + "/" + entry.action_ns;
     if (entry.type == "FollowJointTrajectory")
       handles[entry.name] = std::make_shared<FollowJointTrajectoryHandle>(entry, topic);
+    else if (entry.type == "GripperCommand" && entry.flag("parallel") && entry.joints.size() != 2)
+      ROS_ERROR_NAMED(log_names::CONTROLLER_MANAGER, "Parallel Gripper requires exactly two joints: controller '%s' has %zu",
+                      entry.name.c_str(), entry.joints.size());
     else if (entry.type == "GripperCommand")
       handles[entry.name] = std::make_shared<GripperCommandHandle>(entry, topic);
     else

@@ -54,31 +54,7 @@ private:
   std::map<std::string, ControllerEntry> entries_;
   Handles handles_;
 };
-
-bool has(const Value& table, const char* key, Value::Type type)
-{
-  return table.getType() == Value::TypeStruct && table.hasMember(key) && const_cast<Value&>(table)[key].getType() == type;
-}
 }  // namespace
-
-bool ControllerEntry::flag(const char* key) const
-{
-  return has(all, key, Value::TypeBoolean) && static_cast<bool>(const_cast<Value&>(all)[key]);
-}
-
-double ControllerEntry::number(const char* key, double standard) const
-{
-  if (has(all, key, Value::TypeDouble))
-    return static_cast<double>(const_cast<Value&>(all)[key]);
-  if (has(all, key, Value::TypeInt))
-    return static_cast<int>(const_cast<Value&>(all)[key]);
-  return standard;
-}
-
-std::string ControllerEntry::text(const char* key) const
-{
-  return has(all, key, Value::TypeString) ? static_cast<std::string>(const_cast<Value&>(all)[key]) : "";
-}
 
 std::vector<ControllerEntry> readControllerList(const ros::NodeHandle& nh, bool actions)
 {
@@ -103,8 +79,8 @@ std::vector<ControllerEntry> readControllerList(const ros::NodeHandle& nh, bool 
     entry.name = entry.text("name");
     entry.action_ns = entry.text("action_ns");
     entry.type = entry.text("type");
-    if (!has(list[i], "name", Value::TypeString) || !has(list[i], "joints", Value::TypeArray) ||
-        (actions && entry.type.empty()))
+    if (!entry.has("name", Value::TypeString) || !entry.has("joints", Value::TypeArray) ||
+        (actions && (entry.type.empty() || !entry.has("action_ns", Value::TypeString))))
     {
       ROS_ERROR_NAMED(log_names::CONTROLLER_MANAGER, "Entry %d of %s needs a name, a list of joints%s: left out", i,
                       parameter.c_str(), actions ? ", action_ns and type" : "");

@@ -1,6 +1,7 @@
 // The controllers of controller_list: behind actions, or only pretended.
 #pragma once
 
+#include <control_msgs/JointTolerance.h>
 #include <moveit/controller_manager/controller_manager.h>
 #include <moveit/robot_model/robot_model.h>
 #include <ros/node_handle.h>
@@ -11,16 +12,22 @@
 
 namespace trajectory_execution_manager
 {
-// An entry of controller_list, as text; lists and tables of tolerances as they are.
+// An entry of controller_list. Python's half reads the same: entries.py of moveit_simple_controller_manager.
 struct ControllerEntry
 {
   std::string name, action_ns, type;
   std::vector<std::string> joints;
   XmlRpc::XmlRpcValue all;
 
+  bool has(const char* key, XmlRpc::XmlRpcValue::Type kind) const;
+  // Is the key there, with anything but false or 0?
   bool flag(const char* key) const;
+  // `standard` where there is none, and an error line where it is no number.
   double number(const char* key, double standard) const;
   std::string text(const char* key) const;
+  // By the names of joints. A table of position, velocity and acceleration, each one number for all joints or a list in the order of
+  // `joints`; or a list of tables with the `name` of a joint. What is neither is told in one line and is 0: the controller's own.
+  std::vector<control_msgs::JointTolerance> tolerances(const char* key) const;
 };
 
 // The usable entries of controller_list below nh; of the others the log tells what is wrong.

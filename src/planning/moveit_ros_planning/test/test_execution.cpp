@@ -12,6 +12,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <mutex>
 
 #include <moveit/plan_execution/plan_execution.h>
 #include <moveit/planning_scene_monitor/planning_scene_monitor.h>
@@ -43,12 +44,21 @@ public:
   ~Controller() { over_ = true; }
   int goals() const { return goals_; }
   double velocity() const { return velocity_; }
+  control_msgs::FollowJointTrajectoryGoal last() const
+  {
+    std::lock_guard<std::mutex> lock(lock_);
+    return last_;
+  }
 
 private:
   void move(const control_msgs::FollowJointTrajectoryGoal& goal)
   {
     const auto& last = goal.trajectory.points.back();
     velocity_ = last.velocities.empty() ? 0.0 : last.velocities[0];
+    {
+      std::lock_guard<std::mutex> lock(lock_);
+      last_ = goal;
+    }
     ++goals_;
     const ros::Time end = ros::Time::now() + last.time_from_start;
     while (ros::Time::now() < end)
@@ -64,6 +74,8 @@ private:
     else
       server_.setSucceeded();
   }
+  mutable std::mutex lock_;
+  control_msgs::FollowJointTrajectoryGoal last_;
   std::atomic<bool> over_{ false };
   std::atomic<int> goals_{ 0 };          // that it has begun
   std::atomic<double> velocity_{ 0.0 };  // at the end of the last one
@@ -140,6 +152,41 @@ TEST(Execution, controllersBehindActions)
 }
 
 // As upstream: an entry of controller_list may say how long its own controller may take.
+// As the manager in Python: test_entries.py of moveit_simple_controller_manager reads the same cases.
+TEST(Execution, tolerancesAreThoseOfTheEntry)
+{
+  XmlRpc::XmlRpcValue cases;
+  ASSERT_TRUE(ros::param::get("/tolerances", cases));
+  Controller controller;
+  for (int i = 0; i < cases.size(); ++i)
+  {
+    const std::string name = cases[i]["case"];
+    XmlRpc::XmlRpcValue list;
+    useLateController({ { "goal_time_tolerance", -1.0 } });
+    ros::param::get("~controller_list", list);
+    list[0]["joints"] = cases[i]["joints"];
+    list[0]["goal_tolerance"] = list[0]["path_tolerance"] = cases[i]["given"];
+    ros::param::set("~controller_list", list);
+    TrajectoryExecutionManager execution(loader().getModel(), nullptr);
+    pushMotion(execution, 0.5, 0.01);
+    ASSERT_EQ(execution.executeAndWait(), ExecutionStatus::SUCCEEDED) << name;
+    const control_msgs::FollowJointTrajectoryGoal goal = controller.last();
+    EXPECT_EQ(goal.goal_time_tolerance.toSec(), -1.0);
+    XmlRpc::XmlRpcValue& rows = cases[i]["rows"];
+    for (const auto& found : { goal.goal_tolerance, goal.path_tolerance })
+    {
+      ASSERT_EQ(static_cast<int>(found.size()), rows.size()) << name;
+      for (int k = 0; k < rows.size(); ++k)
+      {
+        EXPECT_EQ(found[k].name, static_cast<std::string>(rows[k][0])) << name;
+        EXPECT_EQ(found[k].position, static_cast<double>(rows[k][1])) << name;
+        EXPECT_EQ(found[k].velocity, static_cast<double>(rows[k][2])) << name;
+        EXPECT_EQ(found[k].acceleration, static_cast<double>(rows[k][3])) << name;
+      }
+    }
+  }
+}
+
 TEST(Execution, aControllerMayHaveItsOwnAllowedDuration)
 {
   const Controller controller;

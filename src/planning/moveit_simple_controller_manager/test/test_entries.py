@@ -3,10 +3,11 @@
 from pathlib import Path
 
 import pytest
+import rospkg
 import yaml
 from moveit_simple_controller_manager import entries
 
-CASES = yaml.safe_load(Path(__file__).with_name("tolerances.yaml").read_text())
+CASES = yaml.safe_load((Path(rospkg.RosPack().get_path("moveit_ros_planning")) / "test" / "tolerances.yaml").read_text())
 
 
 @pytest.fixture

@@ -24,6 +24,7 @@ from . import entries
 
 #: a server whose connection is lost for this long (wall s) during a motion is taken for dead
 _GONE = 1.0
+_LONGEST = 1e9  # s: what a duration holds
 _RESULTS = {value: name for name, value in vars(FollowJointTrajectoryResult).items() if name.isupper() and isinstance(value, int)}
 _ENDS = {
     GoalStatus.SUCCEEDED: ExecutionStatus.SUCCEEDED,
@@ -152,7 +153,7 @@ class FollowJointTrajectoryHandle(ActionHandle):
     def __init__(self, name: str, topic: str, entry: dict[str, Any]):
         self._path = entries.tolerances(entry, "path_tolerance")
         self._end = entries.tolerances(entry, "goal_tolerance")
-        self._late = rospy.Duration.from_sec(entries.number(entry, "goal_time_tolerance"))
+        self._late = rospy.Duration.from_sec(max(-_LONGEST, min(_LONGEST, entries.number(entry, "goal_time_tolerance"))))
         super().__init__(name, topic, entry)
 
     def _make_goal(self, trajectory: RobotTrajectory):

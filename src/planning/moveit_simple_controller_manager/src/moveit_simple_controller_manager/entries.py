@@ -1,6 +1,6 @@
 """What an entry of ``controller_list`` says beyond its name and joints: tolerances, numbers, flags.
 
-``action_controllers.cpp`` of moveit_ros_planning reads the same entries for C++; ``test/tolerances.yaml`` holds for both.
+``controller_entries.cpp`` of moveit_ros_planning reads the same entries for C++; its ``test/tolerances.yaml`` holds for both.
 """
 
 from __future__ import annotations
