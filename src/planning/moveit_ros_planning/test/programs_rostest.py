@@ -2,10 +2,12 @@
 """The small programs beside a running move_group, started as the tutorials start them."""
 
 import os
+import shutil
 import subprocess
 import tempfile
 import unittest
 
+import motion
 import rospy
 import rostest
 from geometry_msgs.msg import Pose, Quaternion
@@ -16,8 +18,8 @@ from shape_msgs.msg import SolidPrimitive
 SCENE = "arm_scene\n* {}\n1\nbox\n0.2 0.3 0.4\n1 0 0.5\n0 0 0 1\n0 0 0 0\n.\n"
 
 
-def run(*words, given="", package="moveit_ros_planning"):
-    return subprocess.run(["rosrun", package, *words], input=given, capture_output=True, text=True, timeout=60)
+def run(*words, given="", package="moveit_ros_planning", cwd=None):
+    return subprocess.run(["rosrun", package, *words], input=given, capture_output=True, text=True, timeout=60, cwd=cwd)
 
 
 class Programs(unittest.TestCase):
@@ -88,13 +90,21 @@ class Programs(unittest.TestCase):
         said = run("moveit_list_request_adapter_plugins").stdout
         self.assertIn(" \t default_planner_request_adapters/FixStartStateBounds\n", said)
 
-    def test_map_of_no_sensor(self):
+    def test_map_from_a_file_and_to_one(self):
         folder = tempfile.mkdtemp()
-        said = run("save_map", os.path.join(folder, "map.bt"), package="moveit_ros_move_group")
+        self.addCleanup(shutil.rmtree, folder)
+        motion.OcTree.from_points([[2.0, 0.0, 0.0]], 0.1).save(os.path.join(folder, "given.bt"))
+        for program, file in (("load_map", "given.bt"), ("save_map", "written.bt")):
+            said = run(program, file, package="moveit_ros_move_group", cwd=folder)
+            self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertTrue(motion.OcTree.load(os.path.join(folder, "written.bt")).contains([2.0, 0.0, 0.0]))
+        self.assertIn("\t- <octomap>\n", run("moveit_print_planning_scene_info").stdout)
+
+    def test_map_that_is_not_there(self):
+        said = run("load_map", "/no/such.bt", package="moveit_ros_move_group")
         self.assertEqual(said.returncode, 1)
+        self.assertIn("could not take an octomap from a file", said.stderr)
         self.assertNotIn("Traceback", said.stderr)
-        said = run("load_map", package="moveit_ros_move_group")
-        self.assertIn("FILE", said.stdout + said.stderr)
 
 
 if __name__ == "__main__":
