@@ -17,6 +17,7 @@ class Controller:
     def __init__(self, device, name):
         self.device = device
         self.name = name
+        self.fake = device.fake  # there is no board
         self.joint_names = []  # joints that are no servos, for joint_states
         self.joint_positions = []
         self.joint_velocities = []
@@ -37,3 +38,6 @@ class Controller:
     def diagnostics(self):
         """A DiagnosticStatus, or None."""
         return status(self.name)
+
+    def getDiagnostics(self):
+        return self.diagnostics()

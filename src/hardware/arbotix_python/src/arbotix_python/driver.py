@@ -5,15 +5,14 @@ import sys
 import node_signals
 import rospy
 from arbotix_msgs.srv import SetupChannel, SetupChannelResponse
-from diagnostic_msgs.msg import DiagnosticArray
-from sensor_msgs.msg import JointState
 
 from . import channels
 from .arbotix import ArbotiX, ArbotiXException
 from .diff_controller import DiffController
 from .follow_controller import FollowController
 from .linear_controller import LinearControllerAbsolute, LinearControllerIncremental, LinearJoint
-from .parameters import ParameterError, every, number
+from .parameters import ParameterError, number
+from .publishers import DiagnosticsPublisher, JointStatePublisher
 from .servo_controller import ServoController
 from .servos import DynamixelServo, HobbyServo
 
@@ -41,10 +40,7 @@ class Driver:
             )
             self._connect(self.board)
         self._rate = number("~rate", 100.0, above=0)
-        self._joint_states = rospy.Publisher("joint_states", JointState, queue_size=5)
-        self._joint_states_every = every(number("~read_rate", 10.0, above=0))
-        self._diagnostics = rospy.Publisher("diagnostics", DiagnosticArray, queue_size=5)
-        self._diagnostics_every = every(number("~diagnostic_rate", 1.0, above=0))
+        self._joint_states, self._diagnostics = JointStatePublisher(), DiagnosticsPublisher()
         self.joints: dict = {}
         self._make(self.joints, "joint", JOINT_TYPES, "dynamixel")
         self.controllers = {"servos": ServoController(self, "servos")}
@@ -127,26 +123,8 @@ class Driver:
             controller.update(now)
         for channel in list(self._channels.values()):
             channel.update(now)
-        if self._joint_states_every.due(now.to_nsec()):
-            self._publish_joint_states(now)
-        if self._diagnostics_every.due(now.to_nsec()):
-            reports = [part.diagnostics() for part in [*self.controllers.values(), *self.joints.values()]]
-            message = DiagnosticArray(status=[report for report in reports if report])
-            message.header.stamp = now
-            self._diagnostics.publish(message)
-
-    def _publish_joint_states(self, now):
-        message = JointState()
-        message.header.stamp = now
-        for joint in self.joints.values():
-            message.name.append(joint.name)
-            message.position.append(joint.position)
-            message.velocity.append(joint.velocity)
-        for controller in self.controllers.values():
-            message.name += controller.joint_names
-            message.position += controller.joint_positions
-            message.velocity += controller.joint_velocities
-        self._joint_states.publish(message)
+        for publish in (self._joint_states.update, self._diagnostics.update):
+            publish(self.joints.values(), self.controllers.values())
 
     def shutdown(self):
         try:

@@ -10,18 +10,17 @@ from std_srvs.srv import Empty, EmptyResponse
 
 from .arbotix import BOARD, word
 from .controllers import Controller, status
+from .joints import Joint
 from .parameters import ParameterError, every, get, number
 
 NEAR = 0.01  # m, close enough to stop the motor
 
 
-class LinearJoint:
+class LinearJoint(Joint):
     """A joint in metres whose readings are calibrated by a table."""
 
     def __init__(self, device, name):
-        self.device = device
-        self.name = name
-        self.controller = None
+        super().__init__(device, name)
         prefix = "~joints/%s/" % name
         self._low = number(prefix + "min_position", 0.0)
         self._high = number(prefix + "max_position", 0.5)
@@ -34,10 +33,8 @@ class LinearJoint:
             ) from None
         if len(self._table) < 2:
             raise ParameterError("%scalibration_data needs two readings at least" % rospy.resolve_name(prefix))
-        self.position = self.velocity = 0.0
         self._desired = 0.0
         self.moving = False
-        self._measured = rospy.Time.now()
         rospy.Subscriber(name + "/command", Float64, lambda message: self.go_to(message.data))
 
     def go_to(self, position):
@@ -67,13 +64,27 @@ class LinearJoint:
         (low, start), (high, end) = self._table[place - 1 : place + 1]
         now, before = rospy.Time.now(), self.position
         self.position = start + (end - start) * (reading - low) / (high - low)
-        elapsed = (now - self._measured).to_sec()
+        elapsed = (now - self.last).to_sec()
         if elapsed > 0:
             self.velocity = (self.position - before) / elapsed
-        self._measured = now
+        self.last = now
 
     def diagnostics(self):
         return status(self.name, "Moving" if self.moving else "OK", Position=self.position)
+
+    # What programs of others call these.
+
+    def interpolate(self, frame):
+        return self.direction()
+
+    def setCurrentFeedback(self, raw_data):
+        self.measured(raw_data)
+
+    def setControlOutput(self, position):
+        self.go_to(position)
+
+    def getDiagnostics(self):
+        return self.diagnostics()
 
 
 class LinearControllerAbsolute(Controller):

@@ -8,12 +8,13 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from std_msgs.msg import Float64
 
 from .controllers import status
+from .joints import Joint
 from .parameters import number, usable
 
 WARM, HOT = 50, 60  # degrees C
 
 
-class Servo:
+class Servo(Joint):
     """A joint that goes to a commanded angle at no more than its greatest speed."""
 
     TICKS: int  # defaults, of each kind: ticks over the range
@@ -21,9 +22,7 @@ class Servo:
     MAX_SPEED: float  # degrees per s
 
     def __init__(self, device, name):
-        self.device = device
-        self.name = name
-        self.controller = None  # whose actions keep single commands out
+        super().__init__(device, name)
         prefix = "~joints/%s/" % name
         self.id = int(number(prefix + "id"))
         self.ticks = number(prefix + "ticks", self.TICKS, above=0)
@@ -32,12 +31,10 @@ class Servo:
         self.rad_per_tick = span / self.ticks
         self.max_speed = math.radians(number(prefix + "max_speed", self.MAX_SPEED, above=0))
         self.sign = -1 if rospy.get_param(prefix + "invert", False) else 1
-        self.position = 0.0  # as far as is known, rad
-        self.velocity = 0.0  # rad/s
+        # Until something is known, position (rad) and velocity (rad/s) are 0.
         self._desired = 0.0
         self._sent = 0.0  # angle of the last set point
         self._moving = False  # the set point is not yet at the desired angle
-        self._measured = rospy.Time.now()
         rospy.Subscriber(name + "/command", Float64, self._command)
 
     def default_neutral(self):
@@ -69,7 +66,7 @@ class Servo:
         """The set point of this write cycle of `period` s, or None when there is nothing to send."""
         if not self._moving:
             if self.device.fake:
-                self.velocity, self._measured = 0.0, rospy.Time.now()
+                self.velocity, self.last = 0.0, rospy.Time.now()
             return None
         most = self.max_speed * period
         ticks = self.to_ticks(self._sent + min(max(self._desired - self._sent, -most), most))
@@ -86,14 +83,39 @@ class Servo:
     def measured(self, ticks):
         """Takes a position reading, `ticks`."""
         now = rospy.Time.now()
-        elapsed = (now - self._measured).to_sec()
+        elapsed = (now - self.last).to_sec()
         before, self.position = self.position, self.to_angle(ticks)
         if elapsed > 0:
             self.velocity = (self.position - before) / elapsed
-        self._measured = now
+        self.last = now
 
     def diagnostics(self):
         return status(self.name, Position=self.position)
+
+    # What programs of others call these.
+
+    def angleToTicks(self, angle):
+        return self.to_ticks(angle)
+
+    def ticksToAngle(self, ticks):
+        return self.to_angle(ticks)
+
+    def interpolate(self, frame):
+        return self.next_ticks(1.0 / frame)
+
+    def setCurrentFeedback(self, raw_data):
+        self.measured(raw_data)
+
+    def setControlOutput(self, position):
+        """Ticks; -1 where no commands are taken."""
+        self.go_to(position)
+        return self.to_ticks(position) if self.takes_commands() else -1
+
+    def takes_commands(self):
+        return True
+
+    def getDiagnostics(self):
+        return self.diagnostics()
 
 
 class DynamixelServo(Servo):
@@ -132,6 +154,9 @@ class DynamixelServo(Servo):
         super().measured(ticks)
         if not self._holding:
             self._sent = self.position  # it was moved by hand: the next motion starts here
+
+    def takes_commands(self):
+        return self._enabled
 
     def _let_go(self):
         if not self.device.fake:
