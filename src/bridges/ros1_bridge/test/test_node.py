@@ -63,3 +63,18 @@ def test_a_service_is_offered_while_it_is_there(bridge):
     for here in ({"/one", "/of_both"}, {"/one"}, set()):
         bridge._offer("services_of_ros1", here, {"/of_both"}, (".*",), find)
     assert bridge.link.told == [("serve", "/one", "std_srvs/SetBool"), ("forget", "server", "/one")]
+
+
+def test_only_new_services_are_asked_for_their_types_and_all_together(bridge, monkeypatch):
+    asked = []
+
+    def types_of(names):
+        asked.append(sorted(names))
+        return {"/answers": "std_srvs/SetBool"}
+
+    monkeypatch.setattr(node, "types_of", types_of)
+    services = ["/answers", "/hung", "/of_ros2", "/a/get_loggers", "/forbidden"]
+    find = bridge._of_services(services, ["/of_ros2"], ("/[^f].*",))
+    assert asked == [["/answers", "/hung"]]
+    assert find("/answers").ros1 == "std_srvs/SetBool"
+    assert find("/hung") is None

@@ -2,11 +2,14 @@
 """What rosapi's services answer, and that they are upstream's by name and definition."""
 
 import json
+import socket
+import time
 import unittest
 from concurrent.futures import ThreadPoolExecutor
 
 import rosapi.msg
 import rosapi.srv
+import rosgraph
 import rospy
 import rostest
 from std_msgs.msg import Float64, String
@@ -89,6 +92,19 @@ class RosApi(unittest.TestCase):
         self.assertIn("/seen", details.publishing)
         self.assertIn("/seen_only_read", details.subscribing)
         self.assertIn("/switch", details.services)
+
+    def test_services_that_hang_are_left_out(self):
+        """A stopped node's socket takes connections and nothing answers; rosservice waits 5 s for each."""
+        with socket.create_server(("127.0.0.1", 0), backlog=50) as listening:
+            master, uri = rosgraph.Master("/hung"), f"rosrpc://127.0.0.1:{listening.getsockname()[1]}"
+            for number in range(4):
+                master.registerService(f"/hung/{number}", uri, "http://127.0.0.1:9")
+                self.addCleanup(master.unregisterService, f"/hung/{number}", uri)
+            begin = time.monotonic()
+            self.assertEqual(ask("services_for_type", "ServicesForType", type="std_srvs/SetBool").services, ["/switch"])
+            self.assertEqual(ask("service_providers", "ServiceProviders", service="std_srvs/SetBool").providers, [rospy.get_name()])
+            self.assertEqual(ask("service_type", "ServiceType", service="/hung/0").type, "")
+            self.assertLess(time.monotonic() - begin, 5.0)
 
     def test_action_servers(self):
         wait_until(lambda: ask("action_servers", "GetActionServers").action_servers == ["/fibonacci"], "the action server", 30)

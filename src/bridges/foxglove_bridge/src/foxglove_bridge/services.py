@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import io
 import queue
-import socket
 import threading
 from typing import Any
 
-import rosgraph
 import roslib.message
 import rospy
 from foxglove.websocket import MessageSchema, Service, ServiceRequest, ServiceSchema
+from rosbridge_library.internal.service_types import type_of
 
 from foxglove_bridge.settings import BridgeError
 from foxglove_bridge.topics import schema
@@ -21,21 +20,6 @@ ASKERS = 8  # threads that ask servers for their types
 
 class CallError(BridgeError):
     """A service that failed; the client is told this line."""
-
-
-def type_of(name: str, timeout: float) -> str | None:
-    """The type of the service ``name``, asked from its server; None where that does not answer within ``timeout`` s.
-
-    rosservice waits 5 s, too long for a server that hangs.
-    """
-    try:
-        host, port = rospy.core.parse_rosrpc_uri(rosgraph.Master(rospy.get_name()).lookupService(name))
-        with socket.create_connection((host, port), timeout) as connection:
-            header = {"probe": "1", "md5sum": "*", "callerid": rospy.get_name(), "service": name}
-            rosgraph.network.write_ros_handshake_header(connection, header)
-            return rosgraph.network.read_ros_handshake_header(connection, io.BytesIO(), 2048).get("type")
-    except Exception:  # a server that is going, hangs, is of another language, behind a wall
-        return None
 
 
 def offered(name: str, type_name: str) -> Service | None:

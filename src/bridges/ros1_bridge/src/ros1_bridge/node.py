@@ -13,7 +13,7 @@ import rosgraph
 import rosmsg
 import rospkg
 import rospy
-import rosservice
+from rosbridge_library.internal.service_types import types_of
 
 from ros1_bridge.errors import BridgeError, Ros2Missing
 from ros1_bridge.line import one_line
@@ -111,7 +111,7 @@ class Bridge:
             self._topics(chosen, published, subscribed, types)
             of_ros2 = {name: kind for name, kind in self.graph["services"].items() if not kind.startswith(OF_EVERY_NODE)}
             allow = chosen.service_whitelist
-            self._offer("services_of_ros1", services, of_ros2, allow, self._of_service)
+            self._offer("services_of_ros1", services, of_ros2, allow, self._of_services(services, of_ros2, allow))
             self._offer("services_of_ros2", of_ros2, services, allow, lambda name: self.pairs.counterpart("srv", of_ros2[name]))
             ours, theirs, allow = actions_of_ros1(published, types, self._own), self.graph["actions"], chosen.action_whitelist
             self._offer("actions_of_ros1", ours, theirs, allow, lambda name: self.pairs.find("action", ours[name]))
@@ -165,10 +165,11 @@ class Bridge:
             if match is not None:
                 self.keep(kind, name, match)
 
-    def _of_service(self, name: str) -> Match | None:
-        """The types of the service ``name`` of ROS 1."""
-        kind = None if name.endswith(OWN_SERVICES) else _type_of_service(name)
-        return self.pairs.find("srv", kind) if kind else None
+    def _of_services(self, names: Names, there: Names, allow: tuple[str, ...]) -> Callable[[str], Match | None]:
+        """Gives the types of those services ``names`` of ROS 1 that are new; their servers are asked at the same time, as some may hang."""
+        new = set(names) - set(there) - set(self.kept["services_of_ros1"])
+        kinds = types_of(name for name in new if allowed(name, allow) and not name.endswith(OWN_SERVICES))
+        return lambda name: self.pairs.find("srv", kinds[name]) if name in kinds else None
 
     # ------------------------------------------------------------------------------------------ what parameters name
 
@@ -215,13 +216,6 @@ class Bridge:
                     match = self.pairs.find(form, one) if known.intersection(candidates(one)) else None
                     if match is not None:
                         print(f"  - '{match.ros2.replace('/', f'/{form}/')}' (ROS 2) <=> '{one}' (ROS 1)", flush=True)
-
-
-def _type_of_service(name: str) -> str | None:
-    try:
-        return rosservice.get_service_type(name)
-    except Exception:  # a server that is going, of another language, behind a wall
-        return None
 
 
 def run(work: Callable[[Bridge], None]) -> int:

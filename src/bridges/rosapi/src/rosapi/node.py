@@ -16,12 +16,14 @@ import rosservice
 from rosbridge_library.internal import ros_loader
 from rosbridge_library.internal.exceptions import RosbridgeError
 from rosbridge_library.internal.globs import allowed, globs
+from rosbridge_library.internal.service_types import type_of, types_of
 
 import rosapi.srv
 from rosapi import typedefs
 
 ACTION = {"cancel", "feedback", "goal", "result", "status"}  # topics of an action
 PUBLISHED, SUBSCRIBED, OFFERED = range(3)  # of the master's state
+PATIENCE = 1.0  # s that a server has to tell the type of its service
 
 
 class Api:
@@ -86,15 +88,17 @@ class Api:
         return [name for name in sorted(services) if allowed(name, self._services)]
 
     def services_for_type(self, request: Any) -> dict[str, Any]:
-        return {"services": [name for name in self._seen(self._state()[OFFERED]) if _type_of(name) == request.type]}
+        types = types_of(self._seen(self._state()[OFFERED]), PATIENCE)
+        return {"services": sorted(name for name, kind in types.items() if kind == request.type)}
 
     def service_type(self, request: Any) -> dict[str, Any]:
-        return {"type": _type_of(request.service) if allowed(request.service, self._services) else ""}
+        return {"type": (type_of(request.service, PATIENCE) or "") if allowed(request.service, self._services) else ""}
 
     def service_providers(self, request: Any) -> dict[str, Any]:
         """Nodes that have a service of the type that the field ``service`` names, as upstream."""
         state = self._state()[OFFERED]
-        return {"providers": [node for name in self._seen(state) if _type_of(name) == request.service for node in state[name]]}
+        types = types_of(self._seen(state), PATIENCE)
+        return {"providers": [node for name, kind in types.items() if kind == request.service for node in state[name]]}
 
     def service_node(self, request: Any) -> dict[str, Any]:
         return {"node": next(iter(self._state()[OFFERED].get(request.service, [])), "")}
@@ -172,13 +176,6 @@ class Api:
 def _master() -> rosgraph.Master:
     """One for each question: services are called in threads, and its connection bears one question at a time."""
     return rosgraph.Master(rospy.get_name())
-
-
-def _type_of(service: str) -> str:
-    try:
-        return rosservice.get_service_type(service) or ""
-    except Exception:  # its server is going, of another language, behind a wall
-        return ""
 
 
 def _full_text(type_name: str) -> str:
