@@ -129,6 +129,7 @@ ROOTS = {
     "image_pixels": "ImageError",
     "bag_tools": "BagError",
     "rosbridge_library": "RosbridgeError",
+    "arbotix_controllers": "OutOfReach",
     "noetic_environment": "EditorError",
     "foxglove_bridge": "BridgeError",
     "ros1_bridge": "BridgeError",

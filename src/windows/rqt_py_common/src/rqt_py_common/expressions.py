@@ -10,6 +10,7 @@ import operator
 import random
 import time
 from collections.abc import Callable
+from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
@@ -17,7 +18,9 @@ import genpy
 from genmsg.msgs import parse_type
 from qt_gui.errors import WindowError
 
-_LONGEST = 100000  # elements of a list or text that an expression may make
+from rqt_py_common.expression_texts import LONGEST as _LONGEST
+from rqt_py_common.expression_texts import METHODS, checked_format
+
 _LARGEST_BITS = 4096  # of a whole number
 _INTEGERS = {
     f"{sign}int{bits}": ((0, 2**bits - 1) if sign else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1))
@@ -25,6 +28,7 @@ _INTEGERS = {
     for bits in (8, 16, 32, 64)
 }
 _INTEGERS.update(byte=_INTEGERS["int8"], char=_INTEGERS["uint8"])
+_CONVERSIONS: dict[str, Callable[[Any], str]] = {"s": str, "r": repr, "a": ascii}
 
 
 class ExpressionError(WindowError, ValueError):
@@ -127,6 +131,10 @@ _BUILTINS = dict(
         "zip",
         "enumerate",
         "divmod",
+        "repr",
+        "hex",
+        "oct",
+        "bin",
     ),
     range=_range,
     sum=_sum,
@@ -149,7 +157,7 @@ _MEMBERS = {
     genpy.Time: ("secs", "nsecs", "to_sec", "to_nsec", "is_zero"),
     genpy.Duration: ("secs", "nsecs", "to_sec", "to_nsec", "is_zero"),
     type: ("now", "from_sec"),
-    str: ("upper", "lower", "strip", "encode"),
+    str: ("upper", "lower", "strip", "split", "encode", *METHODS),
 }
 _BINARY = {
     ast.Add: operator.add,
@@ -181,6 +189,8 @@ _COMPARE = {
     ast.In: lambda a, b: a in b,
     ast.NotIn: lambda a, b: a not in b,
 }
+
+_COMPUTING = (ast.BinOp, ast.Call, ast.JoinedStr, ast.Compare, ast.IfExp, ast.Subscript, ast.ListComp, ast.BoolOp)
 
 
 def _rospy_names():
@@ -220,6 +230,22 @@ class Expression:
         except Exception as error:  # of any function that the text calls
             raise ExpressionError(str(error) or type(error).__name__) from error
 
+    def computes(self) -> bool:
+        """Whether it does more than name or list values."""
+        return any(isinstance(node, _COMPUTING) for node in ast.walk(self._tree))
+
+    def quoted(self, text: str) -> str:
+        """The text that it quotes; ``text`` if it quotes none."""
+        value = getattr(self._tree, "value", None)
+        return value if isinstance(self._tree, ast.Constant) and isinstance(value, str) else text
+
+    def meant(self, known: set[str]) -> bool:
+        """Whether it is more than words that look like an expression, such as ``robot/base_link``; ``known``: names with values."""
+        nodes = list(ast.walk(self._tree))
+        if any(isinstance(node, (ast.Call, ast.JoinedStr)) or isinstance(getattr(node, "value", None), str) for node in nodes):
+            return True
+        return all(node.id in known for node in nodes if isinstance(node, ast.Name))
+
 
 class _Evaluation:
     """Walks through a tree; a kind of node without a method here is not allowed."""
@@ -258,6 +284,8 @@ class _Evaluation:
             and not issubclass(owner, genpy.TVal)
         ):
             raise ExpressionError(f".{node.attr} is not allowed here")
+        if kind is str and node.attr in METHODS:
+            return partial(METHODS[node.attr], owner)
         return getattr(owner, node.attr)
 
     def _Call(self, node):
@@ -271,6 +299,18 @@ class _Evaluation:
         for node in nodes:
             values += list(self.of(node.value)) if isinstance(node, ast.Starred) else [self.of(node)]
         return values
+
+    def _JoinedStr(self, node):
+        text = "".join(self.of(part) for part in node.values)
+        if len(text) > _LONGEST:
+            raise ExpressionError(f"more than {_LONGEST} elements")
+        return text
+
+    def _FormattedValue(self, node):
+        value = self.of(node.value)
+        if node.conversion != -1:
+            value = _CONVERSIONS[chr(node.conversion)](value)
+        return checked_format(value, "" if node.format_spec is None else self.of(node.format_spec))
 
     def _UnaryOp(self, node):
         return _UNARY[type(node.op)](self.of(node.operand))
@@ -344,6 +384,25 @@ def _widths(text):
     return [width.replace("*", "9999") for pair in found for width in pair]
 
 
+def _text_value(text: str, counter: int) -> str:
+    """An expression's value as text; plain words, numbers and lists are texts themselves.
+
+    :raises ExpressionError: a call, a format, or an operator between known names or quoted texts has no value
+    """
+    try:
+        expression = Expression(text)
+    except ExpressionError:
+        return text
+    if not expression.computes() and text.strip() != "i":
+        return expression.quoted(text)
+    try:
+        return str(expression.value({"i": counter}))
+    except ExpressionError:
+        if expression.meant({*NAMES, *_rospy_names(), "i"}):
+            raise
+        return text  # such as robot/base_link
+
+
 def field_value(text: str, type_name: str, counter: int = 0) -> Any:
     """The value of a field of a primitive type, or of an array of them.
 
@@ -353,14 +412,9 @@ def field_value(text: str, type_name: str, counter: int = 0) -> Any:
     :raises ExpressionError: if there is no such value
     """
     base, is_array, length = parse_type(type_name)
-    try:
-        value = Expression(text).value({"i": counter})
-    except ExpressionError:
-        if base == "string" and not is_array:
-            return text
-        raise
-    if base == "string" and not is_array and not isinstance(value, str):
-        return text  # what looks like a number or list is text too
+    if base == "string" and not is_array:
+        return _text_value(text, counter)
+    value = Expression(text).value({"i": counter})
     if not is_array:
         return convert(value, base)
     if base in ("uint8", "char") and isinstance(value, (bytes, bytearray)):

@@ -30,7 +30,10 @@ def type_of(name: str, timeout: float) -> str | None:
 
 
 def types_of(names: Iterable[str], timeout: float = TIMEOUT) -> dict[str, str]:
-    """The types of those services of ``names`` whose servers answer, asked at the same time."""
+    """The types of those services of ``names`` whose servers answer, asked at the same time.
+
+    :param timeout: s, for all of them
+    """
     asked = sorted(names)
     if not asked:
         return {}
