@@ -138,7 +138,7 @@ ConstraintSet::Joint jointOf(const RobotModel& model, const JointConstraint& c)
     throw InvalidInput("joint constraint on '" + c.joint + "': the position must be finite and the tolerances 0 or more");
   const JointModel& joint = model.joints[model.variable_joint[variable]];
   const bool turns = joint.continuous || (joint.type == JointType::Planar && variable == joint.first_variable + 2);
-  Joint out{variable, turns, turns ? wrapAngle(c.position) : c.position, c.above, c.below};
+  ConstraintSet::Joint out{variable, turns, turns ? wrapAngle(c.position) : c.position, c.above, c.below};
   const VariableBounds& b = model.bounds[variable];
   if (!turns && b.has_position)
   {
