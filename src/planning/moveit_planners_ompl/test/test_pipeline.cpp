@@ -223,7 +223,14 @@ TEST(Samplers, keepToConstraints)
     EXPECT_NEAR(state.getVariablePosition("joint_3"), 0.5, 0.01);
     EXPECT_TRUE(state.satisfiesBounds());
   }
-  constraints.joint_constraints[0].position = 100.0;
+  constraints.joint_constraints[0].position =
+      100.0;  // beyond the limit as a whole: the limit, as upstream's JointConstraint has it
+  const auto limit = ConstraintSamplerManager::selectDefaultSampler(scene, "manipulator", constraints);
+  ASSERT_TRUE(limit);
+  ASSERT_TRUE(limit->sample(state));
+  EXPECT_NEAR(state.getVariablePosition("joint_3"), scene->getRobotModel()->getVariableBounds("joint_3").max_position_, 1e-9);
+  constraints.joint_constraints.push_back(constraints.joint_constraints[0]);
+  constraints.joint_constraints[1].position = 0.5;
   EXPECT_FALSE(ConstraintSamplerManager::selectDefaultSampler(scene, "manipulator", constraints));
   EXPECT_FALSE(ConstraintSamplerManager::selectDefaultSampler(scene, "legs", constraints));
   EXPECT_FALSE(ConstraintSamplerManager::selectDefaultSampler(
