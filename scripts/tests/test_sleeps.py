@@ -14,6 +14,7 @@ KNOWN = {
     "src/planning/moveit_ros_visualization/test/simulated_rostest.py": (1, "pictures for the documentation"),
     "src/planning/moveit_simple_controller_manager/test/pretend_controller.py": (1, "plays a controller that is late"),
     "src/shelf/robot_localization/test/localization_rostest.py": (1, "the pace of a clock that the test makes"),
+    "src/shelf/robot_localization/test/order_rostest.py": (1, "the pace of a clock that the test makes"),
     "src/shelf/robot_localization/test/navsat_rostest.py": (1, "the pace of a clock that the test makes"),
     "src/simulation/gazebo_plugins/test/counting.py": (1, "plays a subscriber that is slow"),
     "src/simulation/gazebo_ros/test/compiled_plugins/twin.cpp": (1, "plays a plugin that blocks the step"),

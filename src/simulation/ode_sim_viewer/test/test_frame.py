@@ -247,6 +247,21 @@ def test_a_menu_switches_what_it_shows_though_its_list_is_not_open(world, window
             view.click()
 
 
+def test_what_is_chosen_before_the_choice_before_was_told_is_not_lost(world, window):
+    """The simulator has switched the labels on, and is slow to say so; meanwhile they are switched off again."""
+    scene = next(panel for panel in world[1].panels if type(panel).__name__ == "ViewPanel")
+    labels, joints = (scene._switches[name][0] for name in ("Labels", "Joints"))
+    with scene._telling:
+        window.driver.execute_script(CHOOSE, "View", "Labels")
+        wait(lambda: labels.value, "the labels")
+        window.driver.execute_script(CHOOSE, "View", "Labels")
+        window.driver.execute_async_script("setTimeout(arguments[0], 500)")  # the frame has looked
+        window.driver.execute_script(CHOOSE, "View", "Joints")
+    wait(lambda: joints.value and not labels.value, "joints without labels")
+    window.driver.execute_script(CHOOSE, "View", "Joints")
+    wait(lambda: not joints.value, "no joints")
+
+
 def test_a_box_of_the_list_and_its_entry_in_the_menu_are_one(world, window):
     from selenium.webdriver.common.by import By
 

@@ -10,8 +10,8 @@ from viewer_page import Client, page, panel, use  # noqa: F401
 PATIENCE = 1.0  # s that the first thread lingers, longer than the second needs
 
 
-def told(scene):
-    return re.search("<b id='switches'>(.*?)</b>", scene._told.content, re.DOTALL)[1].split("\n")
+def told(scene, name="switches"):
+    return re.search(f"<b id='{name}'>(.*?)</b>", scene._told.content, re.DOTALL)[1].split("\n")
 
 
 def side_by_side(first, second, lingers):
@@ -39,10 +39,10 @@ def test_what_is_told_last_is_what_is_so(page, monkeypatch):  # noqa: F811
 
     def first():
         threading.current_thread().name = "first"
-        use(scene._asked, Client(), json.dumps([1, {"Labels": True}]))
+        use(scene._asked, Client(), json.dumps(["a 1", {"Labels": True}]))
 
     def second():
-        use(scene._asked, Client(), json.dumps([2, {"Labels": True, "Joints": True}]))
+        use(scene._asked, Client(), json.dumps(["a 2", {"Labels": True, "Joints": True}]))
         gone_on.set()
 
     side_by_side(first, second, lingers)
@@ -65,11 +65,25 @@ def test_what_is_asked_last_is_what_is_done(page, monkeypatch):  # noqa: F811
 
     def first():
         threading.current_thread().name = "first"
-        use(scene._asked, Client(), json.dumps([1, {"Wireframe": True}]))
+        use(scene._asked, Client(), json.dumps(["a 1", {"Wireframe": True}]))
 
     def second():
-        use(scene._asked, Client(), json.dumps([2, {"Wireframe": False}]))
+        use(scene._asked, Client(), json.dumps(["a 2", {"Wireframe": False}]))
         gone_on.set()
 
     side_by_side(first, second, lingers)
     assert "Wireframe" not in told(scene)
+
+
+def test_who_asks_is_told_that_it_was_heard(page):  # noqa: F811
+    """Also where nothing changes by it: two pages may ask for the same."""
+    scene = panel(page, "ViewPanel")
+    page.server.get_clients = lambda: {1: None, 2: None}
+    use(scene._asked, Client(1), json.dumps(["a 1", {"Labels": True}]))
+    use(scene._asked, Client(2), json.dumps(["b 1", {"Labels": True}]))
+    assert told(scene, "heard") == ["a 1", "b 1"] and "Labels" in told(scene)
+    page.server.get_clients = lambda: {2: None}  # the first has been closed
+    use(scene._asked, Client(2), json.dumps(["b 2", {"Labels": False}]))
+    assert told(scene, "heard") == ["b 2"] and "Labels" not in told(scene)
+    use(scene._asked, Client(2), "not JSON")
+    assert told(scene, "heard") == ["b 2"]

@@ -137,7 +137,7 @@ def test_what_is_read_back_is_what_was_written(described, package):
 MIXED = """controllers:
   - {name: still, type: position_controllers/JointGroupPositionController, joints: [spin]}
   - {name: hand, type: GripperCommand, joints: [swinging]}
-  - {name: turner, type: my_controllers/JointTrajectoryController, joints: [turn]}
+  - {name: turner, type: somebodys_controllers/JointTrajectoryController, joints: [turn]}
   - {name: driver, type: FollowJointTrajectory, joints: [swinging]}
   - {name: wing, type: velocity_controllers/JointTrajectoryController, joints: [swinging]}
 author:"""

@@ -89,14 +89,15 @@
   ];
   const check = name => ({ name, on: () => box(name)?.checked });
   // A box of a list that may not be shown: React draws it when the page is idle, so that what it shows may be old, and a click on it, too.
-  const wishes = new Map();  // they count until the simulator has said so; viser sends the last text only, so all go together
+  const wishes = new Map();  // they count until the simulator has heard them; viser sends the last text only, so all go together
+  const me = Math.random().toString(36).slice(2);  // other pages ask, too
   let number = 0;
   const told = name => shown("switches").split("\n").includes(name);
   const fresh = () => [...wishes].filter(([, { until }]) => performance.now() < until);
   const isOn = name => Object.fromEntries(fresh())[name]?.on ?? told(name);
   const switchable = name => ({ name, on: () => isOn(name), do: () => {
-    wishes.set(name, { on: !isOn(name), until: performance.now() + 5000 });
-    write("Switch", JSON.stringify([++number, Object.fromEntries(fresh().map(([label, { on }]) => [label, on]))]));
+    wishes.set(name, { on: !isOn(name), number: ++number, until: performance.now() + 5000 });
+    write("Switch", JSON.stringify([`${me} ${number}`, Object.fromEntries(fresh().map(([label, { on }]) => [label, on]))]));
   } });
   const SEEN = ["Grid", "Transparent", "Wireframe", "Shadows", null, "Collisions", "Centres of mass", "Inertias", "Joints", "Link frames", "Labels", "Contacts"];
   const panel = () => !document.documentElement.classList.contains("alone");
@@ -233,7 +234,8 @@
     put("bar_run", now);
     for (const name of ["sim_time", "real_time", "iterations"]) put(`bar_${name}`, shown(name));
     put("bar_drawn", document.documentElement.dataset.drawn ?? "");
-    for (const [label, { on }] of wishes) if (told(label) === on) wishes.delete(label);
+    const heard = Number(shown("heard").split("\n").map(one => one.split(" ")).find(([who]) => who === me)?.[1] ?? 0);
+    for (const [label, { number }] of wishes) if (number <= heard) wishes.delete(label);
     for (const [button, tool] of buttons) draw(button, tool);
     for (const [button, tool] of entries) mark(button, tool);
     const list = opened(groups()[1]), what = shown("picked");

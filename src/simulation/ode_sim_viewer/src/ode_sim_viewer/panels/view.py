@@ -23,6 +23,7 @@ class ViewPanel(Panel):
         super().__init__(page)
         self._doing, self._telling = threading.Lock(), threading.Lock()  # viser calls back from several threads at once
         self._switches: dict[str, tuple[Any, Callable[[bool], Any]]] = {}  # by label: the box, and what it does
+        self._heard: dict[int, str] = {}  # by client: what it asked last
         with page.commands:  # for the menu: a browser draws the boxes of a list that is not shown only when it is idle
             self._asked = self.gui.add_text("Switch", "")
             self._told = self.gui.add_html("")
@@ -59,19 +60,22 @@ class ViewPanel(Panel):
         self._tell()
 
     def _tell(self) -> None:
-        """What is on, a label a line, and what else the website shows; the frame reads it."""
+        """What is on, a label a line, whose asking has been heard, and what else the website shows; the frame reads it."""
         with self._telling:
             on = [escaped(label) for label, (box, _) in self._switches.items() if box.value]
             links = map(escaped, self.page.website.links)
-            self._told.content = f"<b id='switches'>{chr(10).join(on)}</b><b id='links'>{chr(10).join(links)}</b>"
+            heard = map(escaped, self._heard.values())
+            told = {"switches": on, "heard": heard, "links": links}
+            self._told.content = "".join(f"<b id='{name}'>{chr(10).join(lines)}</b>" for name, lines in told.items())
 
     def _on_asked(self, event: Any) -> None:
-        """``[3, {"Shadows": true}]``: what the frame writes for the third entry that is chosen from its menu, with those just before it."""
+        """``["a7 3", {"Shadows": true}]``: what the frame a7 writes for the third entry that is chosen from its menu, with those before it
+        of which it has not been told yet that they were heard."""
         if event.client_id is None:
             return
         with self._doing:  # who comes last reads last
             try:
-                _, wanted = json.loads(event.target.value)
+                name, wanted = json.loads(event.target.value)
                 known = {label: bool(wanted[label]) for label in self._switches if label in wanted}
             except (ValueError, TypeError):  # a page may send anything
                 return
@@ -79,7 +83,10 @@ class ViewPanel(Panel):
                 box, f = self._switches[label]
                 if box.value != on:
                     box.value = on
-                    self._switch(f, on)
+                    self.page.later(partial(f, on))
+            here = self.page.server.get_clients()
+            self._heard = {one: said for one, said in self._heard.items() if one in here} | {event.client_id: str(name)}
+            self._tell()
 
     def _draw_as(self, name: str, on: bool) -> None:
         setattr(self.page.drawing, name, on)
