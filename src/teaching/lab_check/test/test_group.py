@@ -9,7 +9,7 @@ import sys
 import tempfile
 
 import pytest
-from lab_check.isolation import control_group
+from lab_check.isolation import control_group, supervise
 from lab_check.isolation.supervise import Program
 
 MANY = """
@@ -104,3 +104,19 @@ def test_a_user_makes_groups_in_what_systemd_gave_to_them(case, open_folder):
     for entry in (mounted, *mounted.rglob("*")):
         entry.chmod(0o755)
     assert json.loads(asked.stdout) == [str(mounted / path) for path in expected]
+
+
+def test_who_is_ended_for_memory_between_two_looks_is_told_so(monkeypatch):
+    """The kernel ends a program that grows fast, and it is over before the guard looks: the last look says why."""
+    monkeypatch.setattr(supervise, "_LOOK", 60.0)
+    with control_group.bounded(20, 100e6) as place:
+        if not control_group.counts_memory(place):
+            pytest.skip("this user can make no control group here that counts memory")
+        limits = {"log": 1e6, "memory": 100e6, "processes": 20, "time": 60.0}
+        fine = Program(["true"], limits, place=place)
+        greedy = Program([sys.executable, "-c", "bytearray(300_000_000)"], limits, place=place)
+        guard = supervise.Guard(lambda: [fine, greedy], limits, place)
+        guard.start()
+        assert greedy.wait(60) and fine.wait(60)
+        guard.stop()
+        assert "memory" in guard.broke and greedy.broke == guard.broke and not fine.broke

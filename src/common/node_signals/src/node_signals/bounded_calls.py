@@ -2,27 +2,92 @@
 
 from __future__ import annotations
 
+import http.client
+import socket
+import time
 import xmlrpc.client
+from typing import Any
+from xml.parsers.expat import ExpatError
 
 import rosgraph
 
 import node_signals
 
+_MOST = 64 << 20  # bytes of an answer: the largest that are meant are parameters with a robot's description
+
 
 class Transport(xmlrpc.client.Transport):
-    """For ``xmlrpc.client.ServerProxy(uri, transport=Transport(1.0))``: its calls raise ``TimeoutError`` after that.
+    """For ``xmlrpc.client.ServerProxy(uri, transport=Transport(1.0))``: its calls raise ``TimeoutError`` after that, also where the answer
+    comes in drops, and another ``OSError`` where it does not end or is no XML-RPC.
 
-    :param timeout: s that connecting, and each wait for a part of the answer, may take
+    :param timeout: s that a call may take, from connecting to the last byte
     """
 
     def __init__(self, timeout: float):
         super().__init__()
         self._timeout = timeout
+        self.end = 0.0  # of the call that is under way, of time.monotonic()
 
-    def make_connection(self, host):
-        connection = super().make_connection(host)
-        connection.timeout = self._timeout
+    def request(self, *arguments: Any, **named: Any) -> Any:
+        self.end = time.monotonic() + self._timeout  # of both attempts, where the first one finds a connection that has ended
+        try:
+            return super().request(*arguments, **named)
+        except (http.client.HTTPException, ExpatError, ValueError, TypeError, LookupError, AttributeError, RecursionError) as error:
+            if isinstance(error, OSError):  # http.client.RemoteDisconnected
+                raise
+            raise OSError(f"the answer is no XML-RPC: {type(error).__name__}: {str(error)[:200]}") from error
+
+    def make_connection(self, host: Any) -> http.client.HTTPConnection:
+        if not (self._connection and host == self._connection[0] and self._connection[1]):
+            name, self._extra_headers, _ = self.get_host_info(host)
+            self._connection = host, _Connection(name, self._timeout)
+        connection = self._connection[1]
+        connection.end = self.end
         return connection
+
+
+class _Connection(http.client.HTTPConnection):
+    def __init__(self, host: str, timeout: float):
+        super().__init__(host, timeout=timeout)
+        self.end = 0.0
+
+    def putrequest(self, *arguments: Any, **named: Any) -> None:
+        if isinstance(self.sock, _Socket):  # kept from the request before
+            self.sock.allow(self.end, _MOST)
+        super().putrequest(*arguments, **named)
+
+    def connect(self) -> None:
+        super().connect()
+        self.sock = _Socket(fileno=self.sock.detach())
+        self.sock.allow(self.end, _MOST)
+
+
+class _Socket(socket.socket):
+    def allow(self, end: float, most: int) -> None:
+        """
+        :param end: when to stop reading and writing, of ``time.monotonic()``
+        :param most: bytes that are read until then
+        """
+        self._end, self._left = end, most
+        self._hurry()
+
+    def _hurry(self) -> None:
+        seconds = self._end - time.monotonic()
+        if seconds <= 0.0:
+            raise TimeoutError("timed out")
+        self.settimeout(seconds)
+
+    def recv_into(self, *arguments: Any) -> int:
+        self._hurry()
+        count = super().recv_into(*arguments)
+        self._left -= count
+        if self._left < 0:
+            raise OSError(f"an answer of over {_MOST >> 20} MiB")
+        return count
+
+    def sendall(self, *arguments: Any) -> None:
+        self._hurry()
+        super().sendall(*arguments)
 
 
 def master_answers(caller: str) -> bool:

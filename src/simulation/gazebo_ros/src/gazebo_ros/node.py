@@ -6,7 +6,6 @@ import gc
 import logging
 import os
 import signal
-import socket
 import sys
 import threading
 import time
@@ -159,6 +158,10 @@ def _wait_for_master(ending: _Ending) -> None:
         time.sleep(0.5)
 
 
+def _asked(uri: str) -> Any:
+    return xmlrpc.client.ServerProxy(uri, transport=bounded_calls.Transport(2.0))
+
+
 def _runs_already() -> bool:
     """A node of this name answers: many launch files start a simulator although they only spawn into the one that runs.
 
@@ -166,17 +169,13 @@ def _runs_already() -> bool:
     """
     names = load_mappings(sys.argv)
     name = rosgraph.names.ns_join(rosgraph.names.get_ros_namespace(argv=sys.argv), names.get("__name", "gazebo"))
-    timeout = socket.getdefaulttimeout()
-    socket.setdefaulttimeout(2.0)
     try:
-        node: Any = xmlrpc.client.ServerProxy(rosgraph.Master(name).lookupNode(name))
-        if node.getName(name)[2] != name:
+        code, _, uri = _asked(rosgraph.get_master_uri()).lookupNode(name, name)
+        if code != 1 or _asked(uri).getName(name)[2] != name:
             return False
-        pid = node.getPid(name)[2]
-    except (rosgraph.MasterException, OSError, xmlrpc.client.Error):
-        return False
-    finally:
-        socket.setdefaulttimeout(timeout)
+        pid = _asked(uri).getPid(name)[2]
+    except (OSError, ValueError, TypeError, LookupError, xmlrpc.client.Error):
+        return False  # whatever is there is no node
     print(
         f"gzserver: {name} runs already (process {pid}) and goes on, this one ends; models are spawned into that world. "
         f"For another world end it first: rosnode kill {name}",

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import http.client
 import os
 import xmlrpc.client
 from collections import Counter
 from typing import Any
-from xml.parsers.expat import ExpatError
 
 import rosgraph
 from node_signals.bounded_calls import Transport
@@ -41,15 +39,10 @@ def complete(master: rosgraph.Master, deaf: set[str]) -> bool:
         except (
             OSError,
             xmlrpc.client.Error,
-            ExpatError,
-            http.client.HTTPException,
             rosgraph.MasterException,
-            IndexError,
+            LookupError,
             TypeError,
             ValueError,
-            KeyError,
-            AttributeError,
-            RecursionError,
             MemoryError,
         ):
             deaf.add(node)

@@ -265,6 +265,17 @@ class Guard(threading.Thread):
                 self.broke = self.broke or broke
                 for program in programs:
                     program.breaks(broke)
+        if self._ended_for_memory():  # since the last look
+            self.broke = self.broke or self._too_much()
+            for program in self._programs():
+                if program.code in (-signal.SIGKILL, 128 + signal.SIGKILL):
+                    program.broke = program.broke or self.broke
+
+    def _ended_for_memory(self) -> bool:
+        return control_group.ended_for_memory(self._place) > self._ended_before
+
+    def _too_much(self) -> str:
+        return f"it took more than {self._limits['memory'] / 1e9:g} GB of memory"
 
     def _memory(self, pids: list[int]) -> float:
         counted = control_group.memory(self._place) if self._place else None
@@ -273,8 +284,8 @@ class Guard(threading.Thread):
     def _broken(self, memory: float, processes: int) -> str:
         if processes > self._limits["processes"]:
             return f"it started more than {self._limits['processes']:g} processes"
-        if memory > self._limits["memory"] or control_group.ended_for_memory(self._place) > self._ended_before:
-            return f"it took more than {self._limits['memory'] / 1e9:g} GB of memory"
+        if memory > self._limits["memory"] or self._ended_for_memory():
+            return self._too_much()
         return f"it was not done after {self._limits['time']:g} s" if self.spent > self._limits["time"] else ""
 
     def _worth(self, pids: list[int], wall: float) -> float:
