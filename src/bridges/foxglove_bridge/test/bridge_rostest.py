@@ -229,13 +229,66 @@ class Bridge(unittest.TestCase):
         )
         client.wait(lambda: client.op("parameterValues", id="set"), "what was set")
         self.assertEqual((rospy.get_param("/bridged/list"), rospy.get_param("/secret/word")), ([1.5, 2.5], "hidden"))
-        client.tell(op="subscribeParameterUpdates", parameterNames=["/bridged/list"])
-        client.tell(op="getParameters", parameterNames=["/bridged/list"], id="after")  # answered in order
-        client.wait(lambda: client.op("parameterValues", id="after"), "the answer")
+
+    def followed(self, client, *names):
+        """The values that are set are told once, from then on what ``client`` is told is news."""
+        values = {name: [rospy.get_param(name)] for name in names if rospy.has_param(name)}
         client.told.clear()
-        rospy.set_param("/bridged/list", [9.0])
-        client.wait(lambda: [m for m in client.op("parameterValues") if m["parameters"][0]["value"] == [9.0]], "the change")
-        rospy.delete_param("/bridged/list")
+        client.tell(op="subscribeParameterUpdates", parameterNames=list(names))
+        client.wait(lambda: self.changes(client) == values, f"{values}")
+        client.told.clear()
+
+    def changes(self, client):
+        """name -> its values, one after the other; {}: it is not set."""
+        found = {}
+        for parameter in (p for m in client.op("parameterValues") if "id" not in m for p in m["parameters"]):
+            found.setdefault(parameter["name"], []).append(parameter.get("value"))
+        return found
+
+    def test_parameters_that_are_followed(self):
+        """Changes from outside, of a part, to nothing and back are told as they come, long before the next look at the graph."""
+        client, other = Client(self), Client(self)
+        self.addCleanup(lambda: rospy.has_param("/bridged/box") and rospy.delete_param("/bridged/box"))
+        rospy.set_param("/bridged/box/side", 1)
+        self.followed(client, "/bridged/box/side", "/bridged/box/later", "/bridged/box")
+        box, side, later = "/bridged/box", "/bridged/box/side", "/bridged/box/later"
+        expected = {}
+        for act, told in (
+            (lambda: rospy.set_param(side, 2), {box: {"side": 2}, side: 2}),
+            (lambda: rospy.set_param(later, "x"), {box: {"side": 2, "later": "x"}, later: "x"}),
+            (lambda: rospy.delete_param(later), {box: {"side": 2}, later: {}}),
+            (lambda: rospy.delete_param(box), {box: {}, side: {}}),
+            (lambda: rospy.set_param(side, [True]), {box: {"side": [True]}, side: [True]}),
+        ):
+            act()
+            for name, value in told.items():
+                expected.setdefault(name, []).append(value)
+            begin = rospy.get_time()
+            client.wait(lambda: self.changes(client) == expected, f"{told}")
+            self.assertLess(rospy.get_time() - begin, 2.0, "the graph is looked at every 5 s")
+        # Another client's own setting, and deleting, is told to those who follow, each once.
+        other.tell(op="setParameters", parameters=[{"name": side, "value": 7}], id="set")
+        other.wait(lambda: other.op("parameterValues", id="set"), "what was set")
+        client.wait(lambda: self.changes(client)[side][-1] == 7, "what the other set")
+        other.tell(op="setParameters", parameters=[{"name": side}], id="unset")
+        client.wait(lambda: self.changes(client)[side][-1] == {}, "what the other deleted")
+        self.assertEqual(self.changes(client)[side], [*expected[side], 7, {}])
+        client.tell(op="unsubscribeParameterUpdates", parameterNames=[box, side, later])
+        self.followed(client, "/bridged/number")
+        rospy.set_param(side, 8)
+        rospy.set_param("/bridged/number", 4)
+        client.wait(lambda: self.changes(client), "the number")
+        self.assertEqual(self.changes(client), {"/bridged/number": [4]})
+        rospy.set_param("/bridged/number", 3)
+
+    def test_parameters_that_are_not_there(self):
+        client = Client(self)
+        client.tell(op="getParameters", parameterNames=["/bridged/number", "/bridged/none", "/secret/word"], id="some")
+        values = client.wait(lambda: client.op("parameterValues", id="some"), "parameters")[0]["parameters"]
+        self.assertEqual([(p["name"], p["value"]) for p in values], [("/bridged/number", 3)])
+        (status,) = client.wait(lambda: client.op("status"), "a word of the others")
+        self.assertEqual(status["level"], 2)  # error
+        self.assertIn("/bridged/none, /secret/word", status["message"])
 
     def test_the_graph(self):
         publisher = rospy.Publisher("/graph_topic", String, queue_size=1)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 import logging
-import signal
 import socket
 import threading
 from typing import Any
 
 import foxglove
+import node_signals
 import rosgraph
 import rosnode
 import rospy
@@ -160,13 +160,13 @@ class Bridge(ServerListener):
     def _parameters_changed(self, parameters: list[Parameter]) -> None:
         self.server.publish_parameter_values(parameters)
 
-    def _complain(self, line: str) -> None:
+    def _complain(self, line: str, level: Any = StatusLevel.Warning) -> None:
         rospy.logwarn("%s", line)
-        self.server.publish_status(line, StatusLevel.Warning)
+        self.server.publish_status(line, level)
 
 
 def main() -> int:
-    rospy.init_node("foxglove_bridge")
+    node_signals.init_node("foxglove_bridge")
     try:
         settings = _settings()
         bridge = Bridge(settings)
@@ -184,7 +184,6 @@ def main() -> int:
     rospy.loginfo("ws://%s:%d for Foxglove and Lichtblick", settings.address, bridge.server.port)
     stop = threading.Event()
     rospy.on_shutdown(stop.set)
-    signal.signal(signal.SIGTERM, lambda *_: rospy.signal_shutdown("SIGTERM"))
     follow(bridge, stop)
     return 0
 

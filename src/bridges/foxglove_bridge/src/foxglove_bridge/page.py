@@ -10,7 +10,6 @@ import http.server
 import json
 import os
 import shutil
-import signal
 import sys
 import tarfile
 import threading
@@ -20,6 +19,8 @@ from collections.abc import Callable
 from pathlib import Path, PurePosixPath
 from typing import Any
 from urllib.parse import quote, urlencode, urlsplit
+
+import node_signals
 
 from foxglove_bridge.layout import Running, layout
 from foxglove_bridge.settings import TRIES, BridgeError
@@ -183,14 +184,13 @@ def _serve(port: int, told: int | None) -> int:
     from foxglove_bridge.facts import Facts
     from foxglove_bridge.node import follow, own_or_running
 
-    rospy.init_node("lichtblick", anonymous=True, disable_rostime=True)
+    node_signals.init_node("lichtblick", anonymous=True, disable_rostime=True)
     bridge_port, bridge = (told, None) if told else own_or_running()
     page = Page(port, bridge_port, Facts().running)
     print(f"lichtblick: plots and topics are at {page.address}", flush=True)
     stop = threading.Event()
     rospy.on_shutdown(stop.set)
     rospy.on_shutdown(page.shutdown)
-    signal.signal(signal.SIGTERM, lambda *_: rospy.signal_shutdown("SIGTERM"))
     threading.Thread(target=page.serve_forever, daemon=True).start()
     if bridge is None:
         stop.wait()

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import signal
 import sys
 import threading
 from collections.abc import Callable, Iterable
 from functools import partial
 from typing import Any
 
+import node_signals
 import rosgraph
 import rosmsg
 import rospkg
@@ -222,13 +222,12 @@ def run(work: Callable[[Bridge], None]) -> int:
     if prefix() is None:
         print(f"ros1_bridge: {HINT}", file=sys.stderr)
         return 1
-    rospy.init_node("ros_bridge")
+    node_signals.init_node("ros_bridge")
     try:
         bridge = Bridge()
     except Ros2Missing as error:
         rospy.logfatal("%s", error)
         return 1
-    signal.signal(signal.SIGTERM, lambda *_: rospy.signal_shutdown("SIGTERM"))
     rospy.on_shutdown(bridge.link.close)
     try:
         work(bridge)
