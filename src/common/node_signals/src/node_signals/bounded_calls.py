@@ -38,10 +38,11 @@ class Transport(xmlrpc.client.Transport):
             raise OSError(f"the answer is no XML-RPC: {type(error).__name__}: {str(error)[:200]}") from error
 
     def make_connection(self, host: Any) -> http.client.HTTPConnection:
-        if not (self._connection and host == self._connection[0] and self._connection[1]):
+        known, connection = self._connection
+        if known != host or not isinstance(connection, _Connection):
             name, self._extra_headers, _ = self.get_host_info(host)
-            self._connection = host, _Connection(name, self._timeout)
-        connection = self._connection[1]
+            connection = _Connection(name, self._timeout)
+            self._connection = host, connection
         connection.end = self.end
         return connection
 

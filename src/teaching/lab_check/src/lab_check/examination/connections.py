@@ -36,15 +36,7 @@ def complete(master: rosgraph.Master, deaf: set[str]) -> bool:
             answer: Any = proxy.getBusInfo("/lab_check")
             entries = answer[2]
             have = Counter(entry[4] for entry in entries if entry[2] == "i" and (len(entry) < 6 or entry[5]))
-        except (
-            OSError,
-            xmlrpc.client.Error,
-            rosgraph.MasterException,
-            LookupError,
-            TypeError,
-            ValueError,
-            MemoryError,
-        ):
+        except (OSError, xmlrpc.client.Error, rosgraph.MasterException, LookupError, TypeError, ValueError, MemoryError):
             deaf.add(node)
             continue
         if any(have[topic] < count for topic, count in topics.items()):
