@@ -383,9 +383,12 @@ class Clicks(Session):
         page.settled(before)
         page.mouse(at(*CORNERS[0]), at(*CORNERS[1]), drag=True)
         page.see("1 wall on 1 level")
-        for corner in (*CORNERS[1:], CORNERS[0]):
+        before = page.scene()
+        page.mouse(at(*CORNERS[1]))
+        page.settled(before)  # a ball where the path begins
+        for walls, corner in enumerate((*CORNERS[2:], CORNERS[0]), 2):
             page.mouse(at(*corner))
-        page.see("8 walls on 1 level")
+            page.see(f"{walls} walls on 1 level")  # a page takes no click while it draws what the one before it made
         page.choose("Tool", "Door")
         page.mouse(page.pixel((0.0, -2.45, 2.5), (0.0, -0.01, 13.0), (0.0, 0.0, 0.0), FIELD))
         page.see("Picked: door")
