@@ -9,7 +9,7 @@ import actionlib
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
-from actionlib_tutorials.msg import AveragingAction, AveragingGoal, FibonacciAction, FibonacciGoal
+from actionlib_tutorials.msg import AveragingAction, AveragingGoal, FibonacciAction, FibonacciActionFeedback, FibonacciGoal
 from std_msgs.msg import Float32
 from test_support import wait_until
 from test_support.hearing import heard
@@ -26,12 +26,16 @@ class Tutorials(unittest.TestCase):
         return client
 
     def test_fibonacci(self):
-        told = []
+        told = []  # by the topic: a SimpleActionClient drops what comes before its send_goal() returns, as the first may
         client = self.client("fibonacci", FibonacciAction)
-        client.send_goal(FibonacciGoal(order=4), feedback_cb=lambda feedback: told.append(list(feedback.sequence)))
+        feedback = rospy.Subscriber("/fibonacci/feedback", FibonacciActionFeedback, lambda m: told.append(list(m.feedback.sequence)))
+        self.addCleanup(feedback.unregister)
+        wait_until(lambda: heard([feedback]), "the server's feedback")
+        client.send_goal(FibonacciGoal(order=4))
         self.assertTrue(client.wait_for_result(MINUTE))
         self.assertEqual(client.get_state(), GoalStatus.SUCCEEDED)
         self.assertEqual(list(client.get_result().sequence), [0, 1, 1, 2, 3])
+        wait_until(lambda: len(told) == 3, "three feedbacks")
         self.assertEqual(told, [[0, 1, 1], [0, 1, 1, 2], [0, 1, 1, 2, 3]])
 
     def test_fibonacci_is_cancelled(self):

@@ -193,6 +193,12 @@ class Moving(PluginWorld):
         _, first, last = self.drive("/planar", 0.0, 0.5, "/planar/odom", lambda t: abs(t.angular.z - 0.5) < 1e-3)
         self.assertAlmostEqual(yaw_of(last) - yaw_of(first), 0.5, delta=1e-3)
         np.testing.assert_allclose(xyz(last.position), xyz(first.position), atol=2e-3)
+        self.spawn("mute", sdf(self.base(wheel=(0, 0)), plugin("gazebo_ros_planar_move", robotNamespace="/mute", odometryRate=0)), 0, 95)
+        self.addCleanup(self._delete_model, "mute")
+        with Ear("/mute/odom", Odometry) as ear:
+            Mouth("/mute/cmd_vel", Twist).say(Vector3(0.3, 0, 0), Vector3(0, 0, 0))
+            self.until_stepped(lambda: self._get_model_state("mute", "").pose.position.x > 0.1, "motion of the one that is mute")
+            self.assertEqual(ear.messages, [])
 
     def test_force_based_move(self):
         """Hector's plugin pushes on with the last command, against friction; Nexus's copy is limited and stops after 0.25 s."""
@@ -281,6 +287,32 @@ class Moving(PluginWorld):
         self.step(1.0)
         self.assertAlmostEqual(speed() - before, 0.2, delta=0.02)
 
+    def test_wheels_without_a_size(self):
+        """What a drive divides by is not 0: one line names the element, and the model stands there without the plugin."""
+        corners = dict(left_front=(0.15, 0.2), right_front=(0.15, -0.2), left_rear=(-0.15, 0.2), right_rear=(-0.15, -0.2))
+        two = self.base(left=(0, 0.25), right=(0, -0.25))
+        pair = dict(leftJoint="left_joint", rightJoint="right_joint", odometrySource="encoder")
+        three = dict(steeringJoint="left_joint", actuatedWheelJoint="right_joint", encoderWheelLeftJoint="left_joint")
+        three.update(encoderWheelRightJoint="right_joint", odometrySource="encoder")
+        many = dict(leftJoints="left_joint", rightJoints="right_joint")
+        cases = [
+            ("gazebo_ros_diff_drive", two, pair, "wheelDiameter"),
+            ("gazebo_ros_diff_drive", two, pair, "wheelSeparation"),
+            ("gazebo_ros_skid_steer_drive", self.base(**corners), {}, "wheelDiameter"),
+            ("gazebo_ros_tricycle_drive", two, three, "actuatedWheelDiameter"),
+            ("gazebo_ros_tricycle_drive", two, three, "encoderWheelDiameter"),
+            ("gazebo_ros_tricycle_drive", two, three, "encoderWheelSeparation"),
+            ("diffdrive_plugin_multi_wheel", two, many, "wheelDiameter"),
+        ]
+        for i, (library, base, tags, tag) in enumerate(cases):
+            with self.subTest(library=library, tag=tag), Ear("/rosout", Log) as log:
+                name = f"sizeless_{i}"
+                self.spawn(name, sdf(base, plugin(library, robotNamespace=f"/{name}", **{**tags, tag: 0})), 0, 300 + 2 * i)
+                self.addCleanup(self._delete_model, name)
+                line = f"<{tag}> is 0 m"
+                until(lambda log=log, line=line: any(line in m.msg for m in log.messages), line)
+                self.assertTrue(self._get_model_state(name, "").success)
+
     def test_encoders_count_what_rolls(self):
         """Wheels that are put at another angle have not rolled there; 0.3 m/s for 1 s is 0.3 m."""
         tags = dict(wheelTorque=20, odometrySource="encoder", updateRate=100)
@@ -317,14 +349,15 @@ class Moving(PluginWorld):
             self.assertAlmostEqual(odometry.pose.pose.position.x - place.x, last.position.x, delta=0.02)
 
     def test_wheel_slip(self):
-        """On a slope a rolling robot that slips sideways drifts; told not to, it keeps its line."""
+        """On a slope a rolling robot that slips sideways drifts; told not to, it keeps its line. A radius that is left out is that of the
+        wheel's cylinder, and a wheel that is not there costs no other."""
         wheels = "".join(
             f'<wheel link_name="{name}">'
-            + elements(slip_compliance_lateral=0, slip_compliance_longitudinal=0.5, wheel_normal_force=60, wheel_radius=0.1)
+            + elements(slip_compliance_lateral=0, slip_compliance_longitudinal=0.5, wheel_normal_force=60, **radius)
             + "</wheel>"
-            for name in ("left", "right")
+            for name, radius in (("lost", {}), ("left", {}), ("right", dict(wheel_radius=0.1)))
         )
-        slip = plugin("gazebo_ros_wheel_slip", robotNamespace="/slippy").replace("</plugin>", wheels + "</plugin>")
+        slip = plugin("gazebo_ros_wheel_slip", robotNamespace="/").replace("</plugin>", wheels + "</plugin>")  # as spawn_model writes it
         drive = plugin(
             "gazebo_ros_diff_drive",
             robotNamespace="/slippy",
@@ -351,7 +384,9 @@ class Moving(PluginWorld):
         )
         _, first, last = self.drive("/slippy", 0.5, 0, "/slippy/odom", lambda t: t.linear.x > 0.3)
         slow = last.position.x - first.position.x
-        Client("/slippy/wheel_slip", timeout=60).update_configuration({"slip_compliance_unitless_longitudinal": 0.0})
+        settings = Client("/slippy/wheel_slip", timeout=60)
+        settings.update_configuration({"slip_compliance_unitless_longitudinal": 0.0})
+        settings.update_configuration({"slip_compliance_unitless_longitudinal": -1.0})  # leaves it as it is
         first = self.pose("slippy")
         self.step(1.0)
         fast = self.pose("slippy").position.x - first.position.x

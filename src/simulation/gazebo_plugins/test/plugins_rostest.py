@@ -353,7 +353,7 @@ class Plugins(PluginWorld):
             "hanging",
             sdf(
                 link("l", mass=20),
-                plugin("gazebo_ros_harness", robotNamespace="/hanging").replace(
+                plugin("gazebo_ros_harness", robotNamespace="/").replace(
                     "</plugin>",
                     f"""{joint("rope", "prismatic", "world", "l", lower=-0.3, upper=1)}
             <winch><joint>rope</joint></winch><detach>rope</detach></plugin>""",

@@ -16,8 +16,8 @@ from gazebo_plugins.ros_side import Topics, required
 class Harness(ModelPlugin):
     """``<joint>`` elements with a ``<child>`` link, ``<winch><joint>``, ``<detach>`` as upstream.
 
-    Topics ``harness/velocity`` (m/s along the joint's axis) and ``harness/detach`` in the model's namespace. The winch
-    moves exactly as commanded, within the joint's limits, whatever the load: its ``<pid>`` is not needed.
+    Topics ``/<model>/harness/velocity`` (m/s along the joint's axis) and ``/<model>/harness/detach``, whatever ``<robotNamespace>`` says.
+    The winch moves exactly as commanded, within the joint's limits, whatever the load: its ``<pid>`` is not needed.
     """
 
     start: Pose
@@ -44,8 +44,9 @@ class Harness(ModelPlugin):
         self.velocity = self.way = 0.0
         self._hold()
         self.topics = Topics(sdf, model.name, "A")
-        self.topics.subscriber("harness/velocity", Float32, self._wind)
-        self.topics.subscriber("harness/detach", Bool, self._release)
+        self.velocity_topic = f"/{model.name}/harness/velocity"
+        self.topics.subscriber(self.velocity_topic, Float32, self._wind)
+        self.topics.subscriber(f"/{model.name}/harness/detach", Bool, self._release)
         server.before_step(self.step)
 
     def _hold(self) -> None:
@@ -56,7 +57,7 @@ class Harness(ModelPlugin):
         if math.isfinite(message.data):
             self.velocity = message.data
         else:
-            rospy.logwarn("%s: a winch velocity that is not a finite number is ignored", self.topics.resolve("harness/velocity"))
+            rospy.logwarn("%s: a winch velocity that is not a finite number is ignored", self.velocity_topic)
 
     def _release(self, message: Bool) -> None:
         if message.data:

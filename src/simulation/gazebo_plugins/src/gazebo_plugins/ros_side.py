@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Sequence
 from typing import Any
 
@@ -171,6 +172,17 @@ def required(sdf, tag: str) -> str:
     value = sdf.get(tag, "")
     if not value:
         raise PluginError(f"<{tag}> is missing")
+    return value
+
+
+def length(sdf, tag: str, default: float) -> float:
+    """``<tag>`` of the element ``sdf``, by which a plugin divides; ``default`` without one; m.
+
+    :raises PluginError: zero, or not finite
+    """
+    value = float(sdf.get(tag, default))
+    if value == 0.0 or not math.isfinite(value):
+        raise PluginError(f"<{tag}> is {value:g} m: a length other than 0 is needed")
     return value
 
 

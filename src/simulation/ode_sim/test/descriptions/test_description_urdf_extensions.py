@@ -36,6 +36,15 @@ def test_turn_gravity_off(text, gravity):
     assert model.links[0].gravity is gravity
 
 
+def test_gravity_of_a_link_that_is_lumped_is_that_of_what_it_is_lumped_into():
+    """As sdformat 9 has it: the lumped link's blocks come after its parent's, so the last that says something counts."""
+    block = '<gazebo reference="{}"><turnGravityOff>{}</turnGravityOff></gazebo>'.format
+    for blocks, gravity in ((block("tip", "true"), False), (block("tip", "false") + block("base", "true"), True)):
+        model, problems = convert(link("base"), link("tip"), joint("f", "base", "tip"), blocks)
+        assert model.links[0].gravity is gravity
+        assert all(problem.severity == "note" for problem in problems)
+
+
 def test_extensions_stay_with_the_shapes_of_their_own_link():
     model, _ = convert(
         link("base", body=box() + box("visual")),

@@ -9,7 +9,7 @@ from ode_sim import math3
 from sensor_msgs.msg import JointState
 
 from gazebo_plugins.drives.wheels import Command, EncoderOdometry, OdometryPublisher, from_encoders, ground_truth
-from gazebo_plugins.ros_side import TfBroadcaster, Topics, find_joint
+from gazebo_plugins.ros_side import TfBroadcaster, Topics, find_joint, length
 
 _AT_TARGET = 0.01  # m/s: a wheel this close to its target is no longer ramped
 
@@ -22,8 +22,8 @@ class DiffDrive(ModelPlugin):
         self.topics = Topics(sdf, model.name, "A")
         self.left = find_joint(model, sdf, "leftJoint", "left_joint")
         self.right = find_joint(model, sdf, "rightJoint", "right_joint")
-        self.separation = sdf.get("wheelSeparation", 0.34)
-        self.radius = sdf.get("wheelDiameter", 0.15) / 2
+        self.separation = length(sdf, "wheelSeparation", 0.34)
+        self.radius = length(sdf, "wheelDiameter", 0.15) / 2
         self.torque = sdf.get("wheelTorque", 5.0)
         self.acceleration = sdf.get("wheelAcceleration", 0.0)
         self.encoders = EncoderOdometry(self.left, self.right, self.radius, self.separation) if from_encoders(sdf) else None

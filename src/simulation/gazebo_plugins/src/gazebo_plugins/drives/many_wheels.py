@@ -6,12 +6,12 @@ from __future__ import annotations
 from typing import Any
 
 import rospy
-from gazebo_ros.plugin import ModelPlugin, PluginError
+from gazebo_ros.plugin import ModelPlugin
 from nav_msgs.msg import Odometry
 from node_signals.rates import PeriodAdded
 
 from gazebo_plugins.drives.wheels import Command, OdometryPublisher, ground_truth
-from gazebo_plugins.ros_side import Topics, find_joint, joint_named, required
+from gazebo_plugins.ros_side import Topics, find_joint, joint_named, length, required
 
 
 class _Sides(ModelPlugin):
@@ -23,9 +23,7 @@ class _Sides(ModelPlugin):
         """:param torque: of each wheel, N m. :param topic: of commands"""
         self.server, self.model = server, model
         self.left, self.right, self.torque = left, right, torque
-        self.separation, self.radius = sdf.get("wheelSeparation", 0.34), sdf.get("wheelDiameter", 0.15) / 2
-        if self.radius <= 0.0:
-            raise PluginError(f"<wheelDiameter> is {2 * self.radius:g} m: it has to be more than 0")
+        self.separation, self.radius = sdf.get("wheelSeparation", 0.34), length(sdf, "wheelDiameter", 0.15) / 2
         self.command = Command(self.topics, topic)
         self._drive()
         server.drives(*left, *right)

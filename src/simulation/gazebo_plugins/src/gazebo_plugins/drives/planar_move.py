@@ -18,7 +18,8 @@ class PlanarMove(ModelPlugin):
     def load(self, server, model, sdf) -> None:
         self.server, self.model = server, model
         self.topics = Topics(sdf, model.name, "C")
-        self.gate = PeriodAdded(sdf.get("odometryRate", 20.0))
+        rate = sdf.get("odometryRate", 20.0)
+        self.gate = PeriodAdded(rate) if rate > 0.0 else None  # neither odometry nor a transform
         self.timeout = sdf.get("cmdTimeout", -1.0)
         self.command = Command(self.topics, sdf.text_or("commandTopic", "cmd_vel"))
         self.odometry = OdometryPublisher(self.topics, sdf, "base_footprint")
@@ -34,7 +35,7 @@ class PlanarMove(ModelPlugin):
         cos, sin = math.cos(yaw), math.sin(yaw)
         x, y = self.command.x, self.command.y
         self._glide((cos * x - sin * y, sin * x + cos * y, 0.0), (0.0, 0.0, self.command.yaw_rate), pose.p)
-        if self.gate.due(now.to_nsec()):
+        if self.gate and self.gate.due(now.to_nsec()):
             elapsed = (now - self.last_time).to_sec()
             dx, dy = ((pose.p[i] - self.last_pose.p[i]) / elapsed for i in range(2))
             turned = math.remainder(yaw - yaw_of(self.last_pose), 2 * math.pi) / elapsed

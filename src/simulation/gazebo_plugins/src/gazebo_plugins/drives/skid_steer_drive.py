@@ -6,7 +6,7 @@ from gazebo_ros.plugin import ModelPlugin
 from node_signals.rates import PeriodAdded
 
 from gazebo_plugins.drives.wheels import UNKNOWN, Command, OdometryPublisher, ground_truth
-from gazebo_plugins.ros_side import Topics, find_joint
+from gazebo_plugins.ros_side import Topics, find_joint, length
 
 _WHEELS = (
     ("leftFrontJoint", "left_front_joint", -1),
@@ -22,7 +22,7 @@ class SkidSteerDrive(ModelPlugin):
         self.topics = Topics(sdf, model.name, "C")
         self.wheels = [(find_joint(model, sdf, tag, default), side) for tag, default, side in _WHEELS]
         self.separation = sdf.get("wheelSeparation", 0.4)
-        self.radius = sdf.get("wheelDiameter", 0.15) / 2
+        self.radius = length(sdf, "wheelDiameter", 0.15) / 2
         self.torque = sdf.get("torque", 5.0)
         self.broadcast_tf = sdf.get("broadcastTF", False)
         self.gate = PeriodAdded(sdf.get("updateRate", 100.0))

@@ -11,7 +11,7 @@ from ode_sim import math3
 from sensor_msgs.msg import JointState
 
 from gazebo_plugins.drives.wheels import Command, EncoderOdometry, OdometryPublisher, from_encoders, ground_truth
-from gazebo_plugins.ros_side import TfBroadcaster, Topics, find_joint
+from gazebo_plugins.ros_side import TfBroadcaster, Topics, find_joint, length
 
 _FASTEST, _HOLDING = 20.0, 10.0  # steering without <steeringSpeed>: rad/s, and its torque in units of <wheelTorque>
 
@@ -28,9 +28,9 @@ class TricycleDrive(ModelPlugin):
         self.driven = find_joint(model, sdf, "actuatedWheelJoint", "front_wheel_joint")
         self.left = find_joint(model, sdf, "encoderWheelLeftJoint", "left_wheel_joint")
         self.right = find_joint(model, sdf, "encoderWheelRightJoint", "right_wheel_joint")
-        self.driven_radius = sdf.get("actuatedWheelDiameter", 0.15) / 2
-        self.encoder_radius = sdf.get("encoderWheelDiameter", 0.15) / 2
-        self.encoder_separation = sdf.get("encoderWheelSeparation", 0.5)
+        self.driven_radius = length(sdf, "actuatedWheelDiameter", 0.15) / 2
+        self.encoder_radius = length(sdf, "encoderWheelDiameter", 0.15) / 2
+        self.encoder_separation = length(sdf, "encoderWheelSeparation", 0.5)
         self.torque = sdf.get("wheelTorque", 5.0)
         self.acceleration = sdf.get("wheelAcceleration", 0.0)
         self.deceleration = sdf.get("wheelDeceleration", self.acceleration)

@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
-from ode_sim import math3
 from ode_sim.description.model import (
     FARTHEST,
     DescriptionError,
@@ -22,7 +21,6 @@ from ode_sim.description.model import (
     Model,
     ModelState,
     Physics,
-    Pose,
     Scene,
     Vec3,
     Visual,
@@ -33,7 +31,7 @@ from ode_sim.description.model import (
 from ode_sim.description.population import population
 from ode_sim.description.scaling import largest_size, scaled_model
 from ode_sim.description.sdf_actor import SdfActors
-from ode_sim.description.sdf_frames import relative_to, world_frames
+from ode_sim.description.sdf_frames import WorldFrames
 from ode_sim.description.xmlsource import is_true, source_of, text_of
 
 _UNSCALED = (1.0, 1.0, 1.0)
@@ -43,18 +41,22 @@ _LONGEST_TIME = 1e9  # s; in nanoseconds it still fits into 64 bits
 
 
 class _Contents:
-    """Models and lights of a world, in file order.
+    """Models and lights of a world, in file order."""
 
-    :param frames: X_WF of the world's frames, by name
-    """
-
-    def __init__(self, reader: SdfReader, frames: Mapping[str, Pose]):
-        self.models: list[Model] = []
-        self.lights: list[Light] = []
+    def __init__(self, reader: SdfReader):
         self.roads: list[Visual] = []
+        self._models: dict[str, Model] = {}  # by name, at the poses that they have in the file
+        self._lights: list[tuple[Light, ET.Element | None]] = []  # with their <pose>
         self._reader = reader
-        self._frames = frames
-        self._taken: set[str] = set()  # names of models
+        self._frames = WorldFrames(reader)
+
+    def models(self) -> list[Model]:
+        """With their poses in the world."""
+        return [replace(model, pose=self._frames.of(name)) for name, model in self._models.items()]
+
+    def lights(self) -> list[Light]:
+        """With their poses in the world."""
+        return [replace(light, pose=self._frames.light(light.pose, pose)) for light, pose in self._lights]
 
     def add(self, child: ET.Element) -> None:
         """An element of ``<world>``; of what is neither model, light nor road some is left out, with a word if it should be seen."""
@@ -76,6 +78,8 @@ class _Contents:
                 self._add_model(copy)
         elif child.tag == "road":
             self._add_road(child)
+        elif child.tag == "frame":
+            self._frames.add_frame(child)
         elif child.tag == "joint":
             reader.warn(child, "joints between models of a world file are not simulated; left out")
 
@@ -85,18 +89,15 @@ class _Contents:
         except DescriptionError as error:
             self._reader.warn(error.source, f"{error.message}; {source.tag} '{quoted(source.get('name'))}' is left out", "error")
             return
-        if model.name in self._taken:
+        if model.name in self._models:
             self._reader.warn(source, f"a model named '{quoted(model.name)}' is there already; this one is left out")
             return
-        self._taken.add(model.name)
-        frame = relative_to(source.find("pose"))
-        if frame in self._frames:
-            model = replace(model, pose=math3.compose(self._frames[frame], model.pose))
-        self.models.append(model)
+        self._models[model.name] = model
+        self._frames.add_model(model.name, model.pose, source.find("pose"))
 
     def _add_light(self, source: ET.Element) -> None:
         try:
-            self.lights.append(self._reader.light(source))
+            self._lights.append((self._reader.light(source), source.find("pose")))
         except DescriptionError as error:
             self._reader.warn(error.source, f"{error.message}; light '{quoted(source.get('name'))}' is left out", "error")
 
@@ -113,14 +114,16 @@ class SdfReader(SdfActors):
     def world(self, element: ET.Element) -> World:
         """The world of ``element``, a ``<world>``."""
         plugins = self.plugins(element)
-        contents = _Contents(self, world_frames(self, element))
+        contents = _Contents(self)
         for child in element:
             contents.add(child)
         state = self._state(element.find("state"))
         for inserted in element.findall("state/insertions/*"):
             if inserted.tag in ("model", "light", "actor"):
                 contents.add(inserted)
-        models = contents.models if state is None else self._scaled(contents.models, state, element)
+        models = contents.models()
+        if state is not None:
+            models = self._scaled(models, state, element)
         coordinates = element.find("spherical_coordinates")
         default = World()
         return World(
@@ -131,7 +134,7 @@ class SdfReader(SdfActors):
             physics=self._physics(element),
             scene=replace(self._scene(element.find("scene")), roads=tuple(contents.roads)),
             models=tuple(models),
-            lights=tuple(contents.lights),
+            lights=tuple(contents.lights()),
             plugins=tuple(plugins),
             state=state,
             spherical_coordinates=(

@@ -213,7 +213,7 @@ class Extensions:
     def insert_in_link(self, element: Element, link: str) -> None:
         """Put what is said about ``link`` into ``element``, its SDF."""
         for block in self._blocks.get(link, ()):
-            if "turnGravityOff" in block.values and block.origin == link:
+            if "turnGravityOff" in block.values:
                 keeps = text_of(block.values["turnGravityOff"]).lower() in ("false", "no", "0")
                 self._set(element, "gravity", "1" if keeps else "0")
             if "dampingFactor" in block.values:
