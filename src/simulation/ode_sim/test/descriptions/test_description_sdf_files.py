@@ -61,6 +61,15 @@ def test_plugins_of_an_included_model_name_its_parts_as_they_are_called_there(mo
         assert fly.findtext("linkName") == scope + "blade"
 
 
+def test_plugins_of_a_model_in_a_model_name_the_parts_of_their_own(finder):
+    """Gazebo gives them the inner model, whose parts they name as it does; the outer one has parts of the same names."""
+    arm = """<model name="{}"><link name="base"/><link name="tip"/><joint name="j" type="revolute"><parent>base</parent><child>tip</child>
+        <axis><xyz>0 0 1</xyz></axis></joint>{}<plugin name="{}" filename="libown.so"><jointName>j</jointName></plugin></model>"""
+    w, problems = world(arm.format("top", arm.format("arm", arm.format("hand", "", "inmost"), "inner"), "outer"), finder)
+    told = {plugin.name: plugin.element.findtext("jointName") for plugin in w.models[0].plugins}
+    assert told == {"outer": "j", "inner": "arm::j", "inmost": "arm::hand::j"} and not problems
+
+
 def test_an_update_rate_below_0_is_as_fast_as_possible(finder):
     w, problems = world("<physics type='ode'><real_time_update_rate>-1</real_time_update_rate></physics>", finder)
     assert w.physics.real_time_update_rate == 0.0 and not problems

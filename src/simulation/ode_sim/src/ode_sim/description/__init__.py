@@ -4,7 +4,7 @@
 ``load``                the functions below
 ``urdf``                URDF to SDF, as sdformat 9 converts it
 ``sdf``                 worlds of SDF; built on ``sdf_model``, ``sdf_shapes``, ``sdf_values``, ``sdf_frames``,
-                        ``sdf_document``, ``population``
+                        ``sdf_document``, ``sdf_oldest``, ``population``
 ``materials``           Gazebo's colours, OGRE material scripts
 ``finder``              ``model://``, ``package://``, Gazebo's search paths
 ``xmlsource``           XML elements that know their line

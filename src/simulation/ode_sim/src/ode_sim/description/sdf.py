@@ -186,7 +186,9 @@ class SdfReader(SdfActors):
         default = Physics()
         ode = block.find("ode")
         values: dict[str, Any] = {  # counts as written: usable_physics makes them whole
-            "max_step_size": self.number(block, "max_step_size", self.number(block, "dt", default.max_step_size)),
+            "max_step_size": self.number(
+                block, "max_step_size", self.number(block, "dt", self.number(ode, "solver/dt", default.max_step_size))
+            ),
             "max_contacts": self.number(block, "max_contacts", default.max_contacts),
         }
         for name, value in values.items():

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import cast
 
 from ode_sim.description.model import quoted
+from ode_sim.description.sdf_oldest import attributes_to_elements
 from ode_sim.description.xmlsource import Element, child, fault, is_true, parse_xml, text_of
 
 ENTITIES = ("model", "light", "actor")
@@ -29,6 +30,8 @@ def sdf_root(root: Element) -> Element:
         root = wrapper
     if root.tag not in ("sdf", "gazebo"):
         raise fault(root, "not SDF; expected <sdf version='1.6'> as the root element")
+    if _version(root) <= (1, 0):
+        attributes_to_elements(root)
     if _version(root) <= (1, 6):
         _say_frames_of_axes(root, in_model=_version(root) <= (1, 4))
     return root

@@ -41,9 +41,10 @@ _DEEPEST = 20  # models that include one another
 
 
 def _told_anew(sub: Parts) -> Parts:
-    """With plugins that name links, joints and frames of an included model as they are called where it is included.
+    """With plugins that name links, joints and frames of a model in a model, included or not, as they are called in the outer one.
 
-    As Gazebo's parser does: a model of a rotor craft tells its plugins of ``rotor_0_joint``, which is ``iris::rotor_0_joint`` there.
+    A model of a rotor craft tells its plugins of ``rotor_0_joint``, which is ``iris::rotor_0_joint`` there: Gazebo's parser renames what is
+    included, and gives plugins of what is written there the inner model.
     What ROS hears stays as it is written: topics, namespaces, frames.
     """
     names = {part.name for parts in (sub.links, sub.joints) for part in parts} - {"world"}
@@ -127,7 +128,7 @@ class SdfModels(SdfJoints):
         parts = Parts(name, element, self.pose(element.find("pose")))
         if element.get("placement_frame") or element.find("placement_frame") is not None:
             self.warn(element, "placement_frame is of SDF 1.8, Gazebo 11 does not know it: the pose is that of the model's own frame")
-        nested = [self._parts(child) for child in element.findall("model")]
+        nested = [_told_anew(self._parts(child)) for child in element.findall("model")]
         for include in element.findall("include"):
             included = self.include(include, getattr(element, "include_chain", ()))
             if included is not None and included.tag == "model":
