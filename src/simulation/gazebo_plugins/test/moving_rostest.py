@@ -13,11 +13,11 @@ from dynamic_reconfigure.client import Client
 from gazebo_msgs.srv import SetModelConfiguration
 from geometry_msgs.msg import Twist, Vector3, WrenchStamped
 from listening import Ear, Mouth, until
-from models import box, elements, joint, link, plugin, sdf, wheel
+from models import box, elements, joint, link, plugin, ray, sdf, wheel
 from nav_msgs.msg import Odometry
 from plugin_world import PluginWorld, xyz, yaw_of
 from rosgraph_msgs.msg import Log
-from sensor_msgs.msg import JointState
+from sensor_msgs.msg import JointState, LaserScan
 from std_msgs.msg import Header, String
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
@@ -88,8 +88,10 @@ class Moving(PluginWorld):
             70,
             0,
         )
-        Mouth("/elevator", String).say("2")
+        floors = Mouth("/elevator", String)
+        floors.say("2")
         self.until_stepped(lambda: self.joint("lift::shaft") > 0.01, "start of the cabin")
+        floors.say("0")  # not heard before the door has closed again
         self.step(3.5)
         self.assertAlmostEqual(self.joint("lift::shaft"), 3.0, places=3)
         self.assertGreater(self.joint("lift::slide"), 0.3)
@@ -312,6 +314,25 @@ class Moving(PluginWorld):
                 line = f"<{tag}> is 0 m"
                 until(lambda log=log, line=line: any(line in m.msg for m in log.messages), line)
                 self.assertTrue(self._get_model_state(name, "").success)
+
+    def test_values_that_mean_nothing(self):
+        """One line each says whose they are; what else the model has works."""
+        eye = ray("eye", plugin("gazebo_ros_laser", topicName="odd_scan", frameName="eye"), samples="many")
+        imu = f"""<sensor name="gyro" type="imu"><imu><angular_velocity><x><noise type="gaussian"><mean>some</mean></noise></x>
+            </angular_velocity></imu>{plugin("gazebo_ros_imu_sensor", topicName="odd_imu", frameName="l")}</sensor>"""
+        parts = link("l", extra=eye + imu) + plugin("gazebo_ros_hand_of_god", linkName="l", kl=-1)
+        lines = (
+            "sensor odd::l::eye: <samples>",
+            "sensor odd::l::gyro: <mean>",
+            "<kl> (N/m) and <ka> (N m/rad) have to be 0 or more",
+            "'/p q' is no name in ROS",
+        )
+        with Ear("/rosout", Log) as log:
+            self.spawn("odd", sdf(parts, plugin("gazebo_ros_p3d", bodyName="l", topicName="p q")), 0, 330)
+            self.addCleanup(self._delete_model, "odd")
+            for line in lines:
+                until(lambda line=line: any(line in m.msg for m in log.messages), line)
+        self.assertEqual(len(self.measure("/odd_scan", LaserScan, 0.3, 0).ranges), 640)
 
     def test_encoders_count_what_rolls(self):
         """Wheels that are put at another angle have not rolled there; 0.3 m/s for 1 s is 0.3 m."""

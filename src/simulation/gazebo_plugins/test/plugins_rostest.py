@@ -393,6 +393,18 @@ class Plugins(PluginWorld):
         self.assertTrue(detach("one", "l", "two", "l").ok)
         self.assertFalse(attach("one", "l", "two", "l").ok)
 
+    def test_a_harness_without_a_name_of_its_joint(self):
+        """The first joint is meant, as Gazebo has it: what hangs is not dropped."""
+        rope = joint("rope", "prismatic", "world", "l", lower=-0.3, upper=1)
+        cases = ("unsaid", ""), ("misnamed", "<winch><joint>rop</joint></winch>")
+        for i, (name, said) in enumerate(cases):
+            harness = plugin("gazebo_ros_harness").replace("</plugin>", f"{rope}{said}</plugin>")
+            self.spawn(name, sdf(link("l"), harness), 36 + 2 * i, 0, 2)
+            self.addCleanup(self._delete_model, name)
+        self.step(1.0)
+        for name, _ in cases:
+            self.assertAlmostEqual(self.pose(name).position.z, 2.0, places=4)
+
     def test_grasp_fix(self):
         """Two fingers close on a box too slippery to be held by friction; the hand rises with it, opens, and it falls."""
         fingers = "".join(

@@ -14,7 +14,8 @@ _DOOR = 1.0  # m that the door slides, m/s that it does so with
 
 class Elevator(ModelPlugin):
     """Closes the door, moves ``<lift_joint>`` to floor times ``<floor_height>``, opens ``<door_joint>`` for
-    ``<door_wait_time>`` seconds of sim time. Topic ``elevator`` (std_msgs/String) unless ``<topic>`` names another."""
+    ``<door_wait_time>`` seconds of sim time, and closes it; until then no other floor is heard. Topic ``elevator`` (std_msgs/String)
+    unless ``<topic>`` names another."""
 
     def load(self, server, model, sdf) -> None:
         self.server = server
@@ -31,15 +32,16 @@ class Elevator(ModelPlugin):
         server.before_step(self.step)
 
     def reset(self) -> None:
-        self.floor, self.open_until_ns = 0, 0
+        self.floor, self.open_until_ns, self.busy = 0, 0, False
 
     def _receive(self, message: String) -> None:
         try:
-            self.floor = int(message.data)
+            floor = int(message.data)
         except ValueError:
             rospy.logwarn("%s: '%s' is no floor number", self.topics.resolve(self.topic), message.data)
             return
-        self.open_until_ns = -1  # as soon as it is there
+        if not self.busy:
+            self.floor, self.open_until_ns, self.busy = floor, -1, True  # opens as soon as it is there
 
     def step(self) -> None:
         dt, target = self.server.world.dt, self.floor * self.height
@@ -47,6 +49,8 @@ class Elevator(ModelPlugin):
         if there and self.open_until_ns < 0:
             self.open_until_ns = self.server.world.time_ns + round(self.wait * 1e9)
         is_open = there and self.server.world.time_ns < self.open_until_ns
+        if there and self.open_until_ns >= 0 and not is_open and self.door.position() < 0.01:
+            self.busy = False
         self._approach(self.door, _DOOR if is_open else 0.0, _DOOR * dt)
         if self.door.position() < 0.01 or there:
             self._approach(self.lift, target, self.speed * dt)

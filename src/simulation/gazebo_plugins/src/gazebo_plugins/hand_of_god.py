@@ -6,7 +6,7 @@ import math
 
 import rospy
 import tf2_ros
-from gazebo_ros.plugin import ModelPlugin
+from gazebo_ros.plugin import ModelPlugin, PluginError
 from ode_sim import math3
 from ode_sim.description.model import Pose
 
@@ -24,6 +24,8 @@ class HandOfGod(ModelPlugin):
         self.link.gravity = False
         self.frame = sdf.text_or("frameId", "hog")
         self.stiffness = sdf.get("kl", 200.0), sdf.get("ka", 200.0)  # N/m, N m/rad
+        if min(self.stiffness) < 0.0:
+            raise PluginError("<kl> (N/m) and <ka> (N m/rad) have to be 0 or more")
         mass, inertia = self.link.mass, max(self.link.inertia[:3])
         self.damping = 2 * math.sqrt(mass * self.stiffness[0]), 2 * math.sqrt(inertia * self.stiffness[1])
         self.buffer = tf2_ros.Buffer()

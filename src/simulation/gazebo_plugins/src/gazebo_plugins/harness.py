@@ -26,10 +26,16 @@ class Harness(ModelPlugin):
     def load(self, server, model, sdf) -> None:
         self.server, self.model = server, model
         joints = {joint.attrib.get("name", ""): joint for joint in sdf.children("joint")}
+        if not joints:
+            raise PluginError("no <joint> that the model hangs on")
         winch = sdf.child("winch")
-        name = required(winch, "joint") if winch else required(sdf, "detach")
-        if name not in joints:
-            raise PluginError(f"<winch> names the joint '{name}', which is not among the plugin's: {', '.join(joints) or 'none'}")
+        tag, name = ("winch", winch.get("joint", "")) if winch else ("detach", sdf.get("detach", ""))
+        if name not in joints:  # what hangs is not dropped for a slip of the pen
+            first = next(iter(joints))
+            rospy.logwarn(
+                "%s: <%s> names the joint '%s', not one of the harness (%s); using %s", model.name, tag, name, ", ".join(joints), first
+            )
+            name = first
         joint = joints[name]
         child = required(joint, "child")
         if child not in model.links:

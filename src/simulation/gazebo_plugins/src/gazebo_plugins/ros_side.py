@@ -8,12 +8,13 @@ from typing import Any
 
 import rospy
 import tf2_ros
-from gazebo_ros import names
+from gazebo_ros import SdfElement, names
 from geometry_msgs.msg import Point, Quaternion, Transform, TransformStamped, Vector3
 from geometry_msgs.msg import Pose as PoseMsg
 from node_signals import offers
 from ode_sim.description.model import Pose
 from plugin_loader import PluginError
+from rosgraph.names import is_legal_name
 
 _NS = 1_000_000_000
 
@@ -31,8 +32,14 @@ class Topics:
         self._made: list[Any] = []
 
     def resolve(self, name: str) -> str:
-        """The absolute name of ``name`` in the plugin's namespace."""
-        return names.join(self.namespace, name)
+        """The absolute name of ``name`` in the plugin's namespace.
+
+        :raises PluginError: ROS knows no such names
+        """
+        resolved = names.join(self.namespace, name)
+        if not is_legal_name(resolved):
+            raise PluginError(f"'{resolved}' is no name in ROS; those have letters, digits, _ and /, and begin with a letter")
+        return resolved
 
     def frame(self, name: str) -> str:
         """``name`` with the namespace's tf_prefix."""
@@ -162,6 +169,11 @@ def find_link(model, world, sdf, tag: str = "bodyName") -> Any:
             "(<preserveFixedJoint> keeps it)"
         )
     return link
+
+
+def sensor_element(sensor) -> SdfElement:
+    """The ``<sensor>`` element of ``sensor``; values that cannot be read are warned about in its name."""
+    return SdfElement(sensor.description.element, lambda line: rospy.logwarn("sensor %s: %s", sensor.scoped_name, line))
 
 
 def required(sdf, tag: str) -> str:

@@ -61,6 +61,16 @@ def test_plugins_of_an_included_model_name_its_parts_as_they_are_called_there(mo
         assert fly.findtext("linkName") == scope + "blade"
 
 
+def test_a_second_model_of_a_name_in_a_model_is_told(models, finder):
+    models("table", "<sdf version='1.6'><model name='table'><link name='l'/></model></sdf>")
+    table = "<include><uri>model://table</uri>{}</include>"
+    nested = "<model name='table'><link name='l'/></model>"
+    for body in (table.format("") + table.format("<pose>3 0 0 0 0 0</pose>"), nested + nested, nested + table.format("")):
+        w, problems = world(f"<model name='top'>{body}</model>", finder)
+        assert names(w.models[0].links) == ["table::l"]
+        assert "a model named 'table' is there already; this one is left out" in text(problems) and len(problems) == 1
+
+
 def test_plugins_of_a_model_in_a_model_name_the_parts_of_their_own(finder):
     """Gazebo gives them the inner model, whose parts they name as it does; the outer one has parts of the same names."""
     arm = """<model name="{}"><link name="base"/><link name="tip"/><joint name="j" type="revolute"><parent>base</parent><child>tip</child>

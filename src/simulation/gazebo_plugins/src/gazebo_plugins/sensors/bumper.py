@@ -7,13 +7,12 @@ from collections import deque
 import numpy as np
 import rospy
 from gazebo_msgs.msg import ContactsState, ContactState
-from gazebo_ros import SdfElement
 from gazebo_ros.plugin import PluginError, SensorPlugin
 from geometry_msgs.msg import Vector3, Wrench
 from ode_sim import CollisionHandle, math3
 from ode_sim.description.urdf_extensions import LUMP
 
-from gazebo_plugins.ros_side import Topics, subscribed
+from gazebo_plugins.ros_side import Topics, sensor_element, subscribed
 from gazebo_plugins.sensors.pair_order import PairOrder
 
 _MOST_STEPS = 100  # a message has the contacts of the last so many steps
@@ -49,7 +48,7 @@ class Bumper(SensorPlugin):
 
     def _watched(self) -> list[CollisionHandle]:
         """The collisions that ``<contact>`` names; one that is not there is an ERROR line and feels nothing."""
-        contact = SdfElement(self.sensor.description.element).child("contact")
+        contact = sensor_element(self.sensor).child("contact")
         wanted = [child.text for child in contact.children("collision")] if contact else []
         where, own = f"sensor {self.sensor.scoped_name}: <contact><collision>", self.sensor.link.collisions
         there = f"link {self.sensor.link.scoped_name} has {', '.join(own) or 'no collision'}"

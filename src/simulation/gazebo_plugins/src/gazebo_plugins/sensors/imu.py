@@ -7,7 +7,6 @@ rest), the sensor's includes the reaction to gravity (+9.8 along z at rest).
 from __future__ import annotations
 
 import numpy as np
-from gazebo_ros import SdfElement
 from gazebo_ros.plugin import ModelPlugin, SensorPlugin
 from geometry_msgs.msg import Quaternion, Vector3
 from node_signals.rates import Spaced
@@ -16,7 +15,7 @@ from ode_sim.description.urdf_extensions import given_offset, merged_at
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Empty, EmptyResponse
 
-from gazebo_plugins.ros_side import Noise, Topics, diagonal, find_link, required, subscribed
+from gazebo_plugins.ros_side import Noise, Topics, diagonal, find_link, required, sensor_element, subscribed
 from gazebo_plugins.sensors.noise import SdfNoise, axis_noise
 from gazebo_plugins.sensors.two_rates import tell_what_is_left
 
@@ -88,7 +87,7 @@ class ImuSensor(SensorPlugin):
         self.world, self.sensor = server.world, sensor
         self.topics = Topics(sdf, sensor.model.name, "D")
         rng = server.world.rng(sensor.scoped_name)
-        imu = SdfElement(sensor.description.element).child("imu")
+        imu = sensor_element(sensor).child("imu")
         groups = [imu and imu.child(tag) for tag in ("angular_velocity", "linear_acceleration")]
         self.axis_noise = [[SdfNoise(axis_noise(group, axis), rng) for axis in "xyz"] for group in groups]
         sigma = sdf.get("gaussianNoise", 0.0)

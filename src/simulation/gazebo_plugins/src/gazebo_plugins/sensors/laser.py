@@ -16,7 +16,7 @@ from ode_sim.errors import CameraError
 from sensor_msgs.msg import ChannelFloat32, LaserScan, PointCloud
 from sensor_msgs.msg import Range as RangeMsg
 
-from gazebo_plugins.ros_side import Topics, subscribed, told_namespace
+from gazebo_plugins.ros_side import Topics, sensor_element, subscribed, told_namespace
 from gazebo_plugins.sensors import ray_pictures
 from gazebo_plugins.sensors.noise import SdfNoise
 from gazebo_plugins.sensors.ray_pictures import RayPictures
@@ -30,7 +30,7 @@ class RayFan:
     """
 
     def __init__(self, server, sensor):
-        ray = SdfElement(sensor.description.element).child("ray")
+        ray = sensor_element(sensor).child("ray")
         if ray is None:
             raise PluginError(f"sensor {sensor.scoped_name} of type '{sensor.type}' has no <ray> block")
         self.world, self.sensor = server.world, sensor

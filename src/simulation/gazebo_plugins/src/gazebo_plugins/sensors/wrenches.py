@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 
 import rospy
-from gazebo_ros import SdfElement
 from gazebo_ros.plugin import ModelPlugin, PluginError, SensorPlugin
 from geometry_msgs.msg import Vector3, Wrench, WrenchStamped
 from node_signals.rates import Spaced
 from ode_sim import math3
 
-from gazebo_plugins.ros_side import Noise, Topics, find_joint, find_link, required, subscribed
+from gazebo_plugins.ros_side import Noise, Topics, find_joint, find_link, required, sensor_element, subscribed
 from gazebo_plugins.sensors.noise import SdfNoise, axis_noise
 
 
@@ -24,7 +23,7 @@ class Scale:
 
     def __init__(self, joint, sensor=None, rng=None):
         self.joint, self.sensor = joint, sensor
-        block = SdfElement(sensor.description.element).child("force_torque") if sensor else None
+        block = sensor_element(sensor).child("force_torque") if sensor else None
         self.frame = block.text_or("frame", "child") if block else "child"
         self.sign = -1.0 if block and block.text_or("measure_direction", "") == "parent_to_child" else 1.0
         groups = [block and block.child(tag) for tag in ("force", "torque")]

@@ -7,7 +7,7 @@ import os
 
 from ode_sim.errors import SimulationError
 
-VERSION = "noetic_labs simulator 0.1.0\nGazebo multi-robot simulator, version 11 (stand-in on ODE)"
+VERSION = "Gazebo multi-robot simulator, version 11.0.0 (noetic_labs on ODE)"
 LOCKSTEP_VARIABLE = "ODE_SIM_LOCKSTEP"  # for launch files that do not pass options on
 ENGINES = ("ode", "bullet", "dart", "simbody")
 

@@ -1,4 +1,4 @@
-"""A ROS master for the command ``gazebo`` typed alone: Gazebo runs without ROS, this simulator speaks nothing else."""
+"""A ROS master for ``gazebo`` and ``gzserver`` typed alone: Gazebo runs without ROS, this simulator speaks nothing else."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 import time
+from pathlib import Path
 from urllib.parse import urlparse
 
 import rosgraph
@@ -13,6 +14,13 @@ from node_signals.bounded_calls import master_answers
 from node_signals.children import end_with_parent
 
 _START = 10.0  # s for the master to answer
+_ANSWERS = {"-h", "--help", "-v", "--version"}  # options that start no simulator
+
+
+def start_if_typed(command: list[str]) -> None:
+    """As :func:`start_if_missing`, for a simulator whose ``command`` was typed: rosrun and roslaunch bring a master, or want theirs."""
+    if Path(command[0]).parent.name == "bin" and _ANSWERS.isdisjoint(command):
+        start_if_missing()
 
 
 def start_if_missing() -> None:
@@ -30,7 +38,7 @@ def start_if_missing() -> None:
         stderr=subprocess.DEVNULL,
     )
     print(
-        f"gazebo: no ROS master runs at {uri}: this simulator brings its own, which ends with it (process {os.getpid()})",
+        f"{Path(sys.argv[0]).name}: no ROS master runs at {uri}: this simulator brings its own, which ends with it (process {os.getpid()})",
         file=sys.stderr,
         flush=True,
     )

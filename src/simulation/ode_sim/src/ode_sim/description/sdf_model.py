@@ -135,6 +135,7 @@ class SdfModels(SdfJoints):
                 nested.append(_told_anew(self._parts(included)))
             elif included is not None:
                 self.warn(include, "only a model can be included into a model; left out")
+        nested = list(self._other_names(nested))
         parts.frames = model_frames(self, element, [(sub.name, sub.element, sub.frames) for sub in nested])
         for link in self._named_once(element, "link"):
             parts.links.append(self._link(link, parts.frames))
@@ -149,6 +150,16 @@ class SdfModels(SdfJoints):
         for gripper in element.findall("gripper"):
             self.warn(gripper, "the gripper element has no effect here; contact friction holds what is gripped")
         return parts
+
+    def _other_names(self, nested: list[Parts]) -> Iterator[Parts]:
+        """Models in a model without those whose name another one before them has."""
+        names: set[str] = set()
+        for sub in nested:
+            if sub.name in names:
+                self.warn(sub.element, f"a model named '{quoted(sub.name)}' is there already; this one is left out", "error")
+                continue
+            names.add(sub.name)
+            yield sub
 
     def _named_once(self, parent: ET.Element, tag: str) -> Iterator[ET.Element]:
         """Children of one kind without those whose name another one before them has."""
