@@ -4,11 +4,7 @@
 # Options: ROSLINT_CPP_OPTS, ROSLINT_PYTHON_OPTS; other checkers: ROSLINT_CPP_CMD, ROSLINT_PYTHON_CMD (lists).
 include_guard(GLOBAL)
 
-function(roslint_custom command options)
-  if(NOT ARGN)
-    message(WARNING "roslint: ${PROJECT_NAME} names no files for ${command}")
-    return()
-  endif()
+macro(_roslint_create_targets)  # packages that bring checkers of their own call it
   if(NOT TARGET roslint)
     add_custom_target(roslint)
   endif()
@@ -16,6 +12,14 @@ function(roslint_custom command options)
     add_custom_target(roslint_${PROJECT_NAME})
     add_dependencies(roslint roslint_${PROJECT_NAME})
   endif()
+endmacro()
+
+function(roslint_custom command options)
+  if(NOT ARGN)
+    message(WARNING "roslint: ${PROJECT_NAME} names no files for ${command}")
+    return()
+  endif()
+  _roslint_create_targets()
   separate_arguments(options)
   add_custom_command(TARGET roslint_${PROJECT_NAME} POST_BUILD WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
     COMMAND ${command} ${options} ${ARGN} VERBATIM)

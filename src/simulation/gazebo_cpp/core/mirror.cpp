@@ -203,7 +203,8 @@ void Mirror::addLink(Model& model, const LinkRecord& record)
   link->SetName(record.name);
   // Whoever has the link keeps the whole model of the core: it points into it.
   link->core_ = std::shared_ptr<ode_sim::Link>(model.core_, with_id<ode_sim::Link>(model.core_->links, record.id));
-  link->sensors_ = record.sensors;
+  for (const std::string& sensor : record.sensors)
+    link->sensors_.push_back(link->GetScopedName(true) + "::" + sensor);
   link->SetCanonicalLink(model.links_.empty());
   link->SetInitialRelativePose(link->WorldPose() - ign(model.core_->links.front()->X_WL));
   const ode_sim::Sym3& I = link->core_->inertia;

@@ -192,8 +192,8 @@ std::vector<std::string> Model::SensorScopedName(const std::string& name) const
   for (const LinkPtr& link : links_)
     for (unsigned int i = 0; i < link->GetSensorCount(); ++i)
     {
-      const std::string full = link->GetScopedName(true) + "::" + link->GetSensorName(i);
-      if (link->GetSensorName(i) == name || boost::algorithm::ends_with(full, "::" + name))  // by as much of it as is told
+      const std::string full = link->GetSensorName(i);
+      if (full == name || boost::algorithm::ends_with(full, "::" + name))  // by as much of it as is told
         names.push_back(full);
     }
   return names;

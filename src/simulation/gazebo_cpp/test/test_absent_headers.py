@@ -57,6 +57,9 @@ def test_threads_of_boost_are_known_to_whoever_includes_gazebos_messages():
         ("sensors/sensors.hh", "physics::Model physics::World physics::JointController common::PID"),
         ("plugins/ContactPlugin.hh", "physics::ContactManager sensors::RaySensor common::Animation"),
         ("transport/Node.hh", "common::Image common::Exception"),
+        ("transport/Node.hh", "boost::bind(&std::string::size,_1)"),
+        ("physics/physics.hh", "boost::bind(&std::string::size,_1)"),
+        ("sensors/CameraSensor.hh", "boost::bind(&std::string::size,_1)"),
     ],
 )
 def test_a_header_brings_what_gazebos_own_brings(header, known):

@@ -25,7 +25,7 @@ MODEL = """<sdf version="1.6"><model name="cart"><static>1</static><pose>0 0 1 0
 <camera name="c"><horizontal_fov>1.2</horizontal_fov><image><width>160</width><height>120</height><format>{format}</format></image>
 <clip><near>0.05</near><far>50</far></clip>
 <distortion><k1>-0.1</k1><k2>0</k2><k3>0</k3><p1>0</p1><p2>0</p2><center>0.5 0.5</center></distortion></camera>
-<plugin name="user" filename="libgazebo_plugins_test_camera_user.so"><cameraName>front</cameraName><frameName>optical</frameName>
+<plugin name="user" filename="libgazebo_plugins_test_{user}.so"><cameraName>front</cameraName><frameName>optical</frameName>
 <robotNamespace>fleet</robotNamespace><autoDistortion>true</autoDistortion>{more}</plugin></sensor></link></model></sdf>"""
 
 
@@ -49,8 +49,9 @@ class CameraUtilsTest(test_support.TestCase):
     def wait(self, condition):
         test_support.wait_until(condition, "the topics", 30)
 
-    def spawned(self, image_format="R8G8B8", more=""):
-        done = call("/gazebo/spawn_sdf_model", SpawnModel, "cart", MODEL.format(format=image_format, more=more), "", Pose(), "")
+    def spawned(self, image_format="R8G8B8", more="", user="camera_user"):
+        model = MODEL.format(format=image_format, more=more, user=user)
+        done = call("/gazebo/spawn_sdf_model", SpawnModel, "cart", model, "", Pose(), "")
         self.assertTrue(done.success, done.status_message)
         self.wait(lambda: any("camera user: /fleet/front has a node" in line for line in self.log))
 
@@ -95,6 +96,16 @@ class CameraUtilsTest(test_support.TestCase):
         client.update_configuration({"imager_rate": 50.0})
         for taken in range(3, 13):  # one at a time: the plugin keeps no more than two that are not sent yet, as upstream's
             self.step(20, taken)
+        for subscriber in subscribers:
+            subscriber.unregister()
+
+    def test_the_whole_camera_plugin_can_be_derived_from(self):
+        """Pictures of a sensor at 20 Hz, of which <updateRate> lets 10 Hz through."""
+        self.spawned(more="<updateRate>10</updateRate>", user="ros_camera_user")
+        subscribers = self.listened()
+        self.step(200, 2)
+        self.assertEqual([message.header.stamp.to_sec() for message in self.images], [0.1, 0.2])
+        self.assertEqual((self.images[0].encoding, self.images[0].width, self.infos[0].width), ("rgb8", 160, 160))
         for subscriber in subscribers:
             subscriber.unregister()
 

@@ -106,7 +106,7 @@ class SensorsTest(HearingCase):
 
     def feel(self, kind, rate=100, block="", **more):
         got = self.values("/feel/" + kind, SENSOR.format(type=kind, rate=rate, block=block), 50, 1 + rate // 20, **more)
-        self.assertEqual(got[0], (7.0, 1.0))  # its own <plugin> of two; found by its scoped name
+        self.assertEqual(got[0], (7.0, 1.0))  # its own <plugin> of two; found by its scoped name, which its link knows
         return got[-1]
 
     def near(self, values, wanted, delta):

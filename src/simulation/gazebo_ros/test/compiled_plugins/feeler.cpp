@@ -16,7 +16,10 @@ public:
     values_ = nh_->advertise<std_msgs::Float64MultiArray>("feel/" + sensor->Name(), 1000, true);
     updated_ = sensor->ConnectUpdated([this] { OnUpdate(); });
     sensor->SetActive(true);
-    Publish({ sdf->Get<double>("mark"), sensors::get_sensor(sensor->ScopedName()) == sensor ? 1.0 : 0.0 });
+    const auto world = physics::get_world(sensor->WorldName());
+    const auto link = boost::dynamic_pointer_cast<physics::Link>(world->EntityByName(sensor->ParentName()));
+    const bool named = !link || link->GetSensorName(0) == sensor->ScopedName();
+    Publish({ sdf->Get<double>("mark"), sensors::get_sensor(sensor->ScopedName()) == sensor && named ? 1.0 : 0.0 });
   }
 
 private:

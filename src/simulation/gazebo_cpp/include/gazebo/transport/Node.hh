@@ -4,10 +4,6 @@
 #include <string>
 #include <vector>
 
-#ifndef BOOST_BIND_GLOBAL_PLACEHOLDERS
-#define BOOST_BIND_GLOBAL_PLACEHOLDERS  // without Boost's note about them
-#endif
-#include <boost/bind.hpp>  // plugins of others write boost::bind(..., _1) and include nothing for it
 #include <boost/enable_shared_from_this.hpp>
 #include <boost/function.hpp>
 #include <boost/make_shared.hpp>

@@ -1,4 +1,8 @@
 #pragma once
+#ifndef BOOST_BIND_GLOBAL_PLACEHOLDERS
+#define BOOST_BIND_GLOBAL_PLACEHOLDERS  // without Boost's note about them
+#endif
+#include <boost/bind.hpp>  // plugins of others write boost::bind(..., _1) and include nothing for it: Noetic's Boost brought it everywhere
 #include <boost/shared_ptr.hpp>
 #include <google/protobuf/message.h>
 
