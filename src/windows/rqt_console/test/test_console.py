@@ -107,6 +107,19 @@ def test_file(widget, tmp_path):
     assert widget.model.message_count == 2
 
 
+def test_a_file_of_noetic(tmp_path):
+    """Which has a backslash before quotes, and before nothing else."""
+    path = tmp_path / "noetic.csv"
+    said = [r"regex \d+ in C:\temp", "ends with a backslash \\", 'a ";" in "quotes"', "two\nlines", '"']
+    records = [f"""\"{text.replace('"', chr(92) + '"')}\";"2";"/talker";"1001.000000005";"/a,/b";"talker.py:run:1"\n""" for text in said]
+    content = "message;severity;node;stamp;topics;location\n" + "".join(records)
+    path.write_text(content)
+    loaded = saved_messages.load(str(path))
+    assert [m.message for m in loaded] == said
+    saved_messages.save(str(path), loaded)
+    assert path.read_text() == content
+
+
 @pytest.mark.parametrize(
     "content",
     [

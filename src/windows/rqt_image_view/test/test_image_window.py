@@ -173,6 +173,16 @@ def test_original_size_scrolls():
         wait_until(lambda: shown(gui).width() < 1600)
 
 
+def test_colour_schemes_have_noetics_numbers(tmp_path):
+    """Its settings hold the place in a list by the alphabet, in which Gray, the first choice, is number 3."""
+    with open_plugin("rqt_image_view", settings=str(tmp_path / "a.ini")) as gui:
+        box = find(gui, "color_scheme_combo_box")
+        assert (box.currentIndex(), box.currentText()) == (3, "Gray")
+        names = [box.itemText(i) for i in range(box.count())]
+        assert names == sorted(names) and len(names) == 13
+    assert errors == []
+
+
 def test_settings_come_back(tmp_path):
     settings = str(tmp_path / "a.ini")
     with open_plugin("rqt_image_view", settings=settings) as gui:

@@ -35,7 +35,7 @@ def test_depth_in_metres_and_millimetres():
 
 
 def test_depth_in_colours():
-    assert list(COLOR_SCHEMES) == "Gray Autumn Bone Cool Hot Hsv Jet Ocean Pink Rainbow Spring Summer Winter".split()
+    assert list(COLOR_SCHEMES) == "Autumn Bone Cool Gray Hot Hsv Jet Ocean Pink Rainbow Spring Summer Winter".split()
     picture = show_depth(np.array([[np.nan, 1.0, 9.0]], np.float32), 1.0, DepthView(scheme="Jet"))
     assert picture.shape == (1, 3, 3) and picture[0, 0].tolist() == [0, 0, 0]
     assert picture[0, 1].argmax() == 2 and picture[0, 2].argmax() == 0  # near blue, far red

@@ -320,3 +320,9 @@ def test_types_that_are_not_built_here_are_told(config):
         for panel in view.all_panels:
             panel.update_points()
         assert "/joints is of type nowhere_msgs/Joints, which is not built here" in find(gui, "status").text()
+
+
+@pytest.mark.parametrize("option", ["-b", "--multiplot-bag"])
+def test_a_bag_is_named_on_the_command_line(tmp_path, option):
+    with open_plugin("rqt_multiplot", [option, str(tmp_path / "absent.bag")]) as gui:
+        wait_until(lambda: "absent.bag" in find(gui, "status").text())

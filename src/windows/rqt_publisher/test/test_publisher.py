@@ -1,5 +1,6 @@
 """Publishers: what they send, what they refuse, what is kept."""
 
+import ast
 import re
 
 import pytest
@@ -39,7 +40,7 @@ def test_added_by_the_boxes_and_published_by_the_timer(gui):
     item.setCheckState(0, Qt.CheckState.Checked)
     wait_until(lambda: len(sent) > 3)
     item.setCheckState(0, Qt.CheckState.Unchecked)
-    assert [message.linear.x for message in sent[:4]] == [0.0, 0.5, 1.0, 1.5]
+    assert [message.linear.x for message in sent[:4]] == [0.5, 1.0, 1.5, 2.0]
     count = len(sent)
     item.setText(2, "0")
     item.setCheckState(0, Qt.CheckState.Checked)
@@ -105,3 +106,46 @@ def test_kept_but_disabled(tmp_path):
         find(gui, "clear_button").click()
         assert gui.plugin.entries == []
     assert errors == []
+
+
+def test_publishers_of_noetic_come_back_and_go_there(tmp_path):
+    """Noetic keeps expressions by the whole path, and counts `i` from 1."""
+    rospy_without_master()
+    settings = str(tmp_path / "noetic.ini")
+    kept = {
+        "topic_name": "/turtle1/cmd_vel",
+        "type_name": "geometry_msgs/Twist",
+        "rate": 2.0,
+        "enabled": True,
+        "publisher_id": 0,
+        "counter": 7,
+    }
+    kept["expressions"] = {"/turtle1/cmd_vel/linear/x": "2.0", "/turtle1/cmd_vel/angular/z": "1 / i"}
+    with open_plugin("rqt_publisher", settings=settings) as gui:
+        keeper = Keeper({"publishers": repr([kept])})
+        gui.plugin.restore_settings(keeper, keeper)
+        [entry] = gui.plugin.entries
+        assert not entry.enabled
+        sent = []
+        entry._publisher.publish = sent.append
+        entry.publish()
+        entry.publish()
+        assert [(message.linear.x, message.angular.z) for message in sent] == [(2.0, 1.0), (2.0, 0.5)]
+        gui.plugin.save_settings(keeper, keeper)
+        [saved] = ast.literal_eval(keeper.values["publishers"])
+        assert kept["expressions"].items() <= saved["expressions"].items()
+        assert {**saved, "expressions": None} == {**kept, "enabled": False, "counter": 0, "expressions": None}
+    assert errors == []
+
+
+class Keeper:
+    """rqt's settings, in memory."""
+
+    def __init__(self, values):
+        self.values = values
+
+    def value(self, key, default=None):
+        return self.values.get(key, default)
+
+    def set_value(self, key, value):
+        self.values[key] = value

@@ -3,6 +3,7 @@
 import pytest
 from python_qt_binding.QtCore import Qt
 from python_qt_binding.QtTest import QTest
+from python_qt_binding.QtWidgets import QLineEdit, QPushButton
 from rqt_testing.in_process import errors, find, open_plugin, rospy_without_master, wait_until
 
 
@@ -30,6 +31,28 @@ def test_zero_is_sent_once(gui):
     for _ in range(3):
         gui.plugin.publish()
     assert len(gui.sent) == count
+
+
+def test_stop_is_sent_where_nothing_drives_from_here(gui):
+    """Another node may have left the robot driving: each Stop sends a zero, as in Noetic, and so does the window as it opens."""
+    wait_until(lambda: gui.sent)
+    assert values(gui) == [(0, 0)]
+    find(gui, "stop_push_button").click()
+    assert values(gui) == [(0, 0)] * 2
+    elsewhere = QLineEdit(gui.window)  # the focus is in another part of the window
+    button = QPushButton(gui.window)
+    for widget in (elsewhere, button):
+        widget.show()
+    gui.window.activateWindow()
+    button.setFocus()
+    QTest.keyClick(button, " ")
+    assert values(gui) == [(0, 0)] * 3
+    QTest.keyClick(button, "W")
+    assert gui.plugin.widget.velocities()[0] > 0
+    elsewhere.setFocus()
+    before = gui.plugin.widget.velocities()
+    QTest.keyClicks(elsewhere, "www")
+    assert elsewhere.text() == "www" and gui.plugin.widget.velocities() == before
 
 
 @pytest.mark.parametrize(

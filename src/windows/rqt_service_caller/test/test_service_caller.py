@@ -1,6 +1,7 @@
 """Requests, responses, services that fail or hang."""
 
 import threading
+from types import SimpleNamespace
 
 import pytest
 import rospy
@@ -113,3 +114,18 @@ def test_kept(calls, tmp_path):
         assert gui.plugin.widget.orientation() == "vertical" and find(gui, "services_combo_box").currentText() == "/set"
         gui.plugin.use("/set", SetModelState, "gazebo_msgs/SetModelState")
         assert request(gui, "model_name").text(2) == "arm"
+
+
+@pytest.mark.parametrize(
+    "kept, wanted", [(1, "horizontal"), (2, "vertical"), ("2", "vertical"), ("vertical", "vertical"), ("", "horizontal")]
+)
+def test_the_splitter_is_kept_as_qts_number(calls, tmp_path, kept, wanted):
+    """As Noetic's rqt_service_caller writes and reads it."""
+    rospy_without_master()
+    with open_plugin("rqt_service_caller", settings=str(tmp_path / "kept.ini")) as gui:
+        values = {"splitter_orientation": kept}
+        keeper = SimpleNamespace(value=lambda key, default=None: values.get(key, default), set_value=values.__setitem__)
+        gui.plugin.restore_settings(keeper, keeper)
+        assert gui.plugin.widget.orientation() == wanted
+        gui.plugin.save_settings(keeper, keeper)
+        assert values["splitter_orientation"] == {"horizontal": 1, "vertical": 2}[wanted]

@@ -1,13 +1,14 @@
-"""Messages in a file, one per record, separated by semicolons."""
+"""Messages in a file as Noetic's rqt_console writes them: each a record of quoted fields with semicolons between, where only quotes have
+a backslash before them."""
 
-import csv
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from qt_gui.errors import WindowError
 
 from .message import Message
 
+_BETWEEN = '";"'  # two fields; a quote within one has a backslash before it
 HEADER = ["message", "severity", "node", "stamp", "topics", "location"]
 
 
@@ -22,7 +23,7 @@ def save(path: str, messages: Iterable[Message]) -> None:
     """
 
     def quoted(*values):
-        return ";".join('"' + str(value).replace("\\", "\\\\").replace('"', '\\"') + '"' for value in values) + "\n"
+        return ";".join('"' + str(value).replace('"', '\\"') + '"' for value in values) + "\n"
 
     with open(path, "w", encoding="utf-8", newline="") as file:
         file.write(";".join(HEADER) + "\n")
@@ -34,15 +35,36 @@ def load(path: str) -> list[Message]:
     """:raises SavedMessagesError: if the file cannot be read, or is something else"""
     try:
         with open(path, encoding="utf-8", newline="") as file:
-            rows = csv.reader(file, delimiter=";", quotechar='"', escapechar="\\", doublequote=False)
-            header = next(rows, None)
-            if header is None or sorted(header) != sorted(HEADER):
+            header = [name.strip('"') for name in file.readline().strip().split(";")]
+            if sorted(header) != sorted(HEADER):
                 raise SavedMessagesError(f"{path}: the first line is not {';'.join(HEADER)}")
-            return [_message(dict(zip(header, row)), path, rows.line_num) for row in rows if row]
+            return [_message(dict(zip(header, fields)), path, line) for line, fields in _records(file)]
     except OSError as error:
         raise SavedMessagesError(f"{path}: {error.strerror}") from error
-    except (UnicodeDecodeError, csv.Error) as error:
+    except UnicodeDecodeError as error:
         raise SavedMessagesError(f"{path} is no file of messages: {error}") from error
+
+
+def _records(lines: Iterable[str]) -> Iterator[tuple[int, list[str]]]:
+    """The number of the last line of each record in the file, and its fields; a message may have several lines."""
+    kept: list[str] = []
+    between = 0
+    number = 1
+    for number, line in enumerate(lines, 2):
+        if not kept and not line.strip():
+            continue
+        kept.append(line)
+        between += line.count(_BETWEEN)
+        if between >= len(HEADER) - 1 and line.rstrip().endswith('"'):
+            yield number, _fields(kept)
+            kept, between = [], 0
+    if kept:
+        yield number, _fields(kept)
+
+
+def _fields(lines: list[str]) -> list[str]:
+    text = "".join(lines).strip().removeprefix('"').removesuffix('"')
+    return [field.replace('\\"', '"') for field in text.split(_BETWEEN)]
 
 
 def _message(record: dict, path: str, line: int) -> Message:

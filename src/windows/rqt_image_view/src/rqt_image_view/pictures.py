@@ -16,14 +16,9 @@ class PictureError(WindowError, ValueError):
     """Data that is no picture; one line that says why."""
 
 
-#: names of the colour schemes of depth pictures -> OpenCV's map, or None for grey
-COLOR_SCHEMES = {
-    "Gray": None,
-    **{
-        name: getattr(cv2, f"COLORMAP_{name.upper()}")
-        for name in ("Autumn", "Bone", "Cool", "Hot", "Hsv", "Jet", "Ocean", "Pink", "Rainbow", "Spring", "Summer", "Winter")
-    },
-}
+_SCHEMES = ("Autumn", "Bone", "Cool", "Gray", "Hot", "Hsv", "Jet", "Ocean", "Pink", "Rainbow", "Spring", "Summer", "Winter")
+#: names of the colour schemes of depth pictures -> OpenCV's map, or None for grey; in Noetic's order, whose settings hold the place in it
+COLOR_SCHEMES = {name: None if name == "Gray" else getattr(cv2, f"COLORMAP_{name.upper()}") for name in _SCHEMES}
 
 
 @dataclass(frozen=True)

@@ -91,6 +91,7 @@ class ImageViewWidget(QWidget):
         self.scheme = QComboBox()
         self.scheme.setObjectName("color_scheme_combo_box")
         self.scheme.addItems(COLOR_SCHEMES)
+        self.scheme.setCurrentText(DepthView().scheme)
         self.scheme.setToolTip("Colours of depth images")
         self.save_button = self._button("save_as_image_push_button", "document-save-as", "Save", "Save as image")
         self.smooth = QCheckBox("Smooth scaling")

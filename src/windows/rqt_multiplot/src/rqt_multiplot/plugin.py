@@ -43,7 +43,7 @@ class MultiplotPlugin(Plugin):
         group.add_argument("-c", "--multiplot-config", default="", metavar="URL", help="Load an xml plot configuration")
         group.add_argument("-r", "--multiplot-run-all", action="store_true", help="Run all plots on startup")
         group.add_argument(
-            "--multiplot-bag", default="", metavar="FILE", help="Show the messages of a bag in the plots of the configuration"
+            "-b", "--multiplot-bag", default="", metavar="FILE", help="Show the messages of a bag in the plots of the configuration"
         )
 
     def _set_title(self, title: str) -> None:

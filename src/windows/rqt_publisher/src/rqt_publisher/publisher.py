@@ -54,7 +54,7 @@ class PublisherEntry(QObject):
     def publish(self) -> None:
         """Evaluate the expressions and publish; with one that has no value nothing is published."""
         try:
-            message = self.template.value(self.counter)
+            message = self.template.value(self.counter + 1)  # i is 1 in the first message, as in Noetic
         except TemplateError as error:
             self.error = error
         else:
@@ -135,15 +135,20 @@ class Publisher(Plugin):
             entry.close()
 
     def save_settings(self, plugin_settings, instance_settings) -> None:
-        instance_settings.set_value(
-            "publishers",
-            repr(
-                [
-                    {"topic_name": entry.topic, "type_name": entry.type_name, "rate": entry.rate, "expressions": entry.template.state()}
-                    for entry in self.entries
-                ]
-            ),
-        )
+        """As Noetic's rqt_publisher writes them, which reads them too: expressions by the whole path, topic included."""
+        publishers = [
+            {
+                "topic_name": entry.topic,
+                "type_name": entry.type_name,
+                "rate": entry.rate,
+                "enabled": False,
+                "publisher_id": number,
+                "counter": 0,
+                "expressions": {f"{entry.topic}/{path}": expression for path, expression in entry.template.state().items()},
+            }
+            for number, entry in enumerate(self.entries)
+        ]
+        instance_settings.set_value("publishers", repr(publishers))
 
     def restore_settings(self, plugin_settings, instance_settings) -> None:
         """All publishers come back disabled: opening a window shall move nothing."""
@@ -151,7 +156,9 @@ class Publisher(Plugin):
         try:
             publishers = ast.literal_eval(instance_settings.value("publishers", "[]") or "[]")
             for kept in publishers:
-                self.add_publisher(kept["topic_name"], kept["type_name"], kept.get("rate", 1), kept.get("expressions"))
+                topic, expressions = kept["topic_name"], kept.get("expressions") or {}
+                state = {path.removeprefix(f"{topic}/"): expression for path, expression in expressions.items()}
+                self.add_publisher(topic, kept["type_name"], kept.get("rate", 1), state)
         except (ValueError, SyntaxError, TypeError, KeyError, AttributeError):
             self._widget.show_error("the publishers of last time cannot be read; they are left out")
 

@@ -12,17 +12,17 @@ PERIOD = 100  # ms
 
 
 class RobotSteering(Plugin):
-    """Publishes ten times a second; a velocity of zero once only, so that it does not fight others who drive."""
+    """Publishes ten times a second; a velocity of zero once only, so that it does not fight others who drive, but at each Stop."""
 
     def __init__(self, context):
         super().__init__(context)
         self.setObjectName("RobotSteering")
-        self._publisher, self._zero_sent = None, True
+        self._publisher, self._zero_sent = None, False
         self._widget = SteeringWidget()
         if context.serial_number() > 1:
             self._widget.setWindowTitle(f"{self._widget.windowTitle()} ({context.serial_number()})")
         self._widget.topic_changed.connect(self.set_topic)
-        self._widget.stopped.connect(self.publish)
+        self._widget.stopped.connect(self._stop)
         context.add_widget(self._widget)
         self._timer = QTimer(self)
         self._timer.timeout.connect(self.publish)
@@ -46,6 +46,11 @@ class RobotSteering(Plugin):
         self._unregister()
         if legal:
             self._publisher = rospy.Publisher(topic, Twist, queue_size=10)
+
+    def _stop(self) -> None:
+        """Also where the sliders stand at zero: another node may have left the robot driving."""
+        self._zero_sent = False
+        self.publish()
 
     def publish(self) -> None:
         twist = Twist()

@@ -50,15 +50,16 @@ class SteeringWidget(QWidget):
         for axis in self.sliders:
             self._set_range(axis)
             self._show(axis)
-        for key, (axis, steps) in KEYS.items():
+        for key, (axis, steps) in KEYS.items():  # wherever the focus is; fields of text keep their keys
             for prefix, factor in (("", 1), ("Shift+", 10)):
                 shortcut = QShortcut(QKeySequence(prefix + key), self)
-                shortcut.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
+                shortcut.setContext(Qt.ShortcutContext.ApplicationShortcut)
                 shortcut.activated.connect(lambda axis=axis, steps=steps * factor: self.move_by(axis, steps))
         for key in ("Space", "Shift+Space"):
             shortcut = QShortcut(QKeySequence(key), self)
-            shortcut.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
+            shortcut.setContext(Qt.ShortcutContext.ApplicationShortcut)
             shortcut.activated.connect(self.stop)
+            shortcut.activatedAmbiguously.connect(self.stop)  # of two such windows
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
 
     def _button(self, name: str, text: str, call) -> QPushButton:

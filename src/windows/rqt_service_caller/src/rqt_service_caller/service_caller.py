@@ -137,12 +137,13 @@ class ServiceCaller(Plugin):
 
     def save_settings(self, plugin_settings, instance_settings) -> None:
         self._keep_request()
-        instance_settings.set_value("splitter_orientation", self._widget.orientation())
+        instance_settings.set_value("splitter_orientation", 2 if self._widget.orientation() == "vertical" else 1)  # Qt's numbers
         instance_settings.set_value("current_service_name", self._service)
         instance_settings.set_value("requests", repr(self._requests))
 
     def restore_settings(self, plugin_settings, instance_settings) -> None:
-        self._widget.set_orientation(instance_settings.value("splitter_orientation", "horizontal"))
+        vertical = str(instance_settings.value("splitter_orientation", 1)) in ("2", "vertical")  # the word: until 0.2
+        self._widget.set_orientation("vertical" if vertical else "horizontal")
         try:
             requests = ast.literal_eval(instance_settings.value("requests", "{}") or "{}")
             self._requests = {str(name): dict(state) for name, state in requests.items()}
