@@ -78,7 +78,7 @@ class CommandLineTest(unittest.TestCase):
         self.assertEqual(self.manager("lc"), line("my_controller1", "running") + line("my_controller3", "stopped"))
         self.assertEqual(
             self.manager("kl", "my_controller1", "my_controller3"),
-            "Stopped ['my_controller1'] successfully\nError when stopping ['my_controller3']\n"
+            "Stopped ['my_controller1'] successfully\nError when starting [] and stopping ['my_controller3']\n"
             "Unloaded 'my_controller1' successfully\nUnloaded 'my_controller3' successfully\n",
         )
         self.assertEqual(self.manager("load", "nope"), "Error when loading 'nope'\n")

@@ -27,7 +27,9 @@ class PythonInterfaceTest(unittest.TestCase):
         self.assertEqual(printed(interface.load_controller, "my_controller1"), (True, "Loaded 'my_controller1'\n"))
         self.assertEqual(printed(interface.load_controller, "nope"), (False, "Error when loading 'nope'\n"))
         self.assertEqual(printed(interface.start_controller, "my_controller1"), (True, "Started ['my_controller1'] successfully\n"))
-        self.assertEqual(printed(interface.start_controllers, ["my_controller1"]), (False, "Error when starting ['my_controller1']\n"))
+        self.assertEqual(
+            printed(interface.start_controllers, ["my_controller1"]), (False, "Error when starting ['my_controller1'] and stopping []\n")
+        )
         self.assertEqual(printed(interface.unload_controller, "my_controller1"), (False, "Error when unloading 'my_controller1'\n"))
         interface.load_controller("my_controller2")
         self.assertEqual(
@@ -39,7 +41,9 @@ class PythonInterfaceTest(unittest.TestCase):
             (False, "Error when starting ['x'] and stopping ['y']\n"),
         )
         self.assertEqual(printed(interface.stop_controllers, ["my_controller2"]), (True, "Stopped ['my_controller2'] successfully\n"))
-        self.assertEqual(printed(interface.stop_controller, "my_controller2"), (False, "Error when stopping ['my_controller2']\n"))
+        self.assertEqual(
+            printed(interface.stop_controller, "my_controller2"), (False, "Error when starting [] and stopping ['my_controller2']\n")
+        )
         self.assertEqual(printed(interface.unload_controller, "my_controller1"), (True, "Unloaded 'my_controller1' successfully\n"))
 
     def test_reload(self):

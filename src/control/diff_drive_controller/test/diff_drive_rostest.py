@@ -80,6 +80,8 @@ class DiffDrive(test_support.TestCase):
     def test_geometry_from_spheres_and_parameters(self):
         self.assertWheels("spheres", 2.0, 4.0)
         self.assertWheels("by_parameters", 0.4, 2.0)
+        self.assertWheels("swapped_wheels", 2.0, 0.4)  # a negative separation, as on robots whose sides are confused
+        self.assertWheels("noetics_kinds", 0.4, 2.0)  # what roscpp's param() rounds, or takes the default for
 
     def test_multipliers(self):
         self.assertWheels("multipliers", (0.6 - 0.24) / 0.125, (0.6 + 0.24) / 0.125)

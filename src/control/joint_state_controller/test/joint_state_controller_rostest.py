@@ -81,7 +81,7 @@ class JointStateControllerTest(unittest.TestCase):
         self.assertEqual(self.messages, [])
 
     def test_what_makes_it_fail_to_load(self):
-        for wrong in ({"publish_rate": "fast"}, {"joints": ["a", "nope"]}, {"joints": []}, {"joints": "a"}):
+        for wrong in ({"publish_rate": "fast"}, {"joints": ["a", "nope"]}, {"joints": "a"}):
             self.assertFalse(self.load(**wrong), wrong)
         rospy.set_param("/robot/states", {"type": TYPE})
         self.assertFalse(self.loop.load("states"), "no rate")
@@ -104,6 +104,11 @@ class JointStateControllerTest(unittest.TestCase):
         self.assertEqual(message.position[3:], (1.5, 0.0, 0.0))
         self.assertEqual(message.velocity[3:], (2.5, 0.0, 0.0))
         self.assertEqual(message.effort[3:], (3.5, 0.0, 0.5))
+
+    def test_extra_joints_alone(self):
+        self.start(joints=[], extra_joints=[{"name": "x", "position": 1.5}])
+        message = self.message()
+        self.assertEqual((message.name, message.position), (["x"], (1.5,)))
 
     def test_extra_joints_that_are_no_list(self):
         self.start(extra_joints={"name": "x"})

@@ -139,7 +139,7 @@ class Localization(unittest.TestCase):
         for parameter, said in (
             ("_odom0_config:=[true]", "/ekf_wrong/odom0_config must be a list of 15 truth values"),
             ("_world_frame:=moon", "world_frame must be map_frame (map) or odom_frame (odom), but is moon"),
-            ("_frequency:=often", "/ekf_wrong/frequency must be a number, but is 'often'"),
+            ("_frequency:=.nan", "/ekf_wrong/frequency must be a number, but is nan"),
         ):
             ended = subprocess.run(
                 ["rosrun", "robot_localization", "ekf_localization_node", "__name:=ekf_wrong", "_odom0:=nothing", parameter],

@@ -159,7 +159,7 @@ class Navsat(unittest.TestCase):
     def test_wrong_parameters_are_said(self):
         for parameter, said in (
             ("_datum:=[1,2]", "/wrong/datum must be a list [latitude, longitude, yaw]"),
-            ("_yaw_offset:=north", "/wrong/yaw_offset must be a number, but is 'north'"),
+            ("_yaw_offset:=.inf", "/wrong/yaw_offset must be a number, but is inf"),
         ):
             ended = subprocess.run(
                 ["rosrun", "robot_localization", "navsat_transform_node", "__name:=wrong", "_wait_for_datum:=true", parameter],

@@ -65,11 +65,11 @@ class TeleopTwistKeyboard(unittest.TestCase):
 
     def test_bad_parameter(self):
         ended = subprocess.run(
-            ["rosrun", "teleop_twist_keyboard", NODE, "_speed:=fast"], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60
+            ["rosrun", "teleop_twist_keyboard", NODE, "_speed:=-1"], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60
         )
         self.assertEqual(
             (ended.returncode, ended.stderr),
-            (1, "teleop_twist_keyboard: parameter /teleop_twist_keyboard/speed must be a number, 0 or more, but is 'fast'\n"),
+            (1, "teleop_twist_keyboard: parameter /teleop_twist_keyboard/speed must be a number, 0 or more, but is -1\n"),
         )
 
 

@@ -2,13 +2,15 @@
 
 ::
 
-    number("~rate", 10.0, least=0)          a number of the node's own; ParameterError where it is none
+    number("~rate", 10.0, least=0)          a number of the node's own; ParameterError where it is out of range
     get("~joints", kind=list)               of another kind, and required: there is no default
     of_kind("parameter /a/b", value, int)   a value that has been read already, out of a table say
     number_or("/a/b", value, 1.0)           told, and the default taken
+    or_default("/a/b", value, 5)            a value of the default's kind; another is told, and the default taken
     is_number(value, least=0)               for who has a sentence of his own
 
-YAML's true and false are no numbers here, though Python counts them among them, and NaN is none.
+YAML's true and false are no numbers here, though Python counts them among them, and NaN is none. What is optional and of another kind is
+the default, as it is to roscpp's param(), though not in silence; a whole number with a fraction is rounded as there.
 """
 
 import math
@@ -47,38 +49,45 @@ def of_kind(where: str, value: Any, kind: type, shown: Callable[[Any], str] = re
     """
     if kind is float and is_number(value, finite=False):
         return float(value)
+    if kind is int and isinstance(value, float) and is_number(value):
+        return math.floor(value + 0.5)  # as roscpp's getParam() of an int
     if not isinstance(value, kind) or (kind is int and isinstance(value, bool)) or value != value:
         raise ParameterError(f"{where} must be {_KINDS.get(kind, kind.__name__)}, it is {shown(value)}")
     return value
 
 
 def get(name: str, default: Any = REQUIRED, kind: type | None = None) -> Any:
-    """The parameter ``name``, or ``default``.
+    """The parameter ``name``, or ``default``: also where it is of another kind than ``kind``, which is told.
 
     :param name: as for rospy.get_param
-    :raises ParameterError: it is not there though it has no default, or of another kind than ``kind``
+    :raises ParameterError: it has no default and is not there, or of another kind than ``kind``
     """
     import rospy  # here: a value that has been read is judged without ROS
 
     value = rospy.get_param(name, default)
     if value is REQUIRED:
         raise ParameterError(f"parameter {rospy.resolve_name(name)} is not set")
-    return value if kind is None or value is default else of_kind(f"parameter {rospy.resolve_name(name)}", value, kind)
+    if kind is None or value is default:
+        return value
+    where = rospy.resolve_name(name)
+    return of_kind(f"parameter {where}", value, kind) if default is REQUIRED else or_default(where, value, default, kind)
 
 
 def number(name: str, default: float, least: float = -math.inf) -> float:
     """A finite number.
 
     :param name: as for rospy.get_param
-    :param default: where the parameter is not set; checked alike
+    :param default: where the parameter is not set, or of another kind, which is told
     :param least: the smallest that is allowed
-    :raises ParameterError: it is no number, or too small
+    :raises ParameterError: it is not finite, or too small
     """
     import rospy  # here: a value that has been read is judged without ROS
 
     value = rospy.get_param(name, default)
     if is_number(value, least):
         return float(value)
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return number_or(rospy.resolve_name(name), value, default)
     bound = "" if least == -math.inf else f", {least:g} or more"
     raise ParameterError(f"parameter {rospy.resolve_name(name)} must be a number{bound}, but is {value!r:.40}")
 
@@ -90,13 +99,40 @@ def number_or(where: str, value: Any, default: float) -> float:
     """
     if is_number(value):
         return float(value)
+    _tell(where, value, "a number", f"{default:g}")
+    return default
+
+
+def or_default(where: str, value: Any, default: Any, kind: type | None = None) -> Any:
+    """``value`` as a ``kind``, else of the kind of ``default``; one of another kind is told in an ERROR line, and ``default`` is taken.
+
+    :param where: the name of the parameter
+    :raises ParameterError: it is a number that is none
+    """
+    kind = kind or type(default)
+    try:
+        return of_kind(f"parameter {where}", value, kind)
+    except ParameterError:
+        if value != value:
+            raise
+    _tell(where, value, _KINDS.get(kind, kind.__name__), f"{default!r:.40}")
+    return default
+
+
+def _tell(where: str, value: Any, wanted: str, used: str) -> None:
+    """An ERROR line: a parameter is of another kind than is ``wanted``, and what is ``used``."""
     import rospy
 
     shown = repr(value)
+    hint = " (to <rosparam>, $(arg ...) is text without subst_value='true')" if isinstance(value, str) and "$(" in value else ""
     rospy.logerr(
-        "parameter %s is %s, where a number is expected: %g is used", where, shown if len(shown) <= 40 else shown[:37] + "...", default
+        "parameter %s is %s%s, where %s is expected: %s is used",
+        where,
+        shown if len(shown) <= 40 else shown[:37] + "...",
+        hint,
+        wanted,
+        used,
     )
-    return default
 
 
 def texts(where: str, value: Any, empty: bool = False, shown: Callable[[Any], str] = repr) -> list[str]:

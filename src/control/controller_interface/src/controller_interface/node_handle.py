@@ -8,7 +8,7 @@ from typing import Any
 import rosgraph
 import rospy
 from node_signals import offers
-from node_signals.parameters import REQUIRED, ParameterError, of_kind, texts
+from node_signals.parameters import REQUIRED, ParameterError, of_kind, or_default, texts
 
 _KINDS = (float, int, bool, str, list, dict)
 
@@ -55,12 +55,12 @@ class NodeHandle:
         return rospy.has_param(self._join(name))
 
     def param(self, name: str, default: Any) -> Any:
-        """Value of parameter ``name``, or ``default``. A float default accepts whole numbers, but not NaN.
+        """Value of parameter ``name``, or ``default``: also where it is of another kind, as roscpp's param() has it, with an ERROR line.
 
-        :raises ParameterError: the value is there and of another kind than the default.
+        :raises ParameterError: it is NaN where a number is expected.
         """
-        kind = None if default is None else type(default)
-        return self._get(name, default, kind if kind in _KINDS else None)
+        value = rospy.get_param(self._join(name), default)
+        return value if value is default or type(default) not in _KINDS else or_default(self._join(name), value, default)
 
     def get_param(self, name: str, kind: type | None = None) -> Any:
         """Value of the required parameter ``name``.
@@ -68,20 +68,18 @@ class NodeHandle:
         :param kind: float (whole numbers accepted), int, bool, str, list or dict; None takes anything.
         :raises ParameterError: missing, or of another kind.
         """
-        return self._get(name, REQUIRED, kind)
-
-    def strings(self, name: str) -> list[str]:
-        """The required parameter ``name``, a non-empty list of texts (joint names).
-
-        :raises ParameterError: missing, empty, or something else than texts in it.
-        """
-        return texts(f"parameter {self._join(name)}", self.get_param(name, list))
-
-    def _get(self, name: str, default: Any, kind: type | None) -> Any:
-        value = rospy.get_param(self._join(name), default)
+        value = rospy.get_param(self._join(name), REQUIRED)
         if value is REQUIRED:
             raise ParameterError(f"parameter {self._join(name)} is not set; {self.describe()}")
-        return value if kind is None or value is default else of_kind(f"parameter {self._join(name)}", value, kind)
+        return value if kind is None else of_kind(f"parameter {self._join(name)}", value, kind)
+
+    def strings(self, name: str, empty: bool = False) -> list[str]:
+        """The required parameter ``name``, a list of texts (joint names).
+
+        :param empty: whether it may have none.
+        :raises ParameterError: missing, empty, or something else than texts in it.
+        """
+        return texts(f"parameter {self._join(name)}", self.get_param(name, list), empty)
 
     def describe(self) -> str:
         """What the parameter server has in this namespace, for messages: '/a/b has: joint, type'."""

@@ -119,8 +119,7 @@ def start_stop_controllers(start_controllers: Sequence[str] = (), stop_controlle
         SwitchControllerRequest(start_controllers=start, stop_controllers=stop, strictness=SwitchControllerRequest.STRICT),
     ).ok
     if not ok:
-        tried = [f"{verb} {names}" for verb, names in (("starting", start), ("stopping", stop)) if names]
-        print(f"Error when {' and '.join(tried) or 'switching no controllers'}")
+        print(f"Error when starting {start} and stopping {stop}")
         return False
     for verb, names in (("Started", start), ("Stopped", stop)):
         if names:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 
 from controller_interface import ControllerBase, NodeHandle, ParameterError
+from node_signals.parameters import is_number, or_default
 
 from .command_topic import VelocityCommand
 from .laws import PlanarOdometry, WheelTravel
@@ -98,13 +99,14 @@ class WheeledBase(ControllerBase):
 
 
 def length(nh: NodeHandle, name: str, find: Callable[[], float]) -> float:
-    """A length (m) from parameter ``name`` below ``nh``, else from ``find``.
+    """A length (m) from parameter ``name`` below ``nh``, else from ``find``. A negative one turns the wheels' sense round, as upstream.
 
-    :raises ParameterError: it is not positive
+    :raises ParameterError: it is 0 or infinite
     """
-    value = nh.param(name, 0.0) if nh.has_param(name) else find()
-    if not 0.0 < value < math.inf:
-        raise ParameterError(f"{nh.namespace}: {name} must be greater than 0 m, it is {value:g}; set it by parameter")
+    given = nh.param(name, None)
+    value = float(given) if is_number(given, finite=False) else find() if given is None else or_default(nh.resolve(name), given, find())
+    if value == 0.0 or math.isinf(value):
+        raise ParameterError(f"{nh.namespace}: {name} must be another length than 0 m, it is {value:g}; set it by parameter")
     return value
 
 

@@ -22,7 +22,7 @@ class JointStateController(Controller):
 
     def init(self, hw: JointStateInterface, root_nh: NodeHandle, controller_nh: NodeHandle) -> None:
         rate = controller_nh.get_param("publish_rate", float)
-        names = controller_nh.strings("joints") if controller_nh.has_param("joints") else hw.names()
+        names = controller_nh.strings("joints", empty=True) if controller_nh.has_param("joints") else hw.names()
         self._joints = [hw.get_handle(name) for name in names]
         self._names = list(names)
         self._extra_position: list[float] = []
