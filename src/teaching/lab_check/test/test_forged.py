@@ -140,6 +140,31 @@ def test_who_interferes_is_named_and_costs_what_the_spec_says(tmp_path):
     assert "/evil used /gazebo/set_model_configuration" in result.tasks[2].verdicts[0].reason
 
 
+BY_PLUGIN = """
+import rospy
+from gazebo_msgs.srv import SpawnModel
+from geometry_msgs.msg import Pose
+from std_msgs.msg import Header
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+rospy.init_node("evil")
+rospy.wait_for_service("/gazebo/spawn_sdf_model")
+model = '<sdf version="1.6"><model name="deco"><static>1</static><link name="l"/><plugin name="p" '
+model += 'filename="libgazebo_ros_joint_pose_trajectory.so"/></model></sdf>'
+rospy.ServiceProxy("/gazebo/spawn_sdf_model", SpawnModel)("deco", model, "", Pose(), "")
+put = rospy.Publisher("/set_joint_trajectory", JointTrajectory, queue_size=1, latch=True)
+point = JointTrajectoryPoint(positions=[0.5], time_from_start=rospy.Duration(100))
+put.publish(header=Header(frame_id="arm::base"), joint_names=["j0"], points=[point])
+rospy.spin()
+"""
+
+
+def test_whoever_puts_joints_through_a_plugin_of_gazebo_is_named(tmp_path):
+    """A model that the node itself spawns brings the plugin, which holds the robot's joint where the spec wants it."""
+    result, _ = examine(tmp_path, BY_PLUGIN, models="arm, deco")
+    assert not result.fault and result.tasks[2].points == 0, [v.reason for task in result.tasks for v in task.verdicts]
+    assert any("the node /evil used /set_joint_trajectory 1 times" in note for note in result.notes), result.notes
+
+
 def test_a_second_model_with_the_joints_name_is_a_doubt(tmp_path):
     """It is spawned where the joint should be; the spec's task names no model."""
     extra = '<node name="other" pkg="gazebo_ros" type="spawn_model" args="-urdf -param robot_description -model aaa -x 3 -J j0 0.5"/>'

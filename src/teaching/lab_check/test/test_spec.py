@@ -137,6 +137,45 @@ def test_numbers_by_which_nothing_could_be_judged(tmp_path, wrong, words):
     assert "spec.yaml:9:" in found and words in found, found
 
 
+RUN = "run: {command: p node}"
+
+
+@pytest.mark.parametrize(
+    "old, new, line, words",
+    [
+        (RUN, "publish: {topic: /a, type: std_msgs/Bool, message: {dta: true}}", 7, "does not fit std_msgs/Bool: No field name [dta]"),
+        (RUN, "publish: {topic: /a, type: geometry_msgs/Twist, message: {linear: {x: [1]}}}", 7, "does not fit geometry_msgs/Twist"),
+        (
+            RUN,
+            "action: {topic: /a, type: actionlib/TestAction, goal: {gaol: 1}}",
+            7,
+            "does not fit actionlib/TestGoal: No field name [gaol]",
+        ),
+        (RUN, "stop: nobody", 7, "no 'run' of this task is named 'nobody'"),
+        (JOINT, "file: {path: p/a, contains: '('}", 9, "'(' is no regular expression"),
+        (JOINT, "no_errors: {ignore: [fine, '[']}", 9, "'[' is no regular expression"),
+        (JOINT, "exit: {run: it, says: '*'}", 9, "'*' is no regular expression"),
+    ],
+)
+def test_what_no_submission_could_meet(tmp_path, old, new, line, words):
+    """The spec's own mistakes are told before anybody loses points by them."""
+    found = problems(tmp_path, GOOD.replace(old, new, 1))
+    assert f"spec.yaml:{line}:" in found and words in found, found
+
+
+@pytest.mark.parametrize(
+    "new",
+    [
+        "publish: {topic: /a, type: their_msgs/Own, message: {any: 1}}",  # of the submission, which is not built yet
+        "publish: {topic: /a, type: std_msgs/Float64}",
+        "action: {topic: /a, type: actionlib/TestAction, goal: {goal: 21}}",
+    ],
+)
+def test_messages_that_fit_or_may_fit(tmp_path, new):
+    (tmp_path / "spec.yaml").write_text(GOOD.replace(RUN, new))
+    assert spec.load(tmp_path / "spec.yaml").points == 3
+
+
 def test_bounds_may_have_no_end_and_messages_may_hold_anything(tmp_path):
     """A robot that is told to go to nowhere is an exercise, too."""
     text = GOOD.replace(JOINT, "moved: {by: [0.5, .inf]}").replace(

@@ -22,6 +22,8 @@ class JointPoseTrajectory(ModelPlugin):
     then it is the first link of the plugin's own model.
     """
 
+    by_hand = True  #: it puts joints as set_model_configuration does: an examiner wants to know who tells it to
+
     def load(self, server, model, sdf) -> None:
         self.server, self.model = server, model
         self.topics = Topics(sdf, model.name, "C")

@@ -18,6 +18,7 @@ from rosservice import ROSServiceException, get_service_class_by_name
 
 from ..errors import LabError
 from ..isolation.supervise import Program
+from ..specs.spec_messages import MisfitError, filled
 from . import connections
 from .simulated_world import CONNECTED, Bench
 
@@ -53,7 +54,10 @@ class Actor:
     def give(self, command: dict[str, Any]) -> None:
         """Do what ``command``, an entry of the task's list, says. :raises CommandError: nobody is there to take it"""
         ((kind, wanted),) = command.items()
-        getattr(self, f"_{kind}")(wanted)
+        try:
+            getattr(self, f"_{kind}")(wanted)
+        except MisfitError as error:
+            raise CommandError(str(error)) from error
 
     def end(self) -> None:
         for program in self.runs.values():
@@ -72,11 +76,7 @@ class Actor:
         kind = roslib.message.get_message_class(wanted["type"])
         if kind is None:
             raise CommandError(f"message type {wanted['type']} is not known here")
-        message = kind()
-        try:
-            genpy.message.fill_message_args(message, [wanted.get("message", {})])
-        except (genpy.MessageException, TypeError, ValueError) as error:
-            raise CommandError(f"the spec's message does not fit {wanted['type']}: {error}") from error
+        message = filled(kind(), wanted.get("message", {}), f"the spec's message does not fit {wanted['type']}")
         rate, seconds = wanted.get("rate"), wanted.get("for", 1.0)
         how = f"timeout {seconds:g} rostopic pub -r {rate:g}" if rate else "rostopic pub -1"
         self.by_hand.append(f"{how} {name} {wanted['type']} {shlex.quote(json.dumps(wanted.get('message', {})))}")
@@ -107,8 +107,9 @@ class Actor:
             raise CommandError(f"service {name} cannot be asked: {error}") from error
         if kind is None:
             raise CommandError(f"nobody offers the service {name}")
-        request = kind._request_class()
-        genpy.message.fill_message_args(request, [wanted.get("request", {})])
+        request = filled(
+            kind._request_class(), wanted.get("request", {}), f"the spec's request does not fit {kind._type}, as which {name} is offered"
+        )
         done = threading.Event()
 
         self.called[name.rpartition("/")[2]] += 1
@@ -132,8 +133,7 @@ class Actor:
         goal_kind = roslib.message.get_message_class(wanted["type"][: -len("Action")] + "Goal")
         if kind is None or goal_kind is None:
             raise CommandError(f"action type {wanted['type']} is not known here")
-        goal = goal_kind()
-        genpy.message.fill_message_args(goal, [wanted["goal"]])
+        goal = filled(goal_kind(), wanted["goal"], f"the spec's goal does not fit {wanted['type'][: -len('Action')]}Goal")
         name, key = wanted["topic"], wanted.get("name", "it")
         self.by_hand.append(f"rostopic pub -1 {name}/goal {wanted['type']}Goal {shlex.quote(json.dumps({'goal': wanted['goal']}))}")
         client = actionlib.SimpleActionClient(name, kind)

@@ -12,7 +12,8 @@ class Interference:
         self._changes: dict[tuple[str, str], tuple[int, float]] = {}
 
     def changed(self, what: str, who: str, count: int, first: float) -> None:
-        """The node ``who`` called ``what``, a service of the simulator that changes the world, or published on a topic that does.
+        """The node ``who`` called ``what``, a service of the simulator that changes the world, or published on a topic that does: in
+        /gazebo, or ``/a/topic`` of a plugin.
 
         :param count: how often. :param first: simulated s of the first time
         """
@@ -25,8 +26,8 @@ class Interference:
     def notes(self) -> list[str]:
         """A sentence each."""
         changes = [
-            f"{'the node ' if who.startswith('/') else ''}{who} used /gazebo/{what} {count} times, for the first time at "
-            f"{first:.3f} s of simulation: it changed the world by hand"
+            f"{'the node ' if who.startswith('/') else ''}{who} used {what if what.startswith('/') else '/gazebo/' + what} {count} times, "
+            f"for the first time at {first:.3f} s of simulation: it changed the world by hand"
             for (what, who), (count, first) in sorted(self._changes.items())
         ]
         return changes + sorted(self.names) + sorted(self.twice)

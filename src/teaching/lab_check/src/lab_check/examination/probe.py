@@ -192,8 +192,9 @@ class Changes:
 
         class Subscriber(listen):  # type: ignore[misc,valid-type]
             def __init__(self, name: str, kind: Any, callback: Callable[..., Any] | None = None, *arguments: Any, **more: Any):
-                if name.lstrip("~") in _TOPICS and callback is not None:
-                    callback = changes._noting(name.lstrip("~"), callback)
+                last, plugin = name.lstrip("~"), type(getattr(callback, "__self__", None))
+                if callback is not None and (last in _TOPICS or getattr(plugin, "by_hand", False)):
+                    callback = changes._noting(last, callback)
                 super().__init__(name, kind, callback, *arguments, **more)
 
         rospy.Service, rospy.Subscriber = Service, Subscriber

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import json
 import pathlib
+import re
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -12,10 +13,12 @@ import jsonschema
 import yaml
 
 from ..errors import LabError
+from .spec_messages import misfit
 from .spec_numbers import problems_of_numbers
 
 SCHEMA = json.loads((pathlib.Path(__file__).parent / "spec_schema.json").read_text(encoding="utf-8"))
 EXTRAS = ("points", "say")  # of an expectation, beside its kind
+_PATTERNS = {"file": ("contains",), "exit": ("says",), "no_errors": ("ignore",)}  # where a regular expression stands
 _UNITS = {"kB": 1e3, "MB": 1e6, "GB": 1e9}
 LIMITS = {"memory": "3 GB", "disk": "1 GB", "log": "50 MB", "input": "200 MB", "processes": 400, "time": 300.0}
 # Who a run, or an answer, is called when nobody gave it a name.
@@ -224,6 +227,10 @@ def _further(path: pathlib.Path, data: dict[str, Any], lines: dict[tuple, int]) 
         names[task["name"]] = number
         runs = {c["run"].get("name", UNNAMED) for c in task["do"] if "run" in c}
         calls = {c[k].get("name", UNNAMED) for c in task["do"] for k in ("call", "action") if k in c}
+        for index, command in enumerate(task["do"]):
+            at = f"{path}:{line_of(lines, (*here, 'do', index))}: tasks.{number + 1}.do.{index + 1}"
+            wrong = _no_run(command["stop"], runs) if "stop" in command and command["stop"] not in runs else misfit(command)
+            problems += [f"{at}: {wrong}"] if wrong else []
         for index, expectation in enumerate(task["expect"]):
             kinds = [key for key in expectation if key not in EXTRAS]
             at = f"{path}:{line_of(lines, (*here, 'expect', index))}: tasks.{number + 1}.expect.{index + 1}"
@@ -241,9 +248,19 @@ def _further(path: pathlib.Path, data: dict[str, Any], lines: dict[tuple, int]) 
     return problems
 
 
+def _no_run(name: str, runs: set[str]) -> str:
+    return f"no 'run' of this task is named '{name}'; there are: {', '.join(sorted(runs)) or 'none'}"
+
+
 def _references(kind: str, wanted: Any, runs: set[str], calls: set[str], path: pathlib.Path) -> list[str]:
+    patterns = [wanted[key] for key in _PATTERNS.get(kind, ()) if key in wanted]
+    for pattern in (each for one in patterns for each in (one if isinstance(one, list) else [one])):
+        try:
+            re.compile(pattern)
+        except (re.error, OverflowError) as error:
+            return [f"'{pattern}' is no regular expression: {error}; write \\ before ( ) [ ] . * + ? that stand for themselves"]
     if kind == "exit" and wanted["run"] not in runs:
-        return [f"no 'run' of this task is named '{wanted['run']}'; there are: {', '.join(sorted(runs)) or 'none'}"]
+        return [_no_run(wanted["run"], runs)]
     if kind == "answer" and wanted["call"] not in calls:
         return [f"no 'call' or 'action' of this task is named '{wanted['call']}'; there are: {', '.join(sorted(calls)) or 'none'}"]
     if kind == "python" and not (path.parent / wanted["file"]).is_file():
