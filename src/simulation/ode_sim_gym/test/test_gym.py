@@ -47,6 +47,19 @@ def test_gymnasium_finds_no_fault():
     check_env(make())
 
 
+def test_a_registered_world_knows_what_it_can_render(recwarn):
+    camera = pytest.importorskip("ode_sim_rendering").Camera(width=32, height=24)
+    options = {"robot": CARTPOLE, "commands": [Command("slider", "effort")], "joints": ["slider"], "reward": lambda episodes, action: 0.0}
+    gymnasium.register("OdeSimTest-v0", entry_point=RobotEnv, kwargs=options)
+    try:
+        made = gymnasium.make("OdeSimTest-v0", camera=camera, render_mode="rgb_array")
+        made.reset(seed=1)
+        assert made.render().shape[-1] == 3
+        assert not [str(warning.message) for warning in recwarn if "render_mode" in str(warning.message)]
+    finally:
+        gymnasium.registry.pop("OdeSimTest-v0")
+
+
 def test_same_seed_and_actions_give_the_same_bits(actions):
     env = make()
     first = episode(env, 7, actions)

@@ -195,6 +195,31 @@ def test_every_manifest_ends_as_a_sentence(tmp_path, name):
     assert said in str(caught.value) and "\n" not in str(caught.value) and len(str(caught.value)) < 800
 
 
+def test_a_file_of_two_names_is_both_and_links_are_told(tmp_path):
+    """As GNU tar packs a folder with hard links; what a link would bring from elsewhere stays out."""
+    folder = tmp_path / "p"
+    (folder / "scripts").mkdir(parents=True)
+    (folder / "package.xml").write_bytes(MANIFEST)
+    (folder / "scripts" / "talk.py").write_text("text")
+    (folder / "scripts" / "talk.py").chmod(0o755)
+    os.link(folder / "scripts" / "talk.py", folder / "scripts" / "talk2.py")
+    os.symlink("talk.py", folder / "scripts" / "talk3.py")
+    packed = tmp_path / "sub.tar"
+    with tarfile.open(packed, "w") as file:
+        file.add(folder, "p")
+        for name, to in (("p/passwd", "../../../../etc/passwd"), ("p/absolute", "/etc/passwd"), ("p/early", "p/never")):
+            entry = tarfile.TarInfo(name)
+            entry.type, entry.linkname = tarfile.LNKTYPE, to
+            file.addfile(entry)
+    found = stage(packed, tmp_path)
+    place = found.packages["p"]
+    assert [(place / "scripts" / name).read_text() for name in ("talk.py", "talk2.py")] == ["text", "text"]
+    assert os.access(place / "scripts" / "talk2.py", os.X_OK)
+    assert sorted(path.name for path in place.rglob("*") if path.is_file()) == ["package.xml", "talk.py", "talk2.py"]
+    for name in ("talk3.py: a link to talk.py", "passwd: a link to ../", "absolute: a link to /etc/passwd", "early: a link to p/never"):
+        assert any(name in note for note in found.notes), (name, found.notes)
+
+
 def test_folders_that_are_no_plain_ones(tmp_path):
     folder = tmp_path / "sub" / "p"
     (folder / "closed").mkdir(parents=True)

@@ -28,6 +28,8 @@ class RobotEnv(gymnasium.Env):
     ``gymnasium.wrappers.RescaleAction`` brings them to -1 ... 1.
     """
 
+    metadata = {"render_modes": ["rgb_array"]}  # of the class, where gymnasium.make() looks; an instance knows whether it has a camera
+
     def __init__(
         self,
         reward: Judge,

@@ -212,6 +212,8 @@ def _unzip(archive: pathlib.Path, source: pathlib.Path, limit: float, staged: St
     with zipfile.ZipFile(archive) as file:
         for entry in file.infolist():
             mode = entry.external_attr >> 16
+            if stat.S_ISLNK(mode):
+                _left_link(entry.filename, "", staged, limit)
             if entry.is_dir() or stat.S_ISLNK(mode):
                 continue
             if entry.flag_bits & 1:
@@ -221,6 +223,26 @@ def _unzip(archive: pathlib.Path, source: pathlib.Path, limit: float, staged: St
                 _count(staged, entry.file_size, limit, entry.filename)
                 with file.open(entry) as stream:
                     _write(stream, place, entry.file_size, mode, entry.filename)
+
+
+def _left_link(name: str, to: str, staged: Staged, limit: float) -> None:
+    _count(staged, 0, limit, name)
+    staged.notes.append(f"{_show(name)[:200]}: a link{' to ' + _show(to)[:200] if to else ''}; links are left out")
+
+
+def _twin(source: pathlib.Path, entry: tarfile.TarInfo, staged: Staged, limit: float) -> None:
+    """A file with two names: tar holds the second as a link to the first, which is unpacked already."""
+    parts = pathlib.PurePosixPath(entry.linkname).parts
+    first = source.joinpath(*parts)
+    if not parts or ".." in parts or parts[0] == "/" or not first.is_file():
+        _left_link(entry.name, entry.linkname, staged, limit)
+        return
+    place = _inside(source, entry.name, staged.notes)
+    if place is not None:
+        with open(first, "rb") as stream:
+            information = os.fstat(stream.fileno())
+            _count(staged, information.st_size, limit, entry.name)
+            _write(stream, place, information.st_size, information.st_mode, entry.name)
 
 
 def _untar(archive: pathlib.Path, source: pathlib.Path, limit: float, staged: Staged) -> bool:
@@ -238,6 +260,10 @@ def _untar(archive: pathlib.Path, source: pathlib.Path, limit: float, staged: St
             return False
         with tar:
             for entry in tar:
+                if entry.issym():
+                    _left_link(entry.name, entry.linkname, staged, limit)
+                elif entry.islnk():
+                    _twin(source, entry, staged, limit)
                 content = tar.extractfile(entry) if entry.isfile() else None
                 if content is None:
                     continue
