@@ -50,7 +50,7 @@ def of_kind(where: str, value: Any, kind: type, shown: Callable[[Any], str] = re
     if kind is float and is_number(value, finite=False):
         return float(value)
     if kind is int and isinstance(value, float) and is_number(value):
-        return math.floor(value + 0.5)  # as roscpp's getParam() of an int
+        return math.floor(value + 0.5)  # as roscpp's getParam() of an int, which takes negative ones down instead
     if not isinstance(value, kind) or (kind is int and isinstance(value, bool)) or value != value:
         raise ParameterError(f"{where} must be {_KINDS.get(kind, kind.__name__)}, it is {shown(value)}")
     return value
