@@ -28,7 +28,8 @@ class RobotEnv(gymnasium.Env):
     ``gymnasium.wrappers.RescaleAction`` brings them to -1 ... 1.
     """
 
-    metadata = {"render_modes": ["rgb_array"]}  # of the class, where gymnasium.make() looks; an instance knows whether it has a camera
+    # of the class, where gymnasium.make() looks; an instance knows whether it has a camera
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"]}
 
     def __init__(
         self,
