@@ -10,6 +10,7 @@ ROOT = Path(__file__).resolve().parents[2]
 LONGEST_INTERVAL = 0.05  # s, of a loop in C++
 #: How many sleeps of a fixed time a file has, and why.
 KNOWN = {
+    "src/common/node_signals/test/test_bounded_calls.py": (2, "plays a node that answers slowly"),
     "src/common/node_signals/test/test_half_dead_master.py": (1, "plays a master that does not answer"),
     "src/planning/moveit_ros_visualization/test/simulated_rostest.py": (1, "pictures for the documentation"),
     "src/planning/moveit_simple_controller_manager/test/pretend_controller.py": (1, "plays a controller that is late"),

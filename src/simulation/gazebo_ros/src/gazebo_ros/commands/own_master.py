@@ -17,9 +17,9 @@ _START = 10.0  # s for the master to answer
 _ANSWERS = {"-h", "--help", "-v", "--version"}  # options that start no simulator
 
 
-def start_if_typed(command: list[str]) -> None:
-    """As :func:`start_if_missing`, for a simulator whose ``command`` was typed: rosrun and roslaunch bring a master, or want theirs."""
-    if Path(command[0]).parent.name == "bin" and _ANSWERS.isdisjoint(command):
+def start_if_typed() -> None:
+    """As :func:`start_if_missing`, where this process's command was typed: rosrun and roslaunch bring a master, or want theirs."""
+    if Path(sys.argv[0]).parent.name == "bin" and _ANSWERS.isdisjoint(sys.argv):
         start_if_missing()
 
 

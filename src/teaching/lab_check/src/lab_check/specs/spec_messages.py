@@ -5,8 +5,10 @@ from __future__ import annotations
 import io
 from typing import Any
 
+from ..errors import LabError
 
-class MisfitError(ValueError):
+
+class MisfitError(LabError, ValueError):
     """The values do not fit the type; a sentence that says which do not."""
 
 
